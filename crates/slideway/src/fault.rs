@@ -1,0 +1,365 @@
+//! What can be wrong with the input: every kind of fault with its values, its place and a hint.
+//!
+//! Faults are collected, so that a person learns of all of them at once.
+
+use crate::expression::{Dimension, ExpressionFaultKind, Inferred};
+use std::fmt;
+use std::ops::Range;
+
+/// A text in which a fault can lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Source {
+    /// The model file.
+    Model,
+    /// The value of the n-th setting (`--set`, `--at`, `--rate`), counted from 0 in the order of
+    /// [`crate::model::Settings::entries`].
+    Setting(usize),
+}
+
+/// A stretch of one of the texts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Which text.
+    pub source: Source,
+    /// Bytes in it.
+    pub span: Range<usize>,
+}
+
+impl Place {
+    /// A stretch of the model file.
+    pub fn model(span: Range<usize>) -> Self {
+        Self { source: Source::Model, span }
+    }
+}
+
+/// One fault of the input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// What is wrong.
+    pub kind: FaultKind,
+    /// Where; nothing where the fault concerns the input as a whole.
+    pub place: Option<Place>,
+}
+
+impl Fault {
+    /// A fault at a place.
+    pub fn new(kind: FaultKind, place: Place) -> Self {
+        Self { kind, place: Some(place) }
+    }
+
+    /// A fault of the input as a whole.
+    pub fn general(kind: FaultKind) -> Self {
+        Self { kind, place: None }
+    }
+}
+
+/// All faults that were found; never empty where it is returned as an error.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Faults {
+    list: Vec<Fault>,
+}
+
+impl Faults {
+    /// Adds one.
+    pub fn push(&mut self, fault: Fault) {
+        self.list.push(fault);
+    }
+
+    /// Adds those of another stage.
+    pub fn append(&mut self, mut other: Self) {
+        self.list.append(&mut other.list);
+    }
+
+    /// Whether nothing is wrong.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The faults in the order of their places; faults without a place come last.
+    pub fn sorted(&self) -> Vec<&Fault> {
+        let mut sorted: Vec<&Fault> = self.list.iter().collect();
+        sorted.sort_by_key(|fault| match &fault.place {
+            Some(place) => (0, place.source, place.span.start),
+            None => (1, Source::Model, 0),
+        });
+        sorted
+    }
+
+    /// `value` if nothing is wrong, else the faults.
+    ///
+    /// # Errors
+    /// The faults, if there are any.
+    pub fn or<T>(self, value: T) -> Result<T, Self> {
+        if self.is_empty() { Ok(value) } else { Err(self) }
+    }
+}
+
+impl From<Fault> for Faults {
+    fn from(fault: Fault) -> Self {
+        Self { list: vec![fault] }
+    }
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines: Vec<String> = self.sorted().iter().map(|fault| fault.kind.to_string()).collect();
+        formatter.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for Faults {}
+
+/// What is wrong, with the values that matter.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the message above each variant says what it and its values mean")]
+pub enum FaultKind {
+    // The text as a whole.
+    #[error("the model file is empty")]
+    Empty,
+    #[error("the model file is not UTF-8 text: byte {offset} is not part of a character")]
+    NotUtf8 { offset: usize },
+    #[error("the model file has {size} bytes; at most {limit} are read")]
+    TooLarge { size: u64, limit: u64 },
+    #[error("not valid TOML: {message}")]
+    Syntax { message: String },
+
+    // Its tables and keys.
+    #[error("unknown key `{key}`{}", in_table(table))]
+    UnknownKey { key: String, table: String, nearest: Option<String>, known: Vec<String> },
+    #[error("`{key}` is missing{}", in_table(table))]
+    MissingKey { key: String, table: String },
+    #[error("`{table}` has no `type`")]
+    MissingType { table: String, known: Vec<String> },
+    #[error("`{place}` cannot be \"{word}\"")]
+    UnknownWord { place: String, word: String, nearest: Option<String>, known: Vec<String> },
+    #[error("`{place}` wants a {wanted}, not a {found}")]
+    WrongType { place: String, wanted: String, found: &'static str },
+    #[error("`{place}` wants {wanted} values, not {found}")]
+    WrongLength { place: String, wanted: u64, found: usize },
+    #[error("{owner} has both `{first}` and `{second}`")]
+    Both { owner: String, first: &'static str, second: &'static str },
+    #[error("{owner} has none of {}", keys(one_of))]
+    NoneOf { owner: String, one_of: Vec<&'static str> },
+    #[error("{owner} has a `{first}` without a `{second}`")]
+    Without { owner: String, first: &'static str, second: &'static str },
+
+    // Names.
+    #[error("there is no {what} named `{name}`")]
+    UnknownName { what: &'static str, name: String, nearest: Option<String>, known: Vec<String> },
+    #[error("`{name}` cannot be the name of a {what}: {reason}")]
+    InvalidName { what: &'static str, name: String, reason: &'static str },
+    #[error("`{name}` is the name of a parameter and of a coordinate")]
+    SharedName { name: String },
+    #[error("the point `{point}` does not belong to {body}")]
+    NotOwned { body: String, point: String, owners: Vec<String> },
+    #[error("the point `{point}` belongs to several bodies ({})", owners.join(", "))]
+    SeveralOwners { point: String, owners: Vec<String> },
+
+    // Quantities.
+    #[error("{0}")]
+    Expression(ExpressionFaultKind),
+    #[error("{found} where {wanted} is expected")]
+    WrongDimension { wanted: Dimension, found: Inferred },
+    #[error("{what} cannot depend on the motion, but it uses `{symbol}`")]
+    DependsOnMotion { what: String, symbol: String },
+    #[error("parameters refer to each other in a circle: {}", cycle.join(" -> "))]
+    CircularParameters { cycle: Vec<String> },
+    #[error("{what} must be {wanted}, but is {value}")]
+    OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error("{what} is not a finite number")]
+    NotFinite { what: String },
+    #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
+    StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
+    #[error("the points `{first}` and `{second}` coincide: they give no direction")]
+    CoincidentPoints { first: String, second: String },
+    #[error("the travel limits of {joint} are reversed: {least} m is not below {greatest} m")]
+    ReversedTravel { joint: String, least: f64, greatest: f64 },
+
+    // Topology.
+    #[error("the model has no bodies")]
+    NoBodies,
+    #[error("{joint} joins {body} to itself")]
+    SelfJoint { joint: String, body: String },
+    #[error("{joint} doubles {other}: the same joint of the same bodies")]
+    DoubledJoint { joint: String, other: String },
+    #[error("{} not connected to ground by any joint", are(bodies))]
+    FloatingBodies { bodies: Vec<String> },
+    #[error("two drives move the coordinate `{coordinate}`")]
+    DoubledDrive { coordinate: String },
+
+    // Settings.
+    #[error("`{text}` is not of the form name=value")]
+    MalformedSetting { text: String },
+
+    // Degrees of freedom and coordinates.
+    #[error("the structure is redundant: {} excess, so the reactions are indeterminate", constraints(*excess))]
+    Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
+    #[error("the position is singular: the joints lose {} there, so the reactions are indeterminate", constraints(*lost))]
+    SingularPosition { lost: usize, joints: Vec<String> },
+    #[error("the mechanism cannot move: its joints leave no degree of freedom")]
+    NoFreedom,
+    #[error("{} of freedom, but {}", degrees(*degrees_of_freedom), coordinates(*chosen))]
+    CoordinateCount { degrees_of_freedom: usize, chosen: usize, undetermined: Vec<String> },
+    #[error("the chosen coordinates do not determine the motion of {}", bodies.join(", "))]
+    DependentCoordinates { bodies: Vec<String>, rates: bool },
+
+    // Assembly of the state.
+    #[error("the mechanism cannot be assembled in this state: {joint} stays open by {gap}")]
+    NotAssembled { joint: String, gap: String, reached: String },
+    #[error("the overlap of {joint} has shrunk to {overlap:.6} m at a displacement of {displacement:.6} m")]
+    OverlapVanished { joint: String, overlap: f64, displacement: f64 },
+    #[error("{joint} is at a displacement of {displacement:.6} m, outside its travel of {least:.6} m to {greatest:.6} m")]
+    TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64 },
+    #[error("the length of {load} is zero, so its force has no direction")]
+    ZeroLength { load: String },
+
+    // Kinetics.
+    #[error("the mechanism can move without inertia: {motion}")]
+    MotionWithoutInertia { motion: String },
+    #[error("the drives cannot produce their motion: {motion}")]
+    DriveCannotMove { drives: Vec<String>, motion: String },
+    #[error("the kinetic equations are too ill-conditioned to be solved (condition {condition:.1e})")]
+    IllConditioned { condition: f64 },
+    #[error("the sliding velocity of {} is zero, so the direction of friction is undefined", contacts.join(", "))]
+    ZeroSlidingVelocity { contacts: Vec<String> },
+
+    // Enumeration of the modes.
+    #[error("{contacts} contacts with friction have 2^{contacts} contact modes; at most 2^{limit} are tried")]
+    TooManyContacts { contacts: usize, limit: usize },
+    #[error("there are more than {limit} solutions")]
+    TooManySolutions { limit: usize },
+    #[error("the mode problem overflows: {quantity} is beyond the range of floating-point numbers")]
+    Overflow { quantity: String },
+}
+
+impl FaultKind {
+    /// What to do about it, where there is something better to say than the message itself.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Expression(kind) => kind.hint(),
+            Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
+                choose(nearest.as_deref(), known)
+            }
+            Self::UnknownWord { nearest, known, .. } => choose(nearest.as_deref(), known),
+            Self::MissingType { known, .. } => choose(None, known),
+            Self::NotOwned { body, point, owners } => Some(ownership_hint(body, point, owners)),
+            Self::CoordinateCount { undetermined, degrees_of_freedom, chosen } => {
+                Some(coordinate_hint(*degrees_of_freedom, *chosen, undetermined))
+            }
+            Self::Redundant { joints, suggestion, .. } => Some(match suggestion {
+                Some(suggestion) => format!("the excess lies among {}; {suggestion}", joints.join(", ")),
+                None => format!("the excess lies among {}", joints.join(", ")),
+            }),
+            Self::SeveralOwners { point, owners } => {
+                Some(format!("say which one: \"{}.{point}\"", owners.first().map_or("body", String::as_str)))
+            }
+            Self::NotAssembled { reached, .. } => Some(format!("the nearest state that can be assembled is {reached}")),
+            _ => self.fixed_hint().map(str::to_owned),
+        }
+    }
+
+    /// Hints that do not depend on the values.
+    fn fixed_hint(&self) -> Option<&'static str> {
+        match self {
+            Self::Empty => Some("start from a model of the gallery: `slideway models` lists it"),
+            Self::NotUtf8 { .. } => Some("save it as UTF-8"),
+            Self::MissingKey { key, .. } if key == "mu" => Some("write `mu = 0` for a contact without friction"),
+            Self::WrongDimension { .. } => Some("plain numbers are in SI units (m, kg, s, N, rad)"),
+            Self::DependsOnMotion { .. } => {
+                Some("only loads and drives may depend on coordinates, rates and the time t")
+            }
+            Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
+            Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
+            Self::MalformedSetting { .. } => Some("for instance `--set mu=0.2` or `--set \"alpha=80 deg\"`"),
+            Self::SingularPosition { .. } => Some("move it a little with --at to leave the singular position"),
+            Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
+            Self::DependentCoordinates { rates: false, .. } => {
+                Some("it may be at a dead centre of these coordinates: choose others, or another position")
+            }
+            Self::OverlapVanished { .. } => Some("the block has left its guide; use --at with a smaller displacement"),
+            Self::MotionWithoutInertia { .. } => {
+                Some("give the bodies that move a mass, or prescribe the motion with a drive")
+            }
+            Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
+            Self::ZeroSlidingVelocity { .. } => Some(
+                "give the mechanism a velocity, for instance with `--rate COORDINATE=1`; what holds at rest is another question",
+            ),
+            Self::TooManyContacts { .. } => Some("make contacts frictionless that do not matter (mu = 0, no preload), or merge them"),
+            _ => None,
+        }
+    }
+}
+
+/// The known name nearest to `name`, if one is near enough to be meant.
+///
+/// Similarity is Jaro-Winkler's, with 0.75 as the least; letter case does not count.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let name = name.to_lowercase();
+    known
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(&name, &candidate.to_lowercase()), candidate))
+        .filter(|(similarity, _)| *similarity > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
+fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {
+    match (nearest, known) {
+        (Some(nearest), _) => Some(format!("did you mean `{nearest}`?")),
+        (None, []) => None,
+        (None, known) => Some(format!("known here: {}", known.join(", "))),
+    }
+}
+
+fn ownership_hint(body: &str, point: &str, owners: &[String]) -> String {
+    match owners {
+        [] => format!("add \"{point}\" to the points of {body}; so far it belongs to ground"),
+        owners => format!("add \"{point}\" to the points of {body}; so far it belongs to {}", owners.join(", ")),
+    }
+}
+
+fn coordinate_hint(degrees: usize, chosen: usize, undetermined: &[String]) -> String {
+    if chosen > degrees {
+        return format!("remove {} from [coordinates]", chosen - degrees);
+    }
+    let motion = match undetermined {
+        [] => String::new(),
+        bodies => format!(" for the motion of {}", bodies.join(", ")),
+    };
+    format!(
+        "add to [coordinates]{motion}, for instance [coordinates.q] with `slide = \"JOINT\"` or `rotation = \"BODY\"`"
+    )
+}
+
+fn in_table(table: &str) -> String {
+    if table.is_empty() { String::new() } else { format!(" in `{table}`") }
+}
+
+fn keys(keys: &[&str]) -> String {
+    let quoted: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+    quoted.join(", ")
+}
+
+fn are(bodies: &[String]) -> String {
+    match bodies {
+        [body] => format!("the body {body} is"),
+        bodies => format!("the bodies {} are", bodies.join(", ")),
+    }
+}
+
+fn constraints(count: usize) -> String {
+    if count == 1 { "one constraint is in".into() } else { format!("{count} constraints are in") }
+}
+
+fn degrees(count: usize) -> String {
+    if count == 1 { "1 degree".into() } else { format!("{count} degrees") }
+}
+
+fn coordinates(count: usize) -> String {
+    match count {
+        0 => "no coordinate is chosen".into(),
+        1 => "1 coordinate is chosen".into(),
+        count => format!("{count} coordinates are chosen"),
+    }
+}

@@ -1,0 +1,400 @@
+//! The shape of a model file: one type for each table, from which both the reader and the JSON Schema come.
+//!
+//! The doc comments of this file are what an editor shows for each key.
+
+use super::quantity::{Components, Direction, Gravity, Name, PerSide, Place, Quantity, Span};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A planar mechanism with sliding joints: one slideway model file.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "only its schema is used: the tables are read one entry at a time")]
+pub(super) struct ModelFile {
+    /// One line that says what the mechanism is.
+    title: Option<Name>,
+    /// What it shows, in as many words as needed.
+    description: Option<Name>,
+    /// Where it comes from.
+    source: Option<Name>,
+    /// Acceleration of free fall: a number (downwards, along -y) or its components [x, y]. Default: none.
+    gravity: Option<Gravity>,
+    /// Named numbers that any expression may use and that `--set name=value` overrides.
+    parameters: Option<BTreeMap<String, Quantity>>,
+    /// Points in world coordinates [x, y] of the reference drawing.
+    points: Option<BTreeMap<String, Components>>,
+    /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
+    bodies: BTreeMap<String, BodyTable>,
+    /// Hinges and sliding joints, each between two bodies or a body and `ground`.
+    joints: BTreeMap<String, JointTable>,
+    /// Forces, torques, springs and dampers.
+    loads: Option<BTreeMap<String, LoadTable>>,
+    /// Prescribed motions, each with the unknown force or torque that produces it.
+    drives: Option<BTreeMap<String, DriveTable>>,
+    /// The chosen coordinates: as many as there are degrees of freedom.
+    coordinates: Option<BTreeMap<String, CoordinateTable>>,
+}
+
+/// A rigid body.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct BodyTable {
+    /// The points that move with the body.
+    pub(super) points: Option<Vec<Name>>,
+    /// Mass, greater than zero (kg).
+    pub(super) mass: Option<Quantity>,
+    /// Moment of inertia about the centre of mass (kg m^2); or give a `shape`.
+    pub(super) moment_of_inertia: Option<Quantity>,
+    /// Shape of a homogeneous body, from which its moment of inertia follows.
+    pub(super) shape: Option<ShapeTable>,
+    /// Centre of mass: a point's name or [x, y]. The middle of a bar unless given.
+    pub(super) centre_of_mass: Option<Place>,
+    /// `true` for a body without mass.
+    pub(super) massless: Option<bool>,
+}
+
+/// Shape of a homogeneous body: exactly one of the keys.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct ShapeTable {
+    /// A thin bar between two points: m l^2/12.
+    pub(super) bar: Option<[Place; 2]>,
+    /// A rectangle [width, height] about the centre of mass: m (w^2 + h^2)/12.
+    pub(super) rectangle: Option<Components>,
+    /// A disc of this radius about the centre of mass: m r^2/2.
+    pub(super) disc: Option<Quantity>,
+}
+
+/// A joint between two bodies.
+#[derive(JsonSchema)]
+#[schemars(tag = "type", rename_all = "snake_case")]
+#[expect(dead_code, reason = "only its schema is used: the reader picks the variant by its type key")]
+pub(super) enum JointTable {
+    /// A frictionless hinge.
+    Hinge(HingeTable),
+    /// A carriage, sledge or bushing with a contact at each end.
+    BlockSlider(BlockSliderTable),
+    /// A slider pressed on one side along its whole length: one normal force and a couple.
+    GuidedSlider(GuidedSliderTable),
+    /// A pin in a slot, free to rotate: one contact.
+    PinInSlot(PinInSlotTable),
+}
+
+/// A frictionless hinge.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct HingeTable {
+    /// The two hinged points, each as "body.point". The hinge force is counted on the first body.
+    pub(super) between: [Name; 2],
+}
+
+/// A block with a contact at each end.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct BlockSliderTable {
+    /// The body that is the block, or "ground".
+    pub(super) block: Name,
+    /// The body that is the guide. Default: "ground".
+    pub(super) guide: Option<Name>,
+    /// Middle of the block on the guide's centre line, in the drawing: a point's name or [x, y].
+    pub(super) at: Place,
+    /// Direction of positive sliding: an angle from the x axis, or two points ["from", "to"].
+    pub(super) along: Direction,
+    /// Distance of the two contacts in the drawing.
+    pub(super) length: Quantity,
+    /// Distance of the two rubbing faces. Default: 0.
+    pub(super) height: Option<Quantity>,
+    /// "inside": the block is inside the guide (default); "around": it surrounds the guide.
+    pub(super) fit: Option<Fit>,
+    /// Kinetic friction coefficient of both contacts, or { plus = .., minus = .. } by the side of contact.
+    pub(super) mu: Option<PerSide>,
+    /// Static friction coefficient, not below `mu`. Default: `mu`.
+    pub(super) mu_static: Option<PerSide>,
+    /// Preload: friction force at zero normal force, F0 of eq. (2). Default: 0.
+    pub(super) preload: Option<PerSide>,
+    /// Where the preload's friction acts: at the "pressed" face (default) or at the "centre" line.
+    pub(super) preload_line: Option<PreloadLine>,
+    /// Stiffness of the guide at each contact (N/m).
+    pub(super) stiffness: Option<Quantity>,
+    /// Limits [least, greatest] of the slide displacement.
+    pub(super) travel: Option<Components>,
+    /// The contact at the end in the direction of `along`.
+    pub(super) front: Option<EndTable>,
+    /// The contact at the other end.
+    pub(super) rear: Option<EndTable>,
+}
+
+/// What differs at one end of a block.
+#[derive(Deserialize, JsonSchema, Default)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct EndTable {
+    /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
+    pub(super) carried_by: Option<CarriedBy>,
+    /// Kinetic friction coefficient of this contact.
+    pub(super) mu: Option<PerSide>,
+    /// Static friction coefficient of this contact.
+    pub(super) mu_static: Option<PerSide>,
+    /// Preload of this contact.
+    pub(super) preload: Option<PerSide>,
+    /// Where the preload's friction acts.
+    pub(super) preload_line: Option<PreloadLine>,
+    /// Stiffness of the guide at this contact (N/m).
+    pub(super) stiffness: Option<Quantity>,
+}
+
+/// A slider with one normal force and a couple.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct GuidedSliderTable {
+    /// The body that is the block, or "ground".
+    pub(super) block: Name,
+    /// The body that is the guide. Default: "ground".
+    pub(super) guide: Option<Name>,
+    /// Middle of the block on the guide's centre line, in the drawing: a point's name or [x, y].
+    pub(super) at: Place,
+    /// Direction of positive sliding: an angle from the x axis, or two points ["from", "to"].
+    pub(super) along: Direction,
+    /// Length of the pressed face; the couple is at most normal force times half of it.
+    pub(super) length: Quantity,
+    /// Distance of the two rubbing faces. Default: 0.
+    pub(super) height: Option<Quantity>,
+    /// "inside": the block is inside the guide (default); "around": it surrounds the guide.
+    pub(super) fit: Option<Fit>,
+    /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
+    pub(super) mu: Option<PerSide>,
+    /// Static friction coefficient, not below `mu`. Default: `mu`.
+    pub(super) mu_static: Option<PerSide>,
+    /// Preload: friction force at zero normal force, F0 of eq. (2). Default: 0.
+    pub(super) preload: Option<PerSide>,
+    /// Where the preload's friction acts: at the "pressed" face (default) or at the "centre" line.
+    pub(super) preload_line: Option<PreloadLine>,
+    /// Stiffness of the guide at the contact (N/m).
+    pub(super) stiffness: Option<Quantity>,
+    /// Limits [least, greatest] of the slide displacement.
+    pub(super) travel: Option<Components>,
+}
+
+/// A pin in a slot.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct PinInSlotTable {
+    /// The body that carries the pin, or "ground".
+    pub(super) block: Name,
+    /// The body that has the slot. Default: "ground".
+    pub(super) guide: Option<Name>,
+    /// The pin in the drawing: a point's name or [x, y].
+    pub(super) at: Place,
+    /// Direction of positive sliding: an angle from the x axis, or two points ["from", "to"].
+    pub(super) along: Direction,
+    /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
+    pub(super) mu: Option<PerSide>,
+    /// Static friction coefficient, not below `mu`. Default: `mu`.
+    pub(super) mu_static: Option<PerSide>,
+    /// Preload: friction force at zero normal force, F0 of eq. (2). Default: 0.
+    pub(super) preload: Option<PerSide>,
+    /// Stiffness of the slot at the contact (N/m).
+    pub(super) stiffness: Option<Quantity>,
+    /// Limits [least, greatest] of the slide displacement.
+    pub(super) travel: Option<Components>,
+}
+
+/// How block and guide lie in each other.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Fit {
+    /// The block is inside the guide.
+    Inside,
+    /// The block surrounds the guide: a sleeve on a rod.
+    Around,
+}
+
+/// What a contact at the end of a block travels with.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum CarriedBy {
+    /// The contact is a material point of the block.
+    Block,
+    /// The contact stays at a place of the guide, such as the mouth of a carcass.
+    Guide,
+}
+
+/// Where the friction that comes from the preload acts.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum PreloadLine {
+    /// At the face that is pressed, as in the paper.
+    Pressed,
+    /// In the middle between the faces: a packing or pre-stressed gib that rubs on both.
+    Centre,
+}
+
+/// A force, torque, spring or damper.
+#[derive(JsonSchema)]
+#[schemars(tag = "type", rename_all = "snake_case")]
+#[expect(dead_code, reason = "only its schema is used: the reader picks the variant by its type key")]
+pub(super) enum LoadTable {
+    /// A force at a point.
+    Force(ForceTable),
+    /// A torque on a body.
+    Torque(TorqueTable),
+    /// A linear spring between two points.
+    Spring(SpringTable),
+    /// A linear damper between two points.
+    Damper(DamperTable),
+    /// A linear torsional spring between two bodies.
+    TorsionalSpring(TorsionalSpringTable),
+    /// A linear torsional damper between two bodies.
+    TorsionalDamper(TorsionalDamperTable),
+}
+
+/// A force at a point of a body.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct ForceTable {
+    /// Where the force acts, as "body.point".
+    pub(super) at: Name,
+    /// Components [x, y] (N); or give `magnitude` and `direction`.
+    pub(super) components: Option<Components>,
+    /// Magnitude along `direction` (N).
+    pub(super) magnitude: Option<Quantity>,
+    /// Direction of the force: an angle from the x axis, or two points ["from", "to"] of the drawing.
+    pub(super) direction: Option<Direction>,
+    /// "world": the direction is fixed in space (default); "body": it turns with the body.
+    pub(super) frame: Option<ForceFrame>,
+    /// The body on which the opposite force acts at the same place. Default: none.
+    pub(super) reaction: Option<Name>,
+}
+
+/// In which frame a force's direction is fixed.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum ForceFrame {
+    /// Fixed in space.
+    World,
+    /// Turns with the body.
+    Body,
+}
+
+/// A torque on a body, counter-clockwise positive.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct TorqueTable {
+    /// The body on which it acts.
+    pub(super) body: Name,
+    /// Its moment (N m).
+    pub(super) moment: Quantity,
+    /// The body on which the opposite torque acts. Default: none.
+    pub(super) reaction: Option<Name>,
+}
+
+/// A linear spring between two points.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct SpringTable {
+    /// Its end points, each as "body.point".
+    pub(super) between: [Name; 2],
+    /// Stiffness (N/m).
+    pub(super) stiffness: Quantity,
+    /// Length without force. Default: its length in the drawing.
+    pub(super) free_length: Option<Quantity>,
+}
+
+/// A linear damper between two points.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct DamperTable {
+    /// Its end points, each as "body.point".
+    pub(super) between: [Name; 2],
+    /// Damping coefficient (N s/m).
+    pub(super) damping: Quantity,
+}
+
+/// A linear torsional spring between two bodies.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct TorsionalSpringTable {
+    /// The two bodies; one may be "ground".
+    pub(super) between: [Name; 2],
+    /// Torsional stiffness (N m per rad).
+    pub(super) stiffness: Quantity,
+    /// Rotation of the first body against the second without torque, counted from the drawing. Default: 0.
+    pub(super) free_angle: Option<Quantity>,
+}
+
+/// A linear torsional damper between two bodies.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct TorsionalDamperTable {
+    /// The two bodies; one may be "ground".
+    pub(super) between: [Name; 2],
+    /// Torsional damping coefficient (N m s per rad).
+    pub(super) damping: Quantity,
+}
+
+/// A prescribed motion and the unknown force or torque that produces it.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct DriveTable {
+    /// The coordinate whose motion is prescribed.
+    pub(super) coordinate: Name,
+    /// Its prescribed acceleration. Default: 0.
+    pub(super) acceleration: Option<Quantity>,
+    /// The unknown force's line of action; or give `torque`.
+    pub(super) force: Option<DriveForceTable>,
+    /// The unknown torque's body; or give `force`.
+    pub(super) torque: Option<DriveTorqueTable>,
+}
+
+/// Line of action of a drive's force.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct DriveForceTable {
+    /// Where the force acts, as "body.point".
+    pub(super) at: Name,
+    /// Its direction: an angle from the x axis, or two points ["from", "to"] of the drawing.
+    pub(super) direction: Direction,
+    /// "world": the direction is fixed in space (default); "body": it turns with the body.
+    pub(super) frame: Option<ForceFrame>,
+    /// The body on which the opposite force acts at the same place. Default: none.
+    pub(super) reaction: Option<Name>,
+}
+
+/// The bodies on which a drive's torque acts.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct DriveTorqueTable {
+    /// The body on which it acts.
+    pub(super) body: Name,
+    /// The body on which the opposite torque acts. Default: none.
+    pub(super) reaction: Option<Name>,
+}
+
+/// A chosen coordinate: exactly one of `slide`, `rotation`, `x`, `y`.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct CoordinateTable {
+    /// Displacement of the block of this sliding joint against its guide, positive in the direction `along`.
+    pub(super) slide: Option<Name>,
+    /// Rotation of this body, counter-clockwise positive.
+    pub(super) rotation: Option<Name>,
+    /// Displacement of this point, "body.point", in the direction of x.
+    pub(super) x: Option<Name>,
+    /// Displacement of this point, "body.point", in the direction of y.
+    pub(super) y: Option<Name>,
+    /// The body against which a `rotation` is counted. Default: "ground".
+    pub(super) relative_to: Option<Name>,
+    /// Value of the coordinate in the drawing. Default: 0.
+    pub(super) drawn_at: Option<Quantity>,
+    /// Value of the coordinate in the state to be solved. Default: `drawn_at`.
+    pub(super) value: Option<Quantity>,
+    /// Its rate of change in that state. Default: 0.
+    pub(super) rate: Option<Quantity>,
+}
+
+/// One entry of a section: its name, its place and, unless it is faulty, its contents.
+pub(super) struct Entry<T> {
+    pub(super) name: String,
+    pub(super) span: Span,
+    pub(super) contents: Option<T>,
+}

@@ -1,0 +1,102 @@
+//! A number of the model that may be an expression, with the dimension it must have and its place.
+
+use super::quantity::{Quantity, Span, Written};
+use crate::expression::{Dimension, Expression, ExpressionFault, Inferred, Symbol, Values};
+use crate::fault::{Fault, FaultKind, Place, Source};
+
+/// Where a formula stands.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    /// The text it stands in.
+    pub source: Source,
+    /// Its bytes in that text, quotation marks included.
+    pub span: Span,
+    /// First byte of the expression itself, if its bytes correspond to those of the source.
+    pub expression_start: Option<usize>,
+}
+
+impl Origin {
+    /// Place of the whole formula.
+    pub fn place(&self) -> Place {
+        Place { source: self.source, span: self.span.clone() }
+    }
+
+    /// Place of a part of the expression.
+    fn part(&self, span: &Span) -> Place {
+        match self.expression_start {
+            Some(start) => Place { source: self.source, span: start + span.start..start + span.end },
+            None => self.place(),
+        }
+    }
+
+    /// The fault of an expression as a fault of the input.
+    pub(super) fn fault(&self, fault: ExpressionFault) -> Fault {
+        Fault::new(FaultKind::Expression(fault.kind), self.part(&fault.span))
+    }
+}
+
+/// A number or an expression of the model.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    /// What it computes.
+    pub expression: Expression,
+    /// The dimension its value must have; nothing for parameters, which may have any.
+    pub wanted: Option<Dimension>,
+    /// Whether it may use coordinates, rates and time.
+    pub may_move: bool,
+    /// What it is, in the words of the messages: "the mass of bar".
+    pub what: std::sync::Arc<str>,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+impl Formula {
+    /// Its value from the parameters alone.
+    ///
+    /// # Errors
+    /// A fault if the value is not finite.
+    pub fn constant(&self, parameters: &[f64]) -> Result<f64, Fault> {
+        self.value(&Values { parameters, coordinates: &[], rates: &[], time: 0.0 })
+    }
+
+    /// Its value in a state.
+    ///
+    /// # Errors
+    /// A fault if the value is not finite.
+    pub fn value(&self, values: &Values<'_>) -> Result<f64, Fault> {
+        self.expression.evaluate(values).map_err(|fault| self.origin.fault(fault))
+    }
+
+    /// Whether its value depends on coordinates, rates or time.
+    pub fn moves(&self) -> bool {
+        self.expression.symbols().any(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_)))
+    }
+
+    /// Every way in which it is not what is wanted: its dimension, and a dependence on the motion.
+    pub(super) fn check(&self, of: &dyn Fn(Symbol) -> Inferred, names: &dyn Fn(Symbol) -> String) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        if !self.may_move {
+            let moving = self.expression.symbols().find(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_)));
+            if let Some((symbol, span)) = moving {
+                let kind = FaultKind::DependsOnMotion { what: self.what.to_string(), symbol: names(symbol) };
+                faults.push(Fault::new(kind, self.origin.part(&span)));
+            }
+        }
+        match (self.expression.dimension(of), self.wanted) {
+            (Err(fault), _) => faults.push(self.origin.fault(fault)),
+            (Ok(found), Some(wanted)) if !found.fits(wanted) => {
+                faults.push(Fault::new(FaultKind::WrongDimension { wanted, found }, self.origin.place()));
+            }
+            _ => {}
+        }
+        faults
+    }
+}
+
+/// Where the text of a quantity begins in the file, if it can be told: behind one quotation mark, and only if
+/// no escape sequence or line end shifts it.
+pub(super) fn expression_start(quantity: &Quantity, source: &str) -> Option<usize> {
+    let Written::Text(text) = &quantity.written else { return None };
+    let start = quantity.span.start + 1;
+    (source.get(start..start + text.len()) == Some(text.as_str())).then_some(start)
+}

@@ -1,0 +1,451 @@
+//! A model file, read and checked: names resolved, formulas parsed, dimensions verified.
+//!
+//! First stage of the pipeline: TOML text in, [`Model`] or all its [`Faults`] out. Numbers are still formulas
+//! of the parameters; [`crate::mechanism::Mechanism::new`] evaluates them.
+//!
+//! ```
+//! use slideway::model::{Model, Settings};
+//!
+//! let model = Model::parse(r#"
+//!     [parameters]
+//!     m = "2 kg"
+//!     [bodies.sledge]
+//!     mass = "m"
+//!     centre_of_mass = [0, 0]
+//!     moment_of_inertia = 0.1
+//!     [joints.track]
+//!     type = "block_slider"
+//!     block = "sledge"
+//!     at = [0, 0]
+//!     along = "0 deg"
+//!     length = "20 cm"
+//!     mu = 0.2
+//!     [coordinates.x]
+//!     slide = "track"
+//!     rate = 1
+//! "#).expect("a sound model");
+//! assert_eq!(model.bodies[0].name.as_ref(), "sledge");
+//!
+//! let heavier = model.with(&Settings::default().parameter("m", "3 kg")).expect("m is a mass");
+//! assert!(model.with(&Settings::default().parameter("m", "3 m")).is_err());
+//! ```
+
+mod file;
+mod formula;
+mod quantity;
+mod read;
+mod sections;
+mod settings;
+mod structure;
+
+pub use file::{CarriedBy, ForceFrame, PreloadLine};
+pub use formula::{Formula, Origin};
+pub use settings::{Setting, SettingKind, Settings};
+
+use crate::fault::{Fault, FaultKind, Faults, Place};
+use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
+use std::sync::Arc;
+
+/// Largest model file that is read, in bytes.
+pub const SIZE_LIMIT: u64 = 4 << 20;
+
+/// A checked model: what a model file says, with every reference resolved.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// One line that says what the mechanism is.
+    pub title: Option<String>,
+    /// The named parameters, in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// Acceleration of free fall [x, y].
+    pub gravity: [FormulaId; 2],
+    /// The bodies, in the order of the file.
+    pub bodies: Vec<Body>,
+    /// The joints, in the order of the file.
+    pub joints: Vec<Joint>,
+    /// The loads, in the order of the file.
+    pub loads: Vec<Load>,
+    /// The drives, in the order of the file.
+    pub drives: Vec<Drive>,
+    /// The chosen coordinates, in the order of the file.
+    pub coordinates: Vec<Coordinate>,
+    /// Every formula of the model.
+    pub formulas: Arc<Vec<Formula>>,
+    /// The parameters in an order in which each uses only those before it.
+    evaluation_order: Vec<usize>,
+}
+
+/// A named number.
+#[derive(Debug, Clone)]
+pub struct Parameter {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its value.
+    pub value: FormulaId,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the file.
+    pub place: Place,
+    /// What inertia it has.
+    pub inertia: Inertia,
+    /// Its named points.
+    pub points: Vec<NamedPoint>,
+}
+
+/// A named point of the drawing.
+#[derive(Debug, Clone)]
+pub struct NamedPoint {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its world coordinates in the drawing.
+    pub position: [FormulaId; 2],
+}
+
+/// Inertia of a body.
+#[derive(Debug, Clone)]
+pub enum Inertia {
+    /// A body without mass.
+    Massless,
+    /// A body with mass.
+    Massive {
+        /// Mass (kg).
+        mass: FormulaId,
+        /// Centre of mass in the drawing; nothing means the middle of the bar.
+        centre_of_mass: Option<[FormulaId; 2]>,
+        /// What gives its moment of inertia.
+        moment: Moment,
+    },
+}
+
+/// What gives a moment of inertia about the centre of mass.
+#[derive(Debug, Clone)]
+pub enum Moment {
+    /// The number itself (kg m^2).
+    Given(FormulaId),
+    /// A thin bar between two places of the drawing.
+    Bar([[FormulaId; 2]; 2]),
+    /// A rectangle of this width and height.
+    Rectangle([FormulaId; 2]),
+    /// A disc of this radius.
+    Disc(FormulaId),
+}
+
+/// A point of a body, by its place in the drawing.
+#[derive(Debug, Clone)]
+pub struct Attachment {
+    /// What it moves with.
+    pub frame: Frame,
+    /// The point's name.
+    pub name: Arc<str>,
+    /// World coordinates in the drawing.
+    pub position: [FormulaId; 2],
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the file.
+    pub place: Place,
+    /// What it is.
+    pub kind: JointKind,
+}
+
+/// The kinds of joint.
+#[derive(Debug, Clone)]
+pub enum JointKind {
+    /// A frictionless hinge between two points.
+    Hinge([Attachment; 2]),
+    /// One of the sliding joints.
+    Slider(Box<Slider>),
+}
+
+/// The three sliding joints of theory section 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SliderKind {
+    /// Two contacts, one at each end.
+    Block,
+    /// One contact and a couple.
+    Guided,
+    /// One contact, free to rotate.
+    Pin,
+}
+
+/// A sliding joint.
+#[derive(Debug, Clone)]
+pub struct Slider {
+    /// Which of the three kinds.
+    pub kind: SliderKind,
+    /// The block.
+    pub block: Frame,
+    /// The guide.
+    pub guide: Frame,
+    /// Middle of the block in the drawing.
+    pub at: [FormulaId; 2],
+    /// Direction of positive sliding in the drawing.
+    pub along: Along,
+    /// Distance of the contacts, or length of the pressed face; zero for a pin.
+    pub length: Option<FormulaId>,
+    /// Distance of the rubbing faces.
+    pub height: Option<FormulaId>,
+    /// Whether the block surrounds the guide.
+    pub around: bool,
+    /// Limits of the displacement.
+    pub travel: Option<[FormulaId; 2]>,
+    /// Its contacts: front and rear of a block slider, else the only one.
+    pub contacts: Vec<Contact>,
+}
+
+/// A direction in the drawing.
+#[derive(Debug, Clone)]
+pub enum Along {
+    /// Angle from the x axis.
+    Angle(FormulaId),
+    /// From one point to another.
+    Points(Box<[NamedPoint; 2]>),
+}
+
+/// A contact with friction.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    /// "joint" or, for the ends of a block slider, "joint.front" and "joint.rear".
+    pub name: Arc<str>,
+    /// What it travels with.
+    pub carried_by: CarriedBy,
+    /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
+    pub mu: [FormulaId; 2],
+    /// Static friction coefficient, likewise.
+    pub mu_static: [FormulaId; 2],
+    /// Preload, likewise.
+    pub preload: [Option<FormulaId>; 2],
+    /// Where the preload's friction acts.
+    pub preload_line: PreloadLine,
+    /// Stiffness of the guide.
+    pub stiffness: Option<FormulaId>,
+}
+
+/// A load.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the file.
+    pub place: Place,
+    /// What it is.
+    pub kind: LoadKind,
+}
+
+/// The kinds of load.
+#[derive(Debug, Clone)]
+pub enum LoadKind {
+    /// A force at a point.
+    Force {
+        /// Where it acts.
+        at: Attachment,
+        /// Its value.
+        force: ForceValue,
+        /// In which frame its direction is fixed.
+        frame: ForceFrame,
+        /// What the opposite force acts on.
+        reaction: Option<Frame>,
+    },
+    /// A torque on a body.
+    Torque {
+        /// The body.
+        body: Frame,
+        /// Its moment.
+        moment: FormulaId,
+        /// What the opposite torque acts on.
+        reaction: Option<Frame>,
+    },
+    /// A spring between two points.
+    Spring {
+        /// Its ends.
+        between: [Attachment; 2],
+        /// Stiffness.
+        stiffness: FormulaId,
+        /// Length without force; nothing means its length in the drawing.
+        free_length: Option<FormulaId>,
+    },
+    /// A damper between two points.
+    Damper {
+        /// Its ends.
+        between: [Attachment; 2],
+        /// Damping coefficient.
+        damping: FormulaId,
+    },
+    /// A torsional spring between two bodies.
+    TorsionalSpring {
+        /// The bodies.
+        between: [Frame; 2],
+        /// Torsional stiffness.
+        stiffness: FormulaId,
+        /// Rotation without torque, counted from the drawing.
+        free_angle: Option<FormulaId>,
+    },
+    /// A torsional damper between two bodies.
+    TorsionalDamper {
+        /// The bodies.
+        between: [Frame; 2],
+        /// Torsional damping coefficient.
+        damping: FormulaId,
+    },
+}
+
+/// Value of a force.
+#[derive(Debug, Clone)]
+pub enum ForceValue {
+    /// Components [x, y].
+    Components([FormulaId; 2]),
+    /// Magnitude along a direction.
+    Along(FormulaId, Along),
+}
+
+/// A prescribed motion and what produces it.
+#[derive(Debug, Clone)]
+pub struct Drive {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the file.
+    pub place: Place,
+    /// The coordinate whose motion is prescribed.
+    pub coordinate: CoordinateId,
+    /// The prescribed acceleration; nothing means zero.
+    pub acceleration: Option<FormulaId>,
+    /// The unknown effort.
+    pub effort: Effort,
+}
+
+/// The unknown force or torque of a drive.
+#[derive(Debug, Clone)]
+pub enum Effort {
+    /// A force along a line of action.
+    Force {
+        /// Where it acts.
+        at: Attachment,
+        /// Its direction.
+        direction: Along,
+        /// In which frame the direction is fixed.
+        frame: ForceFrame,
+        /// What the opposite force acts on.
+        reaction: Option<Frame>,
+    },
+    /// A torque.
+    Torque {
+        /// The body on which it acts.
+        body: Frame,
+        /// What the opposite torque acts on.
+        reaction: Option<Frame>,
+    },
+}
+
+/// A chosen coordinate.
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the file.
+    pub place: Place,
+    /// What it measures.
+    pub kind: CoordinateKind,
+    /// Its value in the drawing; nothing means zero.
+    pub drawn_at: Option<FormulaId>,
+    /// Its value in the state; nothing means that of the drawing.
+    pub value: Option<FormulaId>,
+    /// Its rate in the state; nothing means zero.
+    pub rate: Option<FormulaId>,
+}
+
+/// What a coordinate measures.
+#[derive(Debug, Clone)]
+pub enum CoordinateKind {
+    /// Displacement of a sliding joint.
+    Slide(JointId),
+    /// Rotation of a body against another.
+    Rotation {
+        /// The body.
+        body: BodyId,
+        /// What it is counted against.
+        relative_to: Frame,
+    },
+    /// Displacement of a point in the direction of x.
+    X(Attachment),
+    /// Displacement of a point in the direction of y.
+    Y(Attachment),
+}
+
+impl CoordinateKind {
+    /// Whether the coordinate is an angle.
+    pub fn is_angle(&self) -> bool {
+        matches!(self, Self::Rotation { .. })
+    }
+}
+
+impl Model {
+    /// The model that a TOML text describes.
+    ///
+    /// # Errors
+    /// Every fault of the text, each with its place: syntax, keys, names, expressions, dimensions.
+    pub fn parse(text: &str) -> Result<Self, Faults> {
+        if text.len() as u64 > SIZE_LIMIT {
+            let kind = FaultKind::TooLarge { size: text.len() as u64, limit: SIZE_LIMIT };
+            return Err(Fault::general(kind).into());
+        }
+        if text.trim().is_empty() {
+            return Err(Fault::general(FaultKind::Empty).into());
+        }
+        read::read(text)
+    }
+
+    /// The model that the bytes of a file describe.
+    ///
+    /// # Errors
+    /// As [`Model::parse`], and where the bytes are not UTF-8.
+    pub fn parse_bytes(bytes: &[u8]) -> Result<Self, Faults> {
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Self::parse(text),
+            Err(error) => {
+                let offset = error.valid_up_to();
+                Err(Fault::general(FaultKind::NotUtf8 { offset }).into())
+            }
+        }
+    }
+
+    /// The formula with this number.
+    pub fn formula(&self, id: FormulaId) -> &Formula {
+        &self.formulas[id.index()]
+    }
+
+    /// The values of all parameters, in the order of the file.
+    ///
+    /// # Errors
+    /// A fault for each parameter that has no finite value.
+    pub fn parameter_values(&self) -> Result<Vec<f64>, Faults> {
+        let mut values = vec![0.0; self.parameters.len()];
+        let mut faults = Faults::default();
+        for &index in &self.evaluation_order {
+            match self.formula(self.parameters[index].value).constant(&values) {
+                Ok(value) => values[index] = value,
+                Err(fault) => faults.push(fault),
+            }
+        }
+        faults.or(values)
+    }
+}
+
+/// JSON Schema of the model-file format, made from the types that read it.
+///
+/// ```
+/// let schema = slideway::model::json_schema();
+/// assert_eq!(schema["title"], "Slideway model");
+/// ```
+pub fn json_schema() -> serde_json::Value {
+    let mut schema = schemars::schema_for!(file::ModelFile);
+    schema.insert("title".to_owned(), "Slideway model".into());
+    schema.into()
+}

@@ -1,0 +1,316 @@
+//! The kinds of value that a model file holds: names, quantities, places, directions, each with its place.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::Range;
+use toml::Spanned;
+
+/// Byte range in the text of a model file.
+pub(super) type Span = Range<usize>;
+
+/// A name or other text, with its place.
+#[derive(Debug, Clone)]
+pub(super) struct Name {
+    pub(super) text: String,
+    pub(super) span: Span,
+}
+
+impl<'de> Deserialize<'de> for Name {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let spanned = Spanned::<String>::deserialize(deserializer)?;
+        Ok(Self { span: spanned.span(), text: spanned.into_inner() })
+    }
+}
+
+impl JsonSchema for Name {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Name".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string" })
+    }
+}
+
+/// A plain number in SI units, or text with a unit or an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Written {
+    Number(f64),
+    Text(String),
+}
+
+/// A quantity as it is written, with its place.
+#[derive(Debug, Clone)]
+pub(super) struct Quantity {
+    pub(super) written: Written,
+    pub(super) span: Span,
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WrittenVisitor;
+        impl Visitor<'_> for WrittenVisitor {
+            type Value = Written;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a number or a text with a unit or an expression")
+            }
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Written, E> {
+                Ok(Written::Number(value))
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Written, E> {
+                Ok(Written::Number(value as f64))
+            }
+            fn visit_str<E: de::Error>(self, value: &str) -> Result<Written, E> {
+                Ok(Written::Text(value.to_owned()))
+            }
+        }
+        deserializer.deserialize_any(WrittenVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let spanned = Spanned::<Written>::deserialize(deserializer)?;
+        Ok(Self { span: spanned.span(), written: spanned.into_inner() })
+    }
+}
+
+impl JsonSchema for Quantity {
+    fn schema_name() -> Cow<'static, str> {
+        "Quantity".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A plain number in SI units, a number with a unit such as \"25 mm\", or an expression such as \"2*l*cos(alpha)\".",
+            "type": ["number", "string"]
+        })
+    }
+}
+
+/// Two quantities [x, y].
+pub(super) type Components = [Quantity; 2];
+
+/// A place in the drawing.
+#[derive(Debug, Clone)]
+pub(super) enum Place {
+    /// The name of a point.
+    Point(Name),
+    /// Its coordinates.
+    Coordinates(Box<Components>),
+}
+
+/// A direction in the drawing.
+#[derive(Debug, Clone)]
+pub(super) enum Direction {
+    /// Angle from the x axis, counter-clockwise.
+    Angle(Quantity),
+    /// From one point to another.
+    Points([Name; 2]),
+}
+
+/// A value for both sides of contact, or one for each.
+#[derive(Debug, Clone)]
+pub(super) enum PerSide {
+    /// The same on both sides.
+    Both(Quantity),
+    /// One for each sign of the normal force.
+    Each(Box<Sides>),
+}
+
+/// The values of the two sides of contact.
+#[derive(Debug, Clone, serde::Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct Sides {
+    /// Value where the normal force is positive.
+    pub(super) plus: Quantity,
+    /// Value where the normal force is negative.
+    pub(super) minus: Quantity,
+}
+
+/// Gravity: downward magnitude or components.
+#[derive(Debug, Clone)]
+pub(super) enum Gravity {
+    /// Magnitude, along -y.
+    Down(Quantity),
+    /// Components [x, y].
+    Components(Box<Components>),
+}
+
+/// Deserializes a value that is written either as one thing or as a list or table of them; `visit_any` keeps
+/// the places of the parts, which serde's untagged enums lose.
+struct EitherVisitor<T>(std::marker::PhantomData<T>);
+
+/// What a value of several written forms makes of each of them.
+trait Either<'de>: Sized {
+    const EXPECTED: &'static str;
+    fn from_quantity(quantity: Quantity) -> Option<Self>;
+    fn from_sequence<A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
+        Err(de::Error::custom(Self::EXPECTED))
+    }
+    fn from_map<A: MapAccess<'de>>(_: A) -> Result<Self, A::Error> {
+        Err(de::Error::custom(Self::EXPECTED))
+    }
+}
+
+impl<'de, T: Either<'de>> Visitor<'de> for EitherVisitor<T> {
+    type Value = Form<T>;
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(T::EXPECTED)
+    }
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Form<T>, E> {
+        Ok(Form::Scalar(Written::Number(value)))
+    }
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Form<T>, E> {
+        Ok(Form::Scalar(Written::Number(value as f64)))
+    }
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Form<T>, E> {
+        Ok(Form::Scalar(Written::Text(value.to_owned())))
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<Form<T>, A::Error> {
+        T::from_sequence(sequence).map(Form::Whole)
+    }
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Form<T>, A::Error> {
+        T::from_map(map).map(Form::Whole)
+    }
+}
+
+/// A value read from a single scalar, or whole from a list or table.
+enum Form<T> {
+    Scalar(Written),
+    Whole(T),
+}
+
+impl<'de, T: Either<'de>> Deserialize<'de> for Form<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(EitherVisitor(std::marker::PhantomData))
+    }
+}
+
+fn deserialize_either<'de, T: Either<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+    let spanned = Spanned::<Form<T>>::deserialize(deserializer)?;
+    let span = spanned.span();
+    match spanned.into_inner() {
+        Form::Whole(value) => Ok(value),
+        Form::Scalar(written) => {
+            T::from_quantity(Quantity { written, span }).ok_or_else(|| de::Error::custom(T::EXPECTED))
+        }
+    }
+}
+
+fn pair<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(mut sequence: A, expected: &str) -> Result<[T; 2], A::Error> {
+    let first = sequence.next_element()?.ok_or_else(|| de::Error::custom(expected))?;
+    let second = sequence.next_element()?.ok_or_else(|| de::Error::custom(expected))?;
+    Ok([first, second])
+}
+
+impl<'de> Either<'de> for Place {
+    const EXPECTED: &'static str = "the name of a point, or its coordinates [x, y]";
+    fn from_quantity(quantity: Quantity) -> Option<Self> {
+        match quantity.written {
+            Written::Text(text) => Some(Self::Point(Name { text, span: quantity.span })),
+            Written::Number(_) => None,
+        }
+    }
+    fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {
+        Ok(Self::Coordinates(Box::new(pair(sequence, Self::EXPECTED)?)))
+    }
+}
+
+impl<'de> Either<'de> for Direction {
+    const EXPECTED: &'static str = "an angle, or two points [\"from\", \"to\"]";
+    fn from_quantity(quantity: Quantity) -> Option<Self> {
+        Some(Self::Angle(quantity))
+    }
+    fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {
+        Ok(Self::Points(pair(sequence, Self::EXPECTED)?))
+    }
+}
+
+impl<'de> Either<'de> for PerSide {
+    const EXPECTED: &'static str = "a quantity, or { plus = .., minus = .. }";
+    fn from_quantity(quantity: Quantity) -> Option<Self> {
+        Some(Self::Both(quantity))
+    }
+    fn from_map<A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        Sides::deserialize(de::value::MapAccessDeserializer::new(map)).map(|sides| Self::Each(Box::new(sides)))
+    }
+}
+
+impl<'de> Either<'de> for Gravity {
+    const EXPECTED: &'static str = "a quantity, or its components [x, y]";
+    fn from_quantity(quantity: Quantity) -> Option<Self> {
+        Some(Self::Down(quantity))
+    }
+    fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {
+        Ok(Self::Components(Box::new(pair(sequence, Self::EXPECTED)?)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Place {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserialize_either(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Direction {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserialize_either(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for PerSide {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserialize_either(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Gravity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserialize_either(deserializer)
+    }
+}
+
+/// Schema of a value that is either of two forms.
+fn either_schema(first: &Schema, second: &Schema) -> Schema {
+    json_schema!({ "anyOf": [first, second] })
+}
+
+impl JsonSchema for Place {
+    fn schema_name() -> Cow<'static, str> {
+        "Place".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<Components>())
+    }
+}
+
+impl JsonSchema for Direction {
+    fn schema_name() -> Cow<'static, str> {
+        "Direction".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<[Name; 2]>())
+    }
+}
+
+impl JsonSchema for PerSide {
+    fn schema_name() -> Cow<'static, str> {
+        "PerSide".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Sides>())
+    }
+}
+
+impl JsonSchema for Gravity {
+    fn schema_name() -> Cow<'static, str> {
+        "Gravity".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Components>())
+    }
+}

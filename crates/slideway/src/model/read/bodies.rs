@@ -1,0 +1,163 @@
+//! Points and bodies.
+
+use super::super::file::{BodyTable, Entry, ShapeTable};
+use super::super::quantity::{Components, Name, Span};
+use super::super::{Attachment, Body, Inertia, Moment, NamedPoint};
+use super::{Reader, Wanted};
+use crate::expression::Dimension;
+use crate::fault::{FaultKind, Place as FaultPlace};
+use crate::ids::{BodyId, Frame};
+use std::sync::Arc;
+
+impl Reader<'_> {
+    pub(super) fn read_points(&mut self, entries: Vec<Entry<Components>>) {
+        for entry in entries {
+            self.valid_name("point", &entry.name, &entry.span);
+            let position = match &entry.contents {
+                Some(components) => {
+                    self.components(components, &format!("the point {}", entry.name), Dimension::LENGTH)
+                }
+                None => [self.broken(&entry.span); 2],
+            };
+            let point = NamedPoint { name: Arc::from(entry.name.as_str()), position };
+            self.points.insert(entry.name, point);
+        }
+    }
+
+    pub(super) fn read_bodies(&mut self, entries: Vec<Entry<BodyTable>>) -> Vec<Body> {
+        if entries.is_empty() && self.faults.is_empty() {
+            self.fault(FaultKind::NoBodies, &(0..0));
+        }
+        let mut bodies = Vec::new();
+        for (index, entry) in entries.into_iter().enumerate() {
+            self.valid_name("body", &entry.name, &entry.span);
+            let mut points = Vec::new();
+            let mut inertia = Inertia::Massless;
+            if let Some(table) = &entry.contents {
+                points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
+                inertia = self.inertia(table, &entry.name, &entry.span);
+            }
+            let place = FaultPlace::model(entry.span);
+            bodies.push(Body { name: Arc::from(entry.name), place, inertia, points });
+        }
+        bodies
+    }
+
+    fn body_points(&mut self, names: &[Name], body: BodyId) -> Vec<NamedPoint> {
+        let mut points = Vec::new();
+        for name in names {
+            points.push(self.point(name));
+            self.owners.entry(name.text.clone()).or_default().push(body);
+        }
+        points
+    }
+
+    fn inertia(&mut self, table: &BodyTable, name: &str, span: &Span) -> Inertia {
+        let owner = format!("the body {name}");
+        let massless = table.massless == Some(true);
+        let Some(mass) = &table.mass else {
+            if !massless {
+                self.fault(FaultKind::NoneOf { owner, one_of: vec!["mass", "massless"] }, span);
+            } else if table.moment_of_inertia.is_some() {
+                let kind = FaultKind::Both { owner, first: "massless", second: "moment_of_inertia" };
+                self.fault(kind, span);
+            }
+            return Inertia::Massless;
+        };
+        if massless {
+            self.fault(FaultKind::Both { owner: owner.clone(), first: "mass", second: "massless" }, span);
+        }
+        let mass = self.formula(mass, Wanted::constant(format!("the mass of {name}"), Dimension::MASS).positive());
+        let moment = self.moment(table, name, span);
+        let centre = table.centre_of_mass.as_ref();
+        if centre.is_none() && !matches!(moment, Moment::Bar(_)) {
+            self.fault(FaultKind::NoneOf { owner, one_of: vec!["centre_of_mass"] }, span);
+        }
+        let centre_of_mass = centre.map(|place| self.place(place, &format!("the centre of mass of {name}")));
+        Inertia::Massive { mass, centre_of_mass, moment }
+    }
+
+    fn moment(&mut self, table: &BodyTable, name: &str, span: &Span) -> Moment {
+        let owner = format!("the body {name}");
+        match (&table.moment_of_inertia, &table.shape) {
+            (Some(_), Some(_)) => {
+                self.fault(FaultKind::Both { owner, first: "moment_of_inertia", second: "shape" }, span);
+                Moment::Given(self.zero)
+            }
+            (None, None) => {
+                self.fault(FaultKind::NoneOf { owner, one_of: vec!["moment_of_inertia", "shape"] }, span);
+                Moment::Given(self.zero)
+            }
+            (Some(moment), None) => {
+                let what = format!("the moment of inertia of {name}");
+                let wanted = Wanted::constant(what, Dimension::MOMENT_OF_INERTIA).not_negative();
+                Moment::Given(self.formula(moment, wanted))
+            }
+            (None, Some(shape)) => self.shape(shape, name, span),
+        }
+    }
+
+    fn shape(&mut self, shape: &ShapeTable, name: &str, span: &Span) -> Moment {
+        let size = |what: &str| {
+            Wanted::constant(format!("the {what} of {name}"), Dimension::LENGTH).not_negative()
+        };
+        match (&shape.bar, &shape.rectangle, &shape.disc) {
+            (Some(ends), None, None) => {
+                let what = format!("the end of {name}");
+                Moment::Bar([self.place(&ends[0], &what), self.place(&ends[1], &what)])
+            }
+            (None, Some([width, height]), None) => {
+                Moment::Rectangle([self.formula(width, size("width")), self.formula(height, size("height"))])
+            }
+            (None, None, Some(radius)) => Moment::Disc(self.formula(radius, size("radius"))),
+            (None, None, None) => {
+                let owner = format!("the shape of {name}");
+                self.fault(FaultKind::NoneOf { owner, one_of: vec!["bar", "rectangle", "disc"] }, span);
+                Moment::Given(self.zero)
+            }
+            (bar, rectangle, _) => {
+                let first = if bar.is_some() { "bar" } else { "rectangle" };
+                let second = if bar.is_some() && rectangle.is_some() { "rectangle" } else { "disc" };
+                self.fault(FaultKind::Both { owner: format!("the shape of {name}"), first, second }, span);
+                Moment::Given(self.zero)
+            }
+        }
+    }
+
+    /// A point as part of a body: "body.point", or "point" alone where that leaves no doubt.
+    pub(super) fn attachment(&mut self, name: &Name) -> Attachment {
+        let Some((body, point)) = name.text.split_once('.') else {
+            return self.attachment_by_point(name);
+        };
+        let frame = self.frame(&Name { text: body.to_owned(), span: name.span.clone() });
+        let known = self.points.contains_key(point);
+        let NamedPoint { name: point_name, position } = self.point(name);
+        let owners = self.owners.get(point).cloned().unwrap_or_default();
+        if let (Frame::Body(body), true) = (frame, known)
+            && !owners.contains(&body)
+        {
+            let kind = FaultKind::NotOwned {
+                body: self.bodies[body.index()].clone(),
+                point: point.to_owned(),
+                owners: owners.iter().map(|owner| self.bodies[owner.index()].clone()).collect(),
+            };
+            self.fault(kind, &name.span);
+        }
+        Attachment { frame, name: point_name, position }
+    }
+
+    fn attachment_by_point(&mut self, name: &Name) -> Attachment {
+        let NamedPoint { name: point_name, position } = self.point(name);
+        let owners = self.owners.get(&name.text).cloned().unwrap_or_default();
+        let frame = match owners.as_slice() {
+            [] => Frame::Ground,
+            [body] => Frame::Body(*body),
+            several => {
+                let owners = several.iter().map(|owner| self.bodies[owner.index()].clone()).collect();
+                self.fault(FaultKind::SeveralOwners { point: name.text.clone(), owners }, &name.span);
+                Frame::Ground
+            }
+        };
+        Attachment { frame, name: point_name, position }
+    }
+}

@@ -1,0 +1,190 @@
+//! Hinges and the three sliding joints.
+
+use super::super::file::{
+    BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PinInSlotTable, PreloadLine,
+};
+use super::super::quantity::{PerSide, Quantity, Span};
+use super::super::sections::JointContents;
+use super::super::{Contact, Joint, JointKind, Slider, SliderKind};
+use super::{Reader, Wanted};
+use crate::expression::Dimension;
+use crate::fault::{FaultKind, Place as FaultPlace};
+use crate::ids::{FormulaId, Frame};
+use std::sync::Arc;
+
+/// The friction of one contact as it is written.
+#[derive(Clone, Copy, Default)]
+struct WrittenFriction<'a> {
+    mu: Option<&'a PerSide>,
+    mu_static: Option<&'a PerSide>,
+    preload: Option<&'a PerSide>,
+    preload_line: Option<PreloadLine>,
+    stiffness: Option<&'a Quantity>,
+    carried_by: Option<CarriedBy>,
+}
+
+impl<'a> WrittenFriction<'a> {
+    /// What is written at the end of a block wins over what is written for the joint.
+    fn at_end(self, end: Option<&'a EndTable>) -> Self {
+        let Some(end) = end else { return self };
+        Self {
+            mu: end.mu.as_ref().or(self.mu),
+            mu_static: end.mu_static.as_ref().or(self.mu_static),
+            preload: end.preload.as_ref().or(self.preload),
+            preload_line: end.preload_line.or(self.preload_line),
+            stiffness: end.stiffness.as_ref().or(self.stiffness),
+            carried_by: end.carried_by,
+        }
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn read_joints(&mut self, entries: Vec<Entry<JointContents>>) -> Vec<Joint> {
+        let mut joints = Vec::new();
+        for entry in entries {
+            self.valid_name("joint", &entry.name, &entry.span);
+            let kind = match &entry.contents {
+                None => continue,
+                Some(JointContents::Hinge(table)) => {
+                    let [first, second] = &table.between;
+                    JointKind::Hinge([self.attachment(first), self.attachment(second)])
+                }
+                Some(JointContents::Block(table)) => self.block_slider(table, &entry.name, &entry.span),
+                Some(JointContents::Guided(table)) => self.guided_slider(table, &entry.name, &entry.span),
+                Some(JointContents::Pin(table)) => self.pin_in_slot(table, &entry.name, &entry.span),
+            };
+            joints.push(Joint { name: Arc::from(entry.name), place: FaultPlace::model(entry.span), kind });
+        }
+        joints
+    }
+
+    fn block_slider(&mut self, table: &BlockSliderTable, name: &str, span: &Span) -> JointKind {
+        let both = WrittenFriction {
+            mu: table.mu.as_ref(),
+            mu_static: table.mu_static.as_ref(),
+            preload: table.preload.as_ref(),
+            preload_line: table.preload_line,
+            stiffness: table.stiffness.as_ref(),
+            carried_by: None,
+        };
+        let contacts = vec![
+            self.contact(both.at_end(table.front.as_ref()), format!("{name}.front"), span),
+            self.contact(both.at_end(table.rear.as_ref()), format!("{name}.rear"), span),
+        ];
+        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
+        JointKind::Slider(Box::new(Slider {
+            kind: SliderKind::Block,
+            block: self.frame(&table.block),
+            guide: self.frame_or_ground(table.guide.as_ref()),
+            at: self.place(&table.at, &format!("the place of {name}")),
+            along: self.along(&table.along, &format!("the direction of {name}")),
+            length: Some(self.formula(&table.length, length)),
+            height: self.height(table.height.as_ref(), name),
+            around: table.fit == Some(Fit::Around),
+            travel: self.travel(table.travel.as_ref(), name),
+            contacts,
+        }))
+    }
+
+    fn guided_slider(&mut self, table: &GuidedSliderTable, name: &str, span: &Span) -> JointKind {
+        let friction = WrittenFriction {
+            mu: table.mu.as_ref(),
+            mu_static: table.mu_static.as_ref(),
+            preload: table.preload.as_ref(),
+            preload_line: table.preload_line,
+            stiffness: table.stiffness.as_ref(),
+            carried_by: None,
+        };
+        let contacts = vec![self.contact(friction, name.to_owned(), span)];
+        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).not_negative();
+        JointKind::Slider(Box::new(Slider {
+            kind: SliderKind::Guided,
+            block: self.frame(&table.block),
+            guide: self.frame_or_ground(table.guide.as_ref()),
+            at: self.place(&table.at, &format!("the place of {name}")),
+            along: self.along(&table.along, &format!("the direction of {name}")),
+            length: Some(self.formula(&table.length, length)),
+            height: self.height(table.height.as_ref(), name),
+            around: table.fit == Some(Fit::Around),
+            travel: self.travel(table.travel.as_ref(), name),
+            contacts,
+        }))
+    }
+
+    fn pin_in_slot(&mut self, table: &PinInSlotTable, name: &str, span: &Span) -> JointKind {
+        let friction = WrittenFriction {
+            mu: table.mu.as_ref(),
+            mu_static: table.mu_static.as_ref(),
+            preload: table.preload.as_ref(),
+            stiffness: table.stiffness.as_ref(),
+            ..WrittenFriction::default()
+        };
+        let contacts = vec![self.contact(friction, name.to_owned(), span)];
+        JointKind::Slider(Box::new(Slider {
+            kind: SliderKind::Pin,
+            block: self.frame(&table.block),
+            guide: self.frame_or_ground(table.guide.as_ref()),
+            at: self.place(&table.at, &format!("the place of {name}")),
+            along: self.along(&table.along, &format!("the direction of {name}")),
+            length: None,
+            height: None,
+            around: false,
+            travel: self.travel(table.travel.as_ref(), name),
+            contacts,
+        }))
+    }
+
+    fn height(&mut self, height: Option<&Quantity>, name: &str) -> Option<FormulaId> {
+        let wanted = Wanted::constant(format!("the height of {name}"), Dimension::LENGTH).not_negative();
+        height.map(|height| self.formula(height, wanted))
+    }
+
+    fn travel(&mut self, travel: Option<&[Quantity; 2]>, name: &str) -> Option<[FormulaId; 2]> {
+        let what = format!("the travel limit of {name}");
+        travel.map(|limits| {
+            limits.each_ref().map(|limit| self.formula(limit, Wanted::constant(what.clone(), Dimension::LENGTH)))
+        })
+    }
+
+    fn contact(&mut self, friction: WrittenFriction<'_>, name: String, span: &Span) -> Contact {
+        let mu = match friction.mu {
+            Some(mu) => self.sides(mu, &format!("the friction coefficient of {name}"), Dimension::NONE),
+            None => {
+                let kind = FaultKind::MissingKey { key: "mu".into(), table: format!("joints.{name}") };
+                self.fault(kind, span);
+                [self.broken(span); 2]
+            }
+        };
+        let static_what = format!("the static friction coefficient of {name}");
+        let mu_static = friction.mu_static.map_or(mu, |mu| self.sides(mu, &static_what, Dimension::NONE));
+        let preload = friction.preload.map_or([None; 2], |preload| {
+            self.sides(preload, &format!("the preload of {name}"), Dimension::FORCE).map(Some)
+        });
+        let stiffness = friction.stiffness.map(|stiffness| {
+            let what = format!("the stiffness of the guide at {name}");
+            self.formula(stiffness, Wanted::constant(what, Dimension::STIFFNESS).positive())
+        });
+        Contact {
+            name: Arc::from(name),
+            carried_by: friction.carried_by.unwrap_or(CarriedBy::Block),
+            mu,
+            mu_static,
+            preload,
+            preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
+            stiffness,
+        }
+    }
+
+    fn sides(&mut self, written: &PerSide, what: &str, dimension: Dimension) -> [FormulaId; 2] {
+        let wanted = || Wanted::constant(what, dimension).not_negative();
+        match written {
+            PerSide::Both(quantity) => [self.formula(quantity, wanted()); 2],
+            PerSide::Each(sides) => [self.formula(&sides.plus, wanted()), self.formula(&sides.minus, wanted())],
+        }
+    }
+
+    /// The name of a frame for messages.
+    pub(super) fn named(&self, frame: Frame) -> String {
+        self.frame_name(frame).to_owned()
+    }
+}

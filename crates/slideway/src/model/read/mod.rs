@@ -1,0 +1,332 @@
+//! From the tables of a file to the checked model: names resolved, formulas parsed.
+//!
+//! A faulty part is replaced by a stand-in and its fault recorded, so that reading goes on and every fault is
+//! found; a model with faults never leaves this module.
+
+mod bodies;
+mod coordinates;
+mod joints;
+mod loads;
+
+use super::formula::{Allowed, Formula, Origin, expression_start};
+use super::quantity::{Components, Direction, Gravity, Name, Place, Quantity, Written};
+use super::sections::{Sections, sections};
+use super::{Along, Model, NamedPoint, Parameter};
+use crate::expression::{Dimension, Expression, Names, is_reserved, is_valid_name, parse};
+use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
+use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The model that a text describes, or all its faults.
+pub(super) fn read(text: &str) -> Result<Model, Faults> {
+    let (sections, faults) = sections(text);
+    let mut reader = Reader::new(text, &sections, faults);
+    let model = reader.model(sections);
+    let faults = reader.faults;
+    let checked = model.check();
+    match checked {
+        Err(found) if faults.is_empty() => Err(found),
+        Err(found) => {
+            let mut all = faults;
+            all.append(found);
+            Err(all)
+        }
+        Ok(()) => faults.or(model),
+    }
+}
+
+/// What a formula is wanted for.
+struct Wanted {
+    what: String,
+    dimension: Dimension,
+    allowed: Allowed,
+    may_move: bool,
+}
+
+impl Wanted {
+    /// A quantity that stays constant during the motion.
+    fn constant(what: impl Into<String>, dimension: Dimension) -> Self {
+        Self { what: what.into(), dimension, allowed: Allowed::Any, may_move: false }
+    }
+
+    /// A quantity that may depend on coordinates, rates and time.
+    fn moving(what: impl Into<String>, dimension: Dimension) -> Self {
+        Self { may_move: true, ..Self::constant(what, dimension) }
+    }
+
+    fn positive(self) -> Self {
+        Self { allowed: Allowed::Positive, ..self }
+    }
+
+    fn not_negative(self) -> Self {
+        Self { allowed: Allowed::NotNegative, ..self }
+    }
+}
+
+/// The names of a file and what has been read so far.
+struct Reader<'t> {
+    text: &'t str,
+    faults: Faults,
+    names: Names,
+    formulas: Vec<Formula>,
+    points: BTreeMap<String, NamedPoint>,
+    owners: BTreeMap<String, Vec<BodyId>>,
+    bodies: Vec<String>,
+    joints: Vec<String>,
+    coordinates: Vec<String>,
+    /// Coordinates whose entry could not be read; naming one is no further fault.
+    zero: FormulaId,
+}
+
+impl<'t> Reader<'t> {
+    fn new(text: &'t str, sections: &Sections, faults: Faults) -> Self {
+        let mut names = Names::new();
+        let mut reader = Self {
+            text,
+            faults,
+            names: Names::new(),
+            formulas: Vec::new(),
+            points: BTreeMap::new(),
+            owners: BTreeMap::new(),
+            bodies: sections.bodies.iter().map(|entry| entry.name.clone()).collect(),
+            joints: sections.joints.iter().map(|entry| entry.name.clone()).collect(),
+            coordinates: sections.coordinates.iter().map(|entry| entry.name.clone()).collect(),
+            zero: FormulaId(0),
+        };
+        for entry in &sections.parameters {
+            reader.valid_name("parameter", &entry.name, &entry.span);
+            names.parameter(&entry.name);
+        }
+        for entry in &sections.coordinates {
+            reader.valid_name("coordinate", &entry.name, &entry.span);
+            if sections.parameters.iter().any(|parameter| parameter.name == entry.name) {
+                reader.fault(FaultKind::SharedName { name: entry.name.clone() }, &entry.span);
+            }
+            names.coordinate(&entry.name);
+        }
+        reader.names = names;
+        reader.zero = reader.number(0.0, &(0..0));
+        reader
+    }
+
+    fn model(&mut self, sections: Sections) -> Model {
+        let parameters = self.parameters(sections.parameters);
+        let gravity = self.gravity(sections.gravity.as_ref());
+        self.read_points(sections.points);
+        let bodies = self.read_bodies(sections.bodies);
+        let joints = self.read_joints(sections.joints);
+        let coordinates = self.read_coordinates(sections.coordinates);
+        let loads = self.read_loads(sections.loads);
+        let drives = self.read_drives(sections.drives);
+        Model {
+            title: sections.title.map(|title| title.text),
+            parameters,
+            gravity,
+            bodies,
+            joints,
+            loads,
+            drives,
+            coordinates,
+            formulas: Arc::new(std::mem::take(&mut self.formulas)),
+            evaluation_order: Vec::new(),
+        }
+    }
+
+    fn fault(&mut self, kind: FaultKind, span: &super::quantity::Span) {
+        self.faults.push(Fault::new(kind, FaultPlace::model(span.clone())));
+    }
+
+    fn valid_name(&mut self, what: &'static str, name: &str, span: &super::quantity::Span) {
+        let reason = if !is_valid_name(name) {
+            "names are made of letters, digits and _, and begin with a letter"
+        } else if is_reserved(name) {
+            "it already means something in expressions"
+        } else if what == "body" && name == "ground" {
+            "the fixed frame has this name"
+        } else {
+            return;
+        };
+        self.fault(FaultKind::InvalidName { what, name: name.to_owned(), reason }, span);
+    }
+
+    fn unknown_name<'a>(&mut self, what: &'static str, name: &Name, known: impl Iterator<Item = &'a str> + Clone) {
+        let kind = FaultKind::UnknownName {
+            what,
+            name: name.text.clone(),
+            nearest: nearest(&name.text, known.clone()),
+            known: known.map(str::to_owned).collect(),
+        };
+        self.fault(kind, &name.span);
+    }
+
+    // Formulas.
+
+    fn push(&mut self, formula: Formula) -> FormulaId {
+        self.formulas.push(formula);
+        FormulaId(self.formulas.len() - 1)
+    }
+
+    /// A number that stands in no file.
+    fn number(&mut self, value: f64, span: &super::quantity::Span) -> FormulaId {
+        self.push(Formula {
+            expression: Expression::constant(value),
+            wanted: None,
+            allowed: Allowed::Any,
+            may_move: false,
+            broken: false,
+            what: Arc::from("a number"),
+            origin: Origin { source: Source::Model, span: span.clone(), expression_start: None },
+        })
+    }
+
+    fn formula(&mut self, quantity: &Quantity, wanted: Wanted) -> FormulaId {
+        self.any_formula(quantity, wanted.what, Some(wanted.dimension), wanted.allowed, wanted.may_move)
+    }
+
+    fn any_formula(
+        &mut self,
+        quantity: &Quantity,
+        what: String,
+        dimension: Option<Dimension>,
+        allowed: Allowed,
+        may_move: bool,
+    ) -> FormulaId {
+        let origin = Origin {
+            source: Source::Model,
+            span: quantity.span.clone(),
+            expression_start: expression_start(quantity, self.text),
+        };
+        let parsed = match &quantity.written {
+            Written::Number(value) if value.is_finite() => Some(Expression::constant(*value)),
+            Written::Number(_) => {
+                self.fault(FaultKind::NotFinite { what: what.clone() }, &quantity.span);
+                None
+            }
+            Written::Text(text) => match parse(text, &self.names) {
+                Ok(expression) => Some(expression),
+                Err(faults) => {
+                    faults.into_iter().for_each(|fault| self.faults.push(origin.fault(fault)));
+                    None
+                }
+            },
+        };
+        let broken = parsed.is_none();
+        let expression = parsed.unwrap_or_else(|| Expression::constant(0.0));
+        let what = Arc::from(what);
+        self.push(Formula { expression, wanted: dimension, allowed, may_move, broken, what, origin })
+    }
+
+    fn components(&mut self, components: &Components, what: &str, dimension: Dimension) -> [FormulaId; 2] {
+        let [x, y] = components;
+        [
+            self.formula(x, Wanted::constant(format!("the x component of {what}"), dimension)),
+            self.formula(y, Wanted::constant(format!("the y component of {what}"), dimension)),
+        ]
+    }
+
+    fn parameters(&mut self, entries: Vec<super::file::Entry<Quantity>>) -> Vec<Parameter> {
+        let mut parameters = Vec::new();
+        for entry in entries {
+            let what = format!("the parameter {}", entry.name);
+            let value = match &entry.contents {
+                Some(quantity) => self.any_formula(quantity, what, None, Allowed::Any, false),
+                None => self.broken(&entry.span),
+            };
+            parameters.push(Parameter { name: Arc::from(entry.name), value });
+        }
+        parameters
+    }
+
+    fn broken(&mut self, span: &super::quantity::Span) -> FormulaId {
+        let id = self.number(0.0, span);
+        self.formulas[id.index()].broken = true;
+        id
+    }
+
+    fn gravity(&mut self, gravity: Option<&Gravity>) -> [FormulaId; 2] {
+        match gravity {
+            None => [self.zero; 2],
+            Some(Gravity::Components(components)) => self.components(components, "gravity", Dimension::ACCELERATION),
+            Some(Gravity::Down(quantity)) => {
+                let wanted = Wanted::constant("gravity", Dimension::ACCELERATION);
+                let down = self.formula(quantity, wanted);
+                let mut formula = self.formulas[down.index()].clone();
+                formula.expression = formula.expression.negated();
+                [self.zero, self.push(formula)]
+            }
+        }
+    }
+
+    // References to other entries.
+
+    fn frame(&mut self, name: &Name) -> Frame {
+        if name.text == "ground" {
+            return Frame::Ground;
+        }
+        match self.bodies.iter().position(|body| *body == name.text) {
+            Some(index) => Frame::Body(BodyId(index)),
+            None => {
+                let known: Vec<String> = self.bodies.iter().cloned().chain(["ground".to_owned()]).collect();
+                self.unknown_name("body", name, known.iter().map(String::as_str));
+                Frame::Ground
+            }
+        }
+    }
+
+    fn frame_or_ground(&mut self, name: Option<&Name>) -> Frame {
+        name.map_or(Frame::Ground, |name| self.frame(name))
+    }
+
+    fn frame_name(&self, frame: Frame) -> &str {
+        frame.body().map_or("ground", |body| &self.bodies[body.index()])
+    }
+
+    fn joint(&mut self, name: &Name) -> JointId {
+        let found = self.joints.iter().position(|joint| *joint == name.text);
+        JointId(found.unwrap_or_else(|| {
+            let known = self.joints.clone();
+            self.unknown_name("joint", name, known.iter().map(String::as_str));
+            0
+        }))
+    }
+
+    fn coordinate(&mut self, name: &Name) -> CoordinateId {
+        let found = self.coordinates.iter().position(|coordinate| *coordinate == name.text);
+        CoordinateId(found.unwrap_or_else(|| {
+            let known = self.coordinates.clone();
+            self.unknown_name("coordinate", name, known.iter().map(String::as_str));
+            0
+        }))
+    }
+
+    /// A place of the drawing, whatever it belongs to.
+    fn place(&mut self, place: &Place, what: &str) -> [FormulaId; 2] {
+        match place {
+            Place::Coordinates(components) => self.components(components, what, Dimension::LENGTH),
+            Place::Point(name) => self.point(name).position,
+        }
+    }
+
+    /// A named point of the drawing; a body in front of the name does not matter here.
+    fn point(&mut self, name: &Name) -> NamedPoint {
+        let bare = name.text.rsplit_once('.').map_or(name.text.as_str(), |(_, point)| point);
+        if let Some(point) = self.points.get(bare) {
+            return point.clone();
+        }
+        let known: Vec<String> = self.points.keys().cloned().collect();
+        let unknown = Name { text: bare.to_owned(), span: name.span.clone() };
+        self.unknown_name("point", &unknown, known.iter().map(String::as_str));
+        let broken = self.broken(&name.span);
+        NamedPoint { name: Arc::from(bare), position: [broken; 2] }
+    }
+
+    fn along(&mut self, direction: &Direction, what: &str) -> Along {
+        match direction {
+            Direction::Angle(quantity) => {
+                Along::Angle(self.formula(quantity, Wanted::constant(what, Dimension::ANGLE)))
+            }
+            Direction::Points([from, to]) => Along::Points(Box::new([self.point(from), self.point(to)])),
+        }
+    }
+}

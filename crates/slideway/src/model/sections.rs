@@ -1,0 +1,185 @@
+//! The sections of a model file: TOML text to the tables of [`super::file`], entry by entry, so that one
+//! faulty entry hides no other.
+
+use super::file::{
+    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, Entry, ForceTable, GuidedSliderTable,
+    HingeTable, PinInSlotTable, SpringTable, TorqueTable, TorsionalDamperTable, TorsionalSpringTable,
+};
+use super::quantity::{Components, Gravity, Name, Quantity};
+use super::structure::StructureCheck;
+use crate::fault::{Fault, FaultKind, Faults, Place};
+use serde::de::DeserializeOwned;
+use std::sync::OnceLock;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+
+/// Everything a model file says, not yet checked against itself.
+pub(super) struct Sections {
+    pub(super) title: Option<Name>,
+    pub(super) gravity: Option<Gravity>,
+    pub(super) parameters: Vec<Entry<Quantity>>,
+    pub(super) points: Vec<Entry<Components>>,
+    pub(super) bodies: Vec<Entry<BodyTable>>,
+    pub(super) joints: Vec<Entry<JointContents>>,
+    pub(super) loads: Vec<Entry<LoadContents>>,
+    pub(super) drives: Vec<Entry<DriveTable>>,
+    pub(super) coordinates: Vec<Entry<CoordinateTable>>,
+}
+
+/// The contents of a joint's table, by its `type`.
+pub(super) enum JointContents {
+    Hinge(HingeTable),
+    Block(BlockSliderTable),
+    Guided(GuidedSliderTable),
+    Pin(PinInSlotTable),
+}
+
+/// The contents of a load's table, by its `type`.
+pub(super) enum LoadContents {
+    Force(ForceTable),
+    Torque(TorqueTable),
+    Spring(SpringTable),
+    Damper(DamperTable),
+    TorsionalSpring(TorsionalSpringTable),
+    TorsionalDamper(TorsionalDamperTable),
+}
+
+/// Reads all sections; the faults are those of syntax and structure.
+pub(super) fn sections(text: &str) -> (Sections, Faults) {
+    static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
+    let schema = SCHEMA.get_or_init(super::json_schema);
+    let (document, errors) = DeTable::parse_recoverable(text);
+    let mut faults = Faults::default();
+    let mut broken_lines = Vec::new();
+    for error in errors {
+        let span = error.span().unwrap_or(0..0);
+        broken_lines.push(line_around(text, span.start));
+        let kind = FaultKind::Syntax { message: error.message().to_owned() };
+        faults.push(Fault::new(kind, Place::model(within(text, span))));
+    }
+    let mut check = StructureCheck::new(schema, broken_lines);
+    check.root(document.get_ref());
+    let mut reader = SectionReader { check, text, faults: Faults::default() };
+    let mut root = document.into_inner();
+    let sections = Sections {
+        title: reader.single(&mut root, "title"),
+        gravity: reader.single(&mut root, "gravity"),
+        parameters: reader.section(&mut root, "parameters", deserialize),
+        points: reader.section(&mut root, "points", deserialize),
+        bodies: reader.section(&mut root, "bodies", deserialize),
+        joints: reader.section(&mut root, "joints", joint),
+        loads: reader.section(&mut root, "loads", load),
+        drives: reader.section(&mut root, "drives", deserialize),
+        coordinates: reader.section(&mut root, "coordinates", deserialize),
+    };
+    faults.append(reader.faults);
+    faults.append(reader.check.into_faults());
+    (sections, faults)
+}
+
+struct SectionReader<'t, 's> {
+    check: StructureCheck<'s>,
+    text: &'t str,
+    faults: Faults,
+}
+
+impl SectionReader<'_, '_> {
+    fn single<T: DeserializeOwned>(&mut self, root: &mut DeTable<'_>, key: &str) -> Option<T> {
+        let value = root.remove(key)?;
+        if !self.check.is_sound(key) {
+            return None;
+        }
+        self.keep(deserialize(value))
+    }
+
+    /// The entries of a section in the order of the file; faulty ones keep their names.
+    fn section<'i, T>(
+        &mut self,
+        root: &mut DeTable<'i>,
+        key: &str,
+        contents: fn(Spanned<DeValue<'i>>) -> Result<T, toml::de::Error>,
+    ) -> Vec<Entry<T>> {
+        let Some(section) = root.remove(key) else { return Vec::new() };
+        let DeValue::Table(table) = section.into_inner() else { return Vec::new() };
+        let mut entries: Vec<Entry<T>> = table
+            .into_iter()
+            .map(|(name, value)| {
+                let sound = self.check.is_sound(&format!("{key}.{}", name.get_ref()));
+                let span = within(self.text, name.span());
+                let contents = if sound { self.keep(contents(value)) } else { None };
+                Entry { name: name.into_inner().into_owned(), span, contents }
+            })
+            .collect();
+        entries.sort_by_key(|entry| entry.span.start);
+        entries
+    }
+
+    /// What the schema let through but the types refuse, such as an integer beyond 64 bits.
+    fn keep<T>(&mut self, result: Result<T, toml::de::Error>) -> Option<T> {
+        result
+            .map_err(|error| {
+                let span = error.span().unwrap_or(0..0);
+                let kind = FaultKind::Syntax { message: error.message().to_owned() };
+                self.faults.push(Fault::new(kind, Place::model(within(self.text, span))));
+            })
+            .ok()
+    }
+}
+
+fn deserialize<T: DeserializeOwned>(value: Spanned<DeValue<'_>>) -> Result<T, toml::de::Error> {
+    T::deserialize(ValueDeserializer::from(value))
+}
+
+/// Takes the `type` out of a table that the structure check has passed.
+fn type_of<'i>(value: Spanned<DeValue<'i>>) -> (String, Spanned<DeValue<'i>>) {
+    let span = value.span();
+    match value.into_inner() {
+        DeValue::Table(mut table) => {
+            let kind = table.remove("type").and_then(|kind| kind.get_ref().as_str().map(str::to_owned));
+            (kind.unwrap_or_default(), Spanned::new(span, DeValue::Table(table)))
+        }
+        other => (String::new(), Spanned::new(span, other)),
+    }
+}
+
+fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> {
+    let (kind, value) = type_of(value);
+    Ok(match kind.as_str() {
+        "hinge" => JointContents::Hinge(deserialize(value)?),
+        "block_slider" => JointContents::Block(deserialize(value)?),
+        "guided_slider" => JointContents::Guided(deserialize(value)?),
+        _ => JointContents::Pin(deserialize(value)?),
+    })
+}
+
+fn load(value: Spanned<DeValue<'_>>) -> Result<LoadContents, toml::de::Error> {
+    let (kind, value) = type_of(value);
+    Ok(match kind.as_str() {
+        "force" => LoadContents::Force(deserialize(value)?),
+        "torque" => LoadContents::Torque(deserialize(value)?),
+        "spring" => LoadContents::Spring(deserialize(value)?),
+        "damper" => LoadContents::Damper(deserialize(value)?),
+        "torsional_spring" => LoadContents::TorsionalSpring(deserialize(value)?),
+        _ => LoadContents::TorsionalDamper(deserialize(value)?),
+    })
+}
+
+/// `span` cut to the text and to whole characters.
+fn within(text: &str, span: std::ops::Range<usize>) -> std::ops::Range<usize> {
+    let floor = |mut offset: usize| {
+        offset = offset.min(text.len());
+        while !text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        offset
+    };
+    floor(span.start)..floor(span.end.max(span.start))
+}
+
+/// The line that contains `offset`, with its line end.
+fn line_around(text: &str, offset: usize) -> std::ops::Range<usize> {
+    let offset = within(text, offset..offset).start;
+    let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
+    let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at + 1);
+    start..end
+}

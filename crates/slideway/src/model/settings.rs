@@ -1,0 +1,181 @@
+//! What a command changes in a model before it is solved: parameters, coordinate values and rates.
+
+use super::formula::{Formula, Origin};
+use super::{Coordinate, Model};
+use crate::expression::{Dimension, parse};
+use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
+use crate::ids::FormulaId;
+use std::sync::Arc;
+
+/// Changes to a model, in the order in which they were given; a later one wins.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Settings {
+    entries: Vec<Setting>,
+}
+
+/// One change.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Setting {
+    /// What is changed.
+    pub kind: SettingKind,
+    /// Name of the parameter or coordinate.
+    pub name: String,
+    /// Its new value: a number, a quantity with a unit, or an expression of parameters.
+    pub value: String,
+}
+
+impl Setting {
+    /// The text to which the places of its faults refer.
+    pub fn text(&self) -> String {
+        format!("{}={}", self.name, self.value)
+    }
+}
+
+/// What a setting changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SettingKind {
+    /// A parameter (`--set`).
+    Parameter,
+    /// The value of a coordinate (`--at`).
+    Position,
+    /// The rate of a coordinate (`--rate`).
+    Rate,
+}
+
+impl Settings {
+    /// Adds a value for a parameter.
+    #[must_use]
+    pub fn parameter(self, name: &str, value: &str) -> Self {
+        self.with(SettingKind::Parameter, name, value)
+    }
+
+    /// Adds a value for a coordinate.
+    #[must_use]
+    pub fn position(self, name: &str, value: &str) -> Self {
+        self.with(SettingKind::Position, name, value)
+    }
+
+    /// Adds a value for the rate of a coordinate.
+    #[must_use]
+    pub fn rate(self, name: &str, value: &str) -> Self {
+        self.with(SettingKind::Rate, name, value)
+    }
+
+    /// Adds a setting written as `name=value`.
+    ///
+    /// # Errors
+    /// A fault if there is no `=`, or nothing on one side of it.
+    pub fn push(&mut self, kind: SettingKind, text: &str) -> Result<(), Fault> {
+        let malformed = || Fault::general(FaultKind::MalformedSetting { text: text.to_owned() });
+        let (name, value) = text.split_once('=').ok_or_else(malformed)?;
+        let (name, value) = (name.trim(), value.trim());
+        if name.is_empty() || value.is_empty() {
+            return Err(malformed());
+        }
+        self.entries.push(Setting { kind, name: name.to_owned(), value: value.to_owned() });
+        Ok(())
+    }
+
+    /// The settings; [`Source::Setting`] counts them.
+    pub fn entries(&self) -> &[Setting] {
+        &self.entries
+    }
+
+    fn with(mut self, kind: SettingKind, name: &str, value: &str) -> Self {
+        self.entries.push(Setting { kind, name: name.to_owned(), value: value.to_owned() });
+        self
+    }
+}
+
+impl Model {
+    /// The model with parameters, coordinate values and rates replaced.
+    ///
+    /// # Errors
+    /// Every unknown name, expression that cannot be read, dimension that has changed, and circle of
+    /// parameters, each with its place in the text of the setting.
+    pub fn with(&self, settings: &Settings) -> Result<Self, Faults> {
+        let mut model = self.clone();
+        let mut faults = Faults::default();
+        for (index, setting) in settings.entries().iter().enumerate() {
+            if let Err(fault) = model.change(setting, Source::Setting(index)) {
+                faults.append(fault);
+            }
+        }
+        let model = faults.or(model)?;
+        model.checked()
+    }
+
+    fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {
+        let name = setting.name.as_str();
+        match setting.kind {
+            SettingKind::Parameter => {
+                let Some(index) = self.parameters.iter().position(|p| p.name.as_ref() == name) else {
+                    return Err(unknown("parameter", setting, source, self.parameters.iter().map(|p| &*p.name)));
+                };
+                let old = self.parameter_dimension(index);
+                let formula = self.setting_formula(setting, source, old)?;
+                self.parameters[index].value = self.add_formula(formula);
+            }
+            SettingKind::Position | SettingKind::Rate => {
+                let Some(index) = self.coordinates.iter().position(|c| c.name.as_ref() == name) else {
+                    return Err(unknown("coordinate", setting, source, self.coordinates.iter().map(|c| &*c.name)));
+                };
+                let position = setting.kind == SettingKind::Position;
+                let wanted = dimension_of(&self.coordinates[index], position);
+                let formula = self.setting_formula(setting, source, Some(wanted))?;
+                let id = Some(self.add_formula(formula));
+                let coordinate = &mut self.coordinates[index];
+                if position { coordinate.value = id } else { coordinate.rate = id }
+            }
+        }
+        Ok(())
+    }
+
+    fn setting_formula(
+        &self,
+        setting: &Setting,
+        source: Source,
+        wanted: Option<Dimension>,
+    ) -> Result<Formula, Faults> {
+        let start = setting.name.len() + 1;
+        let origin = Origin { source, span: start..start + setting.value.len(), expression_start: Some(start) };
+        let expression = parse(&setting.value, &self.names()).map_err(|list| {
+            let mut faults = Faults::default();
+            list.into_iter().for_each(|fault| faults.push(origin.fault(fault)));
+            faults
+        })?;
+        let what = Arc::from(format!("the value of {}", setting.name));
+        Ok(Formula { expression, wanted, may_move: false, what, origin })
+    }
+
+    fn add_formula(&mut self, formula: Formula) -> FormulaId {
+        let formulas = Arc::make_mut(&mut self.formulas);
+        formulas.push(formula);
+        FormulaId(formulas.len() - 1)
+    }
+}
+
+/// Dimension of a coordinate's value, or of its rate.
+pub(super) fn dimension_of(coordinate: &Coordinate, position: bool) -> Dimension {
+    match (coordinate.kind.is_angle(), position) {
+        (true, true) => Dimension::ANGLE,
+        (true, false) => Dimension::ANGULAR_VELOCITY,
+        (false, true) => Dimension::LENGTH,
+        (false, false) => Dimension::VELOCITY,
+    }
+}
+
+fn unknown<'a>(
+    what: &'static str,
+    setting: &Setting,
+    source: Source,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Faults {
+    let kind = FaultKind::UnknownName {
+        what,
+        name: setting.name.clone(),
+        nearest: nearest(&setting.name, known.clone()),
+        known: known.map(str::to_owned).collect(),
+    };
+    Fault::new(kind, Place { source, span: 0..setting.name.len() }).into()
+}
