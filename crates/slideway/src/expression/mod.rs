@@ -6,8 +6,8 @@
 //!
 //! Units go on after a blank, `*` or `/`, each with a whole exponent. After `*` or `/` a name that is no unit ends the
 //! unit: `3 N*arm`. One that is both a unit and a name of the model is refused, with both ways to write it.
-//! Units are m, dm, cm, mm, um, µm, km, in, ft; kg, g, mg, Mg; s, ms, min; N, mN, kN, MN; Nm, kNm, J, kJ; W, kW;
-//! Pa, kPa, MPa, GPa; rad, mrad, deg, °; Hz, rpm; and %. Hz counts as 1/s, rpm as 2π/60 1/s.
+//! Units are `m dm cm mm um µm km in ft`, `kg g mg Mg`, `s ms min`, `N mN kN MN`, `Nm kNm J kJ`, `W kW`,
+//! `Pa kPa MPa GPa`, `rad mrad deg °`, `Hz rpm` and `%`. Hz counts as 1/s, rpm as 2π/60 1/s.
 //!
 //! | part | meaning |
 //! |---|---|
