@@ -1,1 +1,52 @@
-//! Expressions with units.
+//! The expressions of a model file: reading them, their dimensions, their values.
+//!
+//! Everything is evaluated in SI units. A number may carry a unit, which follows it at once or after a blank:
+//! `80 deg`, `25 mm`, `9.81 m/s^2`, `5 N m`, `2 kg m²`. What follows a number in this way is always a unit; products
+//! with a name are written with `*`.
+//!
+//! Units go on after a blank, `*` or `/`, each with a whole exponent. After `*` or `/` a name that is no unit ends the
+//! unit: `3 N*arm`. One that is both a unit and a name of the model is refused, with both ways to write it.
+//! Units are `m dm cm mm um µm km in ft`, `kg g mg Mg`, `s ms min`, `N mN kN MN`, `Nm kNm J kJ`, `W kW`,
+//! `Pa kPa MPa GPa`, `rad mrad deg °`, `Hz rpm` and `%`. Hz counts as 1/s, rpm as 2π/60 1/s.
+//!
+//! | part | meaning |
+//! |---|---|
+//! | `+ - * /`, `^`, `( )` | as usual; `^` binds tighter than a sign and to the right: `-2^2` is -4, `2^3^2` is 512 |
+//! | `x²`, `2 · x`, `−x` | superscripts, the dot and the minus sign of Unicode stand for `^`, `*` and `-` |
+//! | `sin cos tan asin acos atan sinh cosh tanh exp ln log10` | functions of a pure number or an angle in radian |
+//! | `atan2(y, x)`, `hypot(x, y)` | angle and length of the vector (x, y) |
+//! | `sqrt abs`, `min(x, y, ...)`, `max(x, y, ...)` | keep the dimension (`sqrt` halves it) |
+//! | `sign(x)` | -1, 0 or 1 |
+//! | `step(x)` | 0 for x < 0, else 1 |
+//! | `pi`, `t` | the number, the time |
+//! | `rate(q)` | rate of change of the coordinate `q` |
+//!
+//! ```
+//! use slideway::expression::{Names, Values, parse};
+//!
+//! let mut names = Names::new();
+//! names.parameter("l");
+//! names.coordinate("phi");
+//! let height = parse("l*sin(phi) + 25 mm", &names).unwrap();
+//! let values = Values { parameters: &[2.0], coordinates: &[0.0], rates: &[0.0], time: 0.0 };
+//! assert_eq!(height.evaluate(&values), Ok(0.025));
+//! ```
+
+mod dimension;
+mod evaluate;
+mod fault;
+mod function;
+mod inference;
+mod lexer;
+mod literal;
+mod names;
+mod parser;
+mod program;
+mod unit;
+
+pub use dimension::{Dimension, Inferred};
+pub use evaluate::Values;
+pub use fault::{ExpressionFault, ExpressionFaultKind};
+pub use names::{Names, Symbol, is_reserved, is_valid_name};
+pub use parser::{MAX_DEPTH, MAX_LENGTH, parse};
+pub use program::Expression;

@@ -1,0 +1,309 @@
+//! What can be wrong with an expression.
+
+use std::ops::Range;
+
+use super::dimension::Dimension;
+use super::names::Symbol;
+
+/// A fault of an expression and its place in the text.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{kind}")]
+pub struct ExpressionFault {
+    /// What is wrong.
+    pub kind: ExpressionFaultKind,
+    /// Where: byte offsets into the text of the expression.
+    pub span: Range<usize>,
+}
+
+impl ExpressionFault {
+    pub(super) fn new(kind: ExpressionFaultKind, span: Range<usize>) -> Self {
+        Self { kind, span }
+    }
+
+    /// A proposal for putting it right, where there is one.
+    ///
+    /// ```
+    /// use slideway::expression::{Names, parse};
+    ///
+    /// let mut names = Names::new();
+    /// names.parameter("length");
+    /// let faults = parse("2*lenght", &names).unwrap_err();
+    /// assert_eq!(faults[0].to_string(), "unknown name `lenght`");
+    /// assert_eq!(faults[0].hint().as_deref(), Some("did you mean `length`?"));
+    /// ```
+    pub fn hint(&self) -> Option<String> {
+        self.kind.hint()
+    }
+}
+
+/// What is wrong with an expression.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExpressionFaultKind {
+    /// There is nothing but blanks.
+    #[error("the expression is empty")]
+    Empty,
+    /// The text is longer than any sensible expression.
+    #[error("the expression has {length} bytes, more than the {limit} allowed")]
+    TooLong {
+        /// Bytes in the text.
+        length: usize,
+        /// Bytes allowed.
+        limit: usize,
+    },
+    /// Parentheses, signs and operators are nested too deeply.
+    #[error("the expression is nested more than {limit} levels deep")]
+    TooDeep {
+        /// Levels allowed.
+        limit: usize,
+    },
+    /// A character that no expression contains.
+    #[error("unexpected character `{character}`")]
+    UnexpectedCharacter {
+        /// The character.
+        character: char,
+    },
+    /// A number that a 64-bit floating-point number cannot hold.
+    #[error("the number is too large")]
+    NumberTooLarge,
+    /// The text stops where a number, name or `(` must follow.
+    #[error("the expression ends where a number, a name or `(` is expected")]
+    UnexpectedEnd,
+    /// Something else stands where a number, name or `(` must.
+    #[error("expected a number, a name or `(`, found `{found}`")]
+    ExpectedOperand {
+        /// What stands there.
+        found: String,
+    },
+    /// Two parts follow each other with nothing between them.
+    #[error("expected an operator, found `{found}`")]
+    ExpectedOperator {
+        /// What stands there.
+        found: String,
+    },
+    /// A `(` that nothing closes.
+    #[error("this `(` is never closed")]
+    UnclosedParenthesis,
+    /// A `)` that closes nothing.
+    #[error("this `)` closes nothing")]
+    UnmatchedParenthesis,
+    /// A name that is neither reserved nor one of the model's.
+    #[error("unknown name `{name}`")]
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The known name most like it.
+        nearest: Option<String>,
+        /// Whether a unit has this name.
+        is_unit: bool,
+    },
+    /// Something called as a function that is none.
+    #[error("unknown function `{name}`")]
+    UnknownFunction {
+        /// The name.
+        name: String,
+        /// The function most like it.
+        nearest: Option<&'static str>,
+        /// Whether the model has something of this name.
+        is_name: bool,
+    },
+    /// A function's name without the arguments.
+    #[error("the function `{name}` needs arguments in parentheses")]
+    FunctionWithoutArguments {
+        /// The function.
+        name: String,
+    },
+    /// Too few or too many arguments.
+    #[error("`{function}` takes {expected}, not {found}")]
+    WrongArgumentCount {
+        /// The function.
+        function: String,
+        /// How many it takes, in words.
+        expected: &'static str,
+        /// How many there are.
+        found: usize,
+    },
+    /// `rate(...)` of something else than the name of a coordinate.
+    #[error("`rate` takes the name of one coordinate")]
+    RateArgument,
+    /// `rate(...)` of a parameter or of time.
+    #[error("`{name}` is not a coordinate and has no rate")]
+    NotACoordinate {
+        /// The name.
+        name: String,
+        /// The coordinate most like it.
+        nearest: Option<String>,
+    },
+    /// Something that follows a number and is no unit.
+    #[error("unknown unit `{unit}`")]
+    UnknownUnit {
+        /// What stands there.
+        unit: String,
+        /// The units most like it.
+        nearest: Vec<&'static str>,
+        /// Whether an expression may use it as a name or function.
+        is_name: bool,
+    },
+    /// After a unit and `*` or `/`, a name that could be another unit or something of the model.
+    #[error("`{name}` could be the unit or the model's `{name}`")]
+    AmbiguousUnit {
+        /// The name.
+        name: String,
+        /// How to write it if the model's is meant.
+        as_name: String,
+        /// How to write it if the unit is meant.
+        as_unit: String,
+    },
+    /// An exponent of a unit that is not a whole number between -127 and 127.
+    #[error("the exponent of a unit must be a whole number between -127 and 127")]
+    UnitExponent,
+    /// A sum, difference, comparison or the like of two dimensions.
+    #[error("`{operation}` joins {left} and {right}")]
+    DimensionMismatch {
+        /// The operator or function.
+        operation: &'static str,
+        /// Dimension of its first argument.
+        left: Dimension,
+        /// Dimension of its second argument.
+        right: Dimension,
+    },
+    /// A function of pure numbers applied to something with a dimension.
+    #[error("`{function}` takes an angle or pure number, not {found}")]
+    NotDimensionless {
+        /// The function.
+        function: &'static str,
+        /// Dimension of its argument.
+        found: Dimension,
+    },
+    /// An exponent with a dimension.
+    #[error("an exponent must be a pure number, not {found}")]
+    ExponentDimension {
+        /// Dimension of the exponent.
+        found: Dimension,
+    },
+    /// A power or root of a quantity that has no dimension.
+    #[error("{base} to the power {exponent} has no dimension that makes sense")]
+    FractionalPower {
+        /// Dimension of the base.
+        base: Dimension,
+        /// The exponent.
+        exponent: f64,
+    },
+    /// A quantity with a dimension to a power that is not a constant.
+    #[error("{base} to a power that varies has no fixed dimension")]
+    VariablePower {
+        /// Dimension of the base.
+        base: Dimension,
+    },
+    /// The exponents of the dimension leave the range from -128 to 127.
+    #[error("the exponents of the dimension are too large")]
+    DimensionTooLarge,
+    /// A division by zero.
+    #[error("division by zero: {numerator} / 0")]
+    DivisionByZero {
+        /// What is divided.
+        numerator: f64,
+    },
+    /// An operation that has no value, or one too large, for these arguments.
+    #[error("`{operation}` has no finite value for {}", listed(.arguments))]
+    NotFinite {
+        /// The operator or function.
+        operation: &'static str,
+        /// Its arguments.
+        arguments: Vec<f64>,
+    },
+    /// The value given for a name is infinite or not a number.
+    #[error("the value {value} is not finite")]
+    ValueNotFinite {
+        /// The value.
+        value: f64,
+    },
+    /// No value was given for a name.
+    #[error("no value is given for {symbol:?}")]
+    MissingValue {
+        /// What the name stands for.
+        symbol: Symbol,
+    },
+}
+
+impl ExpressionFaultKind {
+    fn hint(&self) -> Option<String> {
+        match self {
+            Self::UnexpectedCharacter { character } => character_hint(*character),
+            Self::ExpectedOperand { found } if found == "*" => Some("write `^` for a power".to_owned()),
+            Self::ExpectedOperator { found } if found == "," => {
+                Some("write decimals with a point, as in 1.5".to_owned())
+            }
+            Self::ExpectedOperator { .. } | Self::UnknownFunction { is_name: true, .. } => {
+                Some(MULTIPLY.to_owned())
+            }
+            Self::UnknownName { name, is_unit: true, .. } => {
+                Some(format!("`{name}` is a unit: it must follow a number, as in `1 {name}`"))
+            }
+            Self::UnknownName { nearest, .. } | Self::NotACoordinate { nearest, .. } => {
+                nearest.as_deref().map(did_you_mean)
+            }
+            Self::UnknownFunction { nearest, .. } => nearest.map(did_you_mean),
+            Self::UnknownUnit { unit, nearest, is_name } => unit_hint(unit, nearest, *is_name),
+            Self::AmbiguousUnit { name, as_name, as_unit } => {
+                Some(format!("write `{as_name}` for the model's `{name}`, `{as_unit}` for the unit"))
+            }
+            Self::UnitExponent => {
+                Some("use parentheses to raise the whole quantity to a power, as in `(2 m)^x`".to_owned())
+            }
+            Self::DimensionMismatch { .. } => Some("give every term the same kind of unit".to_owned()),
+            Self::NotFinite { operation, arguments } => domain_hint(operation, arguments).map(str::to_owned),
+            _ => None,
+        }
+    }
+}
+
+const MULTIPLY: &str = "write `*` to multiply";
+
+fn did_you_mean(name: &str) -> String {
+    format!("did you mean `{name}`?")
+}
+
+fn character_hint(character: char) -> Option<String> {
+    let hint = match character {
+        '\u{221a}' => "write `sqrt(...)` for a square root",
+        '[' | ']' | '{' | '}' => "use `(` and `)` only",
+        '\u{f7}' | ':' => "write `/` to divide",
+        ';' => "separate arguments with `,`",
+        _ => return None,
+    };
+    Some(hint.to_owned())
+}
+
+fn unit_hint(unit: &str, nearest: &[&str], is_name: bool) -> Option<String> {
+    if is_name {
+        return Some(MULTIPLY.to_owned());
+    }
+    let exponent = unit.strip_prefix(['e', 'E']);
+    if exponent.is_some_and(|digits| digits.chars().all(|digit| digit.is_ascii_digit())) {
+        return Some("an exponent needs digits, and no blank before it, as in `1e3`".to_owned());
+    }
+    if nearest.is_empty() {
+        return None;
+    }
+    let quoted: Vec<String> = nearest.iter().map(|name| format!("`{name}`")).collect();
+    Some(format!("did you mean {}?", quoted.join(" or ")))
+}
+
+fn domain_hint(operation: &str, arguments: &[f64]) -> Option<&'static str> {
+    match (operation, arguments) {
+        ("sqrt", [x]) if *x < 0.0 => Some("a square root needs an argument that is not negative"),
+        ("ln" | "log10", [x]) if *x <= 0.0 => Some("a logarithm needs a positive argument"),
+        ("asin" | "acos", [_]) => Some("the argument must lie between -1 and 1"),
+        ("^", [base, _]) if *base == 0.0 => Some("zero has no negative power"),
+        ("^", [base, power]) if *base < 0.0 && power.fract() != 0.0 => {
+            Some("a negative base needs a whole exponent")
+        }
+        _ => None,
+    }
+}
+
+fn listed(arguments: &[f64]) -> String {
+    let written: Vec<String> = arguments.iter().map(|argument| format!("{argument:?}")).collect();
+    written.join(" and ")
+}

@@ -1,0 +1,135 @@
+//! Reads a number and the unit that follows it.
+
+use std::ops::Range;
+
+use super::dimension::Inferred;
+use super::fault::{ExpressionFault, ExpressionFaultKind};
+use super::inference::whole_exponent;
+use super::lexer::TokenKind;
+use super::names::{is_reserved, nearest};
+use super::parser::{Parser, Read};
+use super::unit::{self, Scale, UNITS, Unit};
+
+/// How a unit is joined to what stands before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Joint {
+    Blank,
+    Times,
+    Divide,
+}
+
+/// The most units proposed in place of an unknown one.
+const MAX_PROPOSALS: usize = 3;
+
+impl<'t> Parser<'t> {
+    /// A number and its unit, if one follows; returns the place of both.
+    pub(super) fn literal(&mut self, number: f64) -> Read {
+        let mut span = self.advance();
+        if !matches!(self.peek(0), Some(TokenKind::Name(_))) {
+            self.number(number, Inferred::Number, span.clone());
+            return Ok(span);
+        }
+        let mut scale = Some(Scale::ONE);
+        while let Some((joint, name)) = self.joint() {
+            let factor = self.factor(joint, name, &span)?;
+            span.end = self.previous_end();
+            scale = scale.zip(factor).and_then(|(scale, (unit, exponent))| {
+                let scaled = scale.times(unit, exponent);
+                scaled.map_err(|kind| self.faults.push(ExpressionFault::new(kind, span.clone()))).ok()
+            });
+        }
+        if let Some(scale) = scale {
+            self.quantity(scale.in_si(number), scale, span.clone());
+        }
+        Ok(span)
+    }
+
+    fn quantity(&mut self, value: f64, scale: Scale, span: Range<usize>) {
+        if value.is_finite() {
+            self.number(value, Inferred::Known(scale.dimension()), span);
+        } else {
+            self.faults.push(ExpressionFault::new(ExpressionFaultKind::NumberTooLarge, span));
+        }
+    }
+
+    /// The next unit and its joint, if the unit goes on: after a blank everything is taken for a unit, after `*` or
+    /// `/` only what is one and is not called as a function (`min` is both).
+    fn joint(&self) -> Option<(Joint, &'t str)> {
+        let (joint, name) = match (self.peek(0)?, self.peek(1)) {
+            (TokenKind::Name(name), _) => return Some((Joint::Blank, name)),
+            (TokenKind::Times, Some(TokenKind::Name(name))) => (Joint::Times, name),
+            (TokenKind::Divide, Some(TokenKind::Name(name))) => (Joint::Divide, name),
+            _ => return None,
+        };
+        let is_unit = unit::find(name).is_some() && self.peek(2) != Some(TokenKind::Open);
+        is_unit.then_some((joint, name))
+    }
+
+    /// Reads a unit and its exponent, negative after `/`; `None` for a unit that is not known.
+    fn factor(
+        &mut self,
+        joint: Joint,
+        name: &str,
+        quantity: &Range<usize>,
+    ) -> Result<Option<(&'static Unit, i8)>, ExpressionFault> {
+        if joint != Joint::Blank {
+            self.advance();
+        }
+        let place = self.advance();
+        let Some(unit) = unit::find(name) else {
+            let fault = ExpressionFault::new(self.no_such_unit(name), place);
+            if self.peek(0) == Some(TokenKind::Open) {
+                return Err(fault);
+            }
+            self.faults.push(fault);
+            self.unit_exponent()?;
+            return Ok(None);
+        };
+        let written = self.unit_exponent()?;
+        let exponent = if joint == Joint::Divide { -written } else { written };
+        if joint != Joint::Blank && self.names.lookup(name).is_some() {
+            let before = &self.text[quantity.clone()];
+            let operator = if joint == Joint::Divide { '/' } else { '*' };
+            let power = if exponent == 1 { String::new() } else { format!("^{exponent}") };
+            let kind = ExpressionFaultKind::AmbiguousUnit {
+                name: name.to_owned(),
+                as_name: format!("({before}){operator}{name}"),
+                as_unit: format!("{before} {name}{power}"),
+            };
+            self.faults.push(ExpressionFault::new(kind, place));
+        }
+        Ok(Some((unit, exponent)))
+    }
+
+    fn no_such_unit(&self, name: &str) -> ExpressionFaultKind {
+        let mut nearest = nearest(name, UNITS.iter().map(|unit| unit.name));
+        nearest.truncate(MAX_PROPOSALS);
+        let is_name = is_reserved(name) || self.names.lookup(name).is_some();
+        ExpressionFaultKind::UnknownUnit { unit: name.to_owned(), nearest, is_name }
+    }
+
+    /// `²`, `^2`, `^-2` or nothing, which is 1.
+    fn unit_exponent(&mut self) -> Result<i8, ExpressionFault> {
+        let start = self.span().start;
+        let exponent = match self.peek(0) {
+            Some(TokenKind::Superscript(exponent)) => Some(exponent),
+            Some(TokenKind::Power) => {
+                self.advance();
+                let negative = self.peek(0) == Some(TokenKind::Minus);
+                if negative {
+                    self.advance();
+                }
+                match self.peek(0) {
+                    Some(TokenKind::Number(value)) => whole_exponent(if negative { -value } else { value }),
+                    _ => None,
+                }
+            }
+            _ => return Ok(1),
+        };
+        let span = start..self.advance().end;
+        let goes_on = matches!(self.peek(0), Some(TokenKind::Power | TokenKind::Superscript(_)));
+        exponent
+            .filter(|_| !goes_on)
+            .ok_or_else(|| ExpressionFault::new(ExpressionFaultKind::UnitExponent, span))
+    }
+}

@@ -1,0 +1,142 @@
+//! The names an expression may use.
+
+use std::collections::HashMap;
+
+use super::function::{self, FUNCTIONS};
+
+/// What a name in an expression stands for; an index is the position in the model's list of that kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Symbol {
+    /// A parameter of the model.
+    Parameter(usize),
+    /// A coordinate.
+    Coordinate(usize),
+    /// The rate of change of a coordinate, written `rate(name)`.
+    Rate(usize),
+    /// Time, written `t`.
+    Time,
+}
+
+/// The names visible in an expression, beside the reserved ones.
+///
+/// ```
+/// use slideway::expression::{Names, Symbol};
+///
+/// let mut names = Names::new();
+/// names.parameter("length");
+/// names.coordinate("phi");
+/// assert_eq!(names.lookup("phi"), Some(Symbol::Coordinate(0)));
+/// assert_eq!(names.nearest("lenght"), Some("length"));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    symbols: HashMap<String, Symbol>,
+    in_order: Vec<String>,
+    parameters: usize,
+    coordinates: usize,
+}
+
+impl Names {
+    /// No names but the reserved ones.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds the next parameter and returns its symbol: 0, 1, 2, ... in the order of the calls.
+    ///
+    /// A name already present keeps its first meaning; the caller reports the duplicate (see [`Names::lookup`]).
+    pub fn parameter(&mut self, name: &str) -> Symbol {
+        let symbol = Symbol::Parameter(self.parameters);
+        self.parameters += 1;
+        self.add(name, symbol)
+    }
+
+    /// Adds the next coordinate and returns its symbol, with the same rules as [`Names::parameter`].
+    pub fn coordinate(&mut self, name: &str) -> Symbol {
+        let symbol = Symbol::Coordinate(self.coordinates);
+        self.coordinates += 1;
+        self.add(name, symbol)
+    }
+
+    fn add(&mut self, name: &str, symbol: Symbol) -> Symbol {
+        if !self.symbols.contains_key(name) {
+            self.symbols.insert(name.to_owned(), symbol);
+            self.in_order.push(name.to_owned());
+        }
+        symbol
+    }
+
+    /// What `name` stands for; `t` is always time, and no other reserved name is a symbol.
+    pub fn lookup(&self, name: &str) -> Option<Symbol> {
+        if is_reserved(name) {
+            return (name == TIME).then_some(Symbol::Time);
+        }
+        self.symbols.get(name).copied()
+    }
+
+    /// The name most like `name`, if one is like it at all: one of those added, `t` or `pi`.
+    pub fn nearest(&self, name: &str) -> Option<&str> {
+        let known = self.in_order.iter().map(String::as_str).chain([TIME, PI]);
+        nearest(name, known).first().copied()
+    }
+
+    /// The coordinate most like `name`, if one is like it at all.
+    pub(super) fn nearest_coordinate(&self, name: &str) -> Option<&str> {
+        let is_coordinate = |other: &&str| matches!(self.lookup(other), Some(Symbol::Coordinate(_)));
+        nearest(name, self.in_order.iter().map(String::as_str).filter(is_coordinate)).first().copied()
+    }
+}
+
+pub(super) const TIME: &str = "t";
+pub(super) const PI: &str = "pi";
+pub(super) const RATE: &str = "rate";
+
+/// Whether `name` has a fixed meaning in every expression: `t`, `pi`, `rate` and the functions.
+///
+/// ```
+/// assert!(slideway::expression::is_reserved("sin"));
+/// assert!(!slideway::expression::is_reserved("m"));
+/// ```
+pub fn is_reserved(name: &str) -> bool {
+    [TIME, PI, RATE].contains(&name) || function::find(name).is_some()
+}
+
+/// Whether `name` has the form of a name: a letter or `_`, then letters, digits 0 to 9 and `_`.
+///
+/// Letters of every script count. A name of this form may still be reserved, see [`is_reserved`].
+///
+/// ```
+/// assert!(slideway::expression::is_valid_name("φ_1"));
+/// assert!(!slideway::expression::is_valid_name("2nd"));
+/// ```
+pub fn is_valid_name(name: &str) -> bool {
+    name.starts_with(starts_name) && name.chars().all(continues_name)
+}
+
+pub(super) fn starts_name(character: char) -> bool {
+    character.is_alphabetic() || character == '_'
+}
+
+pub(super) fn continues_name(character: char) -> bool {
+    starts_name(character) || character.is_ascii_digit()
+}
+
+/// The function most like `name`, if one is like it at all.
+pub(super) fn nearest_function(name: &str) -> Option<&'static str> {
+    let callable = FUNCTIONS.iter().map(|(known, _)| *known).chain([RATE]);
+    nearest(name, callable).first().copied()
+}
+
+/// The candidates most like `name`, best first: those that differ in case only, else those a few edits away.
+pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let lower = name.to_lowercase();
+    let length = name.chars().count();
+    let allowed = if length < 2 { 0 } else { (length / 3).max(1) };
+    let mut alike: Vec<(usize, &str)> = candidates
+        .map(|candidate| (strsim::damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
+        .filter(|(distance, _)| *distance <= allowed)
+        .collect();
+    alike.sort_by_key(|(distance, _)| *distance);
+    let best = alike.first().map(|(distance, _)| *distance);
+    alike.into_iter().take_while(|(distance, _)| Some(*distance) == best).map(|(_, name)| name).collect()
+}

@@ -1,0 +1,92 @@
+//! A parsed expression as a list of steps for a stack machine.
+
+use std::ops::Range;
+
+use super::dimension::Inferred;
+use super::function::{Binary, Unary};
+use super::names::Symbol;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Operation {
+    Number { value: f64, inferred: Inferred },
+    Symbol(Symbol),
+    Unary(Unary),
+    Binary(Binary),
+}
+
+/// One operation; the span is that of the whole part of the text whose value it leaves on the stack.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    pub(super) operation: Operation,
+    pub(super) span: Range<usize>,
+}
+
+/// A parsed expression.
+///
+/// Its operations are kept in the order of execution (postfix), so that evaluation neither allocates nor recurses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expression {
+    steps: Vec<Step>,
+    height: usize,
+    greatest_height: usize,
+}
+
+impl Expression {
+    /// A plain number without a unit.
+    ///
+    /// Evaluation reports a `value` that is not finite.
+    ///
+    /// ```
+    /// use slideway::expression::{Expression, Values};
+    ///
+    /// let values = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
+    /// assert_eq!(Expression::constant(2.5).evaluate(&values), Ok(2.5));
+    /// ```
+    pub fn constant(value: f64) -> Self {
+        let mut expression = Self::default();
+        expression.push(Operation::Number { value, inferred: Inferred::Number }, 0..0);
+        expression
+    }
+
+    /// Whether it contains no symbol at all, not even time.
+    pub fn is_constant(&self) -> bool {
+        self.symbols().next().is_none()
+    }
+
+    /// Every use of a symbol with its place in the text (byte offsets), from left to right.
+    ///
+    /// ```
+    /// use slideway::expression::{Names, Symbol, parse};
+    ///
+    /// let mut names = Names::new();
+    /// names.parameter("a");
+    /// let expression = parse("2*a + t", &names).unwrap();
+    /// let symbols: Vec<_> = expression.symbols().collect();
+    /// assert_eq!(symbols, [(Symbol::Parameter(0), 2..3), (Symbol::Time, 6..7)]);
+    /// ```
+    pub fn symbols(&self) -> impl Iterator<Item = (Symbol, Range<usize>)> + '_ {
+        self.steps.iter().filter_map(|step| match step.operation {
+            Operation::Symbol(symbol) => Some((symbol, step.span.clone())),
+            _ => None,
+        })
+    }
+
+    pub(super) fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// The greatest number of values on the stack during evaluation.
+    pub(super) fn greatest_height(&self) -> usize {
+        self.greatest_height
+    }
+
+    pub(super) fn push(&mut self, operation: Operation, span: Range<usize>) {
+        match operation {
+            Operation::Number { .. } | Operation::Symbol(_) => self.height += 1,
+            Operation::Unary(_) => {}
+            Operation::Binary(_) => self.height = self.height.saturating_sub(1),
+        }
+        self.greatest_height = self.greatest_height.max(self.height);
+        self.steps.push(Step { operation, span });
+    }
+}

@@ -1,0 +1,107 @@
+//! The units a number in an expression may carry.
+
+use std::f64::consts::PI;
+
+use super::dimension::Dimension;
+use super::fault::ExpressionFaultKind;
+
+/// A unit: its value in SI is `numerator / denominator`.
+///
+/// The two are kept apart because both are exact for decimal units: `35 mm` is then the number nearest to 0.035.
+#[derive(Debug)]
+pub(super) struct Unit {
+    pub(super) name: &'static str,
+    pub(super) numerator: f64,
+    pub(super) denominator: f64,
+    pub(super) dimension: Dimension,
+}
+
+const fn unit(name: &'static str, numerator: f64, denominator: f64, dimension: Dimension) -> Unit {
+    Unit { name, numerator, denominator, dimension }
+}
+
+/// No tonne: `t` is time in every expression. `µ` is in Unicode twice, as micro sign and as Greek letter.
+pub(super) const UNITS: &[Unit] = &[
+    unit("m", 1.0, 1.0, Dimension::LENGTH),
+    unit("dm", 1.0, 10.0, Dimension::LENGTH),
+    unit("cm", 1.0, 100.0, Dimension::LENGTH),
+    unit("mm", 1.0, 1e3, Dimension::LENGTH),
+    unit("um", 1.0, 1e6, Dimension::LENGTH),
+    unit("\u{b5}m", 1.0, 1e6, Dimension::LENGTH),
+    unit("\u{3bc}m", 1.0, 1e6, Dimension::LENGTH),
+    unit("km", 1e3, 1.0, Dimension::LENGTH),
+    unit("in", 127.0, 5000.0, Dimension::LENGTH),
+    unit("ft", 381.0, 1250.0, Dimension::LENGTH),
+    unit("kg", 1.0, 1.0, Dimension::MASS),
+    unit("g", 1.0, 1e3, Dimension::MASS),
+    unit("mg", 1.0, 1e6, Dimension::MASS),
+    unit("Mg", 1e3, 1.0, Dimension::MASS),
+    unit("s", 1.0, 1.0, Dimension::TIME),
+    unit("ms", 1.0, 1e3, Dimension::TIME),
+    unit("min", 60.0, 1.0, Dimension::TIME),
+    unit("N", 1.0, 1.0, Dimension::FORCE),
+    unit("mN", 1.0, 1e3, Dimension::FORCE),
+    unit("kN", 1e3, 1.0, Dimension::FORCE),
+    unit("MN", 1e6, 1.0, Dimension::FORCE),
+    unit("Nm", 1.0, 1.0, Dimension::TORQUE),
+    unit("kNm", 1e3, 1.0, Dimension::TORQUE),
+    unit("J", 1.0, 1.0, Dimension::TORQUE),
+    unit("kJ", 1e3, 1.0, Dimension::TORQUE),
+    unit("W", 1.0, 1.0, Dimension::POWER),
+    unit("kW", 1e3, 1.0, Dimension::POWER),
+    unit("Pa", 1.0, 1.0, Dimension::PRESSURE),
+    unit("kPa", 1e3, 1.0, Dimension::PRESSURE),
+    unit("MPa", 1e6, 1.0, Dimension::PRESSURE),
+    unit("GPa", 1e9, 1.0, Dimension::PRESSURE),
+    unit("rad", 1.0, 1.0, Dimension::ANGLE),
+    unit("mrad", 1.0, 1e3, Dimension::ANGLE),
+    unit("deg", PI / 180.0, 1.0, Dimension::ANGLE),
+    unit("\u{b0}", PI / 180.0, 1.0, Dimension::ANGLE),
+    unit("%", 1.0, 100.0, Dimension::NONE),
+    unit("Hz", 1.0, 1.0, Dimension::FREQUENCY),
+    unit("rpm", PI / 30.0, 1.0, Dimension::ANGULAR_VELOCITY),
+];
+
+pub(super) fn find(name: &str) -> Option<&'static Unit> {
+    UNITS.iter().find(|unit| unit.name == name)
+}
+
+/// A product of powers of units, built factor by factor.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    numerator: f64,
+    denominator: f64,
+    dimension: Dimension,
+}
+
+impl Scale {
+    pub(super) const ONE: Self = Self { numerator: 1.0, denominator: 1.0, dimension: Dimension::NONE };
+
+    /// This scale times `unit^exponent`; the fault is that the dimension or the factor leaves its range.
+    pub(super) fn times(self, unit: &Unit, exponent: i8) -> Result<Self, ExpressionFaultKind> {
+        let power = i32::from(exponent).abs();
+        let (over, under) = (unit.numerator.powi(power), unit.denominator.powi(power));
+        let (over, under) = if exponent < 0 { (under, over) } else { (over, under) };
+        let factor = unit.dimension.power(exponent);
+        let dimension = factor.and_then(|factor| self.dimension.times(factor));
+        let scale = Self {
+            numerator: self.numerator * over,
+            denominator: self.denominator * under,
+            dimension: dimension.ok_or(ExpressionFaultKind::DimensionTooLarge)?,
+        };
+        if scale.numerator.is_finite() && scale.denominator.is_finite() {
+            Ok(scale)
+        } else {
+            Err(ExpressionFaultKind::NumberTooLarge)
+        }
+    }
+
+    /// The SI value of `number` in this unit, possibly infinite.
+    pub(super) fn in_si(self, number: f64) -> f64 {
+        number * self.numerator / self.denominator
+    }
+
+    pub(super) fn dimension(self) -> Dimension {
+        self.dimension
+    }
+}
