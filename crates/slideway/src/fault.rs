@@ -2,7 +2,7 @@
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
-use crate::expression::{Dimension, ExpressionFaultKind, Inferred};
+use crate::expression::{Dimension, ExpressionFaultKind};
 use std::fmt;
 use std::ops::Range;
 
@@ -160,7 +160,7 @@ pub enum FaultKind {
     #[error("{0}")]
     Expression(ExpressionFaultKind),
     #[error("{found} where {wanted} is expected")]
-    WrongDimension { wanted: Dimension, found: Inferred },
+    WrongDimension { wanted: Dimension, found: Dimension },
     #[error("{what} cannot depend on the motion, but it uses `{symbol}`")]
     DependsOnMotion { what: String, symbol: String },
     #[error("parameters refer to each other in a circle: {}", cycle.join(" -> "))]
@@ -193,16 +193,16 @@ pub enum FaultKind {
     MalformedSetting { text: String },
 
     // Degrees of freedom and coordinates.
-    #[error("the structure is redundant: {} excess, so the reactions are indeterminate", constraints(*excess))]
+    #[error("the structure is redundant: {} in excess, so the reactions are indeterminate", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
-    #[error("the position is singular: the joints lose {} there, so the reactions are indeterminate", constraints(*lost))]
+    #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
     SingularPosition { lost: usize, joints: Vec<String> },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
     NoFreedom,
     #[error("{} of freedom, but {}", degrees(*degrees_of_freedom), coordinates(*chosen))]
     CoordinateCount { degrees_of_freedom: usize, chosen: usize, undetermined: Vec<String> },
     #[error("the chosen coordinates do not determine the motion of {}", bodies.join(", "))]
-    DependentCoordinates { bodies: Vec<String>, rates: bool },
+    DependentCoordinates { bodies: Vec<String> },
 
     // Assembly of the state.
     #[error("the mechanism cannot be assembled in this state: {joint} stays open by {gap}")]
@@ -274,7 +274,7 @@ impl FaultKind {
             Self::MalformedSetting { .. } => Some("for instance `--set mu=0.2` or `--set \"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some("move it a little with --at to leave the singular position"),
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
-            Self::DependentCoordinates { rates: false, .. } => {
+            Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
             Self::OverlapVanished { .. } => Some("the block has left its guide; use --at with a smaller displacement"),
@@ -349,7 +349,7 @@ fn are(bodies: &[String]) -> String {
 }
 
 fn constraints(count: usize) -> String {
-    if count == 1 { "one constraint is in".into() } else { format!("{count} constraints are in") }
+    if count == 1 { "1 constraint is".into() } else { format!("{count} constraints are") }
 }
 
 fn degrees(count: usize) -> String {

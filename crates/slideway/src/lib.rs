@@ -6,5 +6,11 @@
 //! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> Report
 //! ```
 
+pub mod configuration;
 pub mod expression;
+pub mod fault;
+pub mod kinetics;
+pub mod mechanism;
+pub mod ids;
+pub mod model;
 pub mod modes;

@@ -227,7 +227,8 @@ pub enum ExpressionFaultKind {
 }
 
 impl ExpressionFaultKind {
-    fn hint(&self) -> Option<String> {
+    /// What to do about it, where there is something to say.
+    pub fn hint(&self) -> Option<String> {
         match self {
             Self::UnexpectedCharacter { character } => character_hint(*character),
             Self::ExpectedOperand { found } if found == "*" => Some("write `^` for a power".to_owned()),

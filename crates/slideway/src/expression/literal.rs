@@ -72,10 +72,12 @@ impl<'t> Parser<'t> {
         name: &str,
         quantity: &Range<usize>,
     ) -> Result<Option<(&'static Unit, i8)>, ExpressionFault> {
+        let before_joint = self.previous_end();
         if joint != Joint::Blank {
             self.advance();
         }
         let place = self.advance();
+        let joined = &self.text[before_joint..place.start] == "/";
         let Some(unit) = unit::find(name) else {
             let fault = ExpressionFault::new(self.no_such_unit(name), place);
             if self.peek(0) == Some(TokenKind::Open) {
@@ -87,7 +89,7 @@ impl<'t> Parser<'t> {
         };
         let written = self.unit_exponent()?;
         let exponent = if joint == Joint::Divide { -written } else { written };
-        if joint != Joint::Blank && self.names.lookup(name).is_some() {
+        if joint != Joint::Blank && !joined && self.names.lookup(name).is_some() {
             let before = &self.text[quantity.clone()];
             let operator = if joint == Joint::Divide { '/' } else { '*' };
             let power = if exponent == 1 { String::new() } else { format!("^{exponent}") };

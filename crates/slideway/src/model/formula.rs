@@ -35,6 +35,17 @@ impl Origin {
     }
 }
 
+/// Which values a quantity may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Allowed {
+    /// Any finite number.
+    Any,
+    /// Numbers greater than zero.
+    Positive,
+    /// Numbers not below zero.
+    NotNegative,
+}
+
 /// A number or an expression of the model.
 #[derive(Debug, Clone)]
 pub struct Formula {
@@ -44,6 +55,10 @@ pub struct Formula {
     pub wanted: Option<Dimension>,
     /// Whether it may use coordinates, rates and time.
     pub may_move: bool,
+    /// Which values it may have.
+    pub allowed: Allowed,
+    /// Whether it could not be read, or uses a parameter that could not; only while a model is read.
+    pub(super) broken: bool,
     /// What it is, in the words of the messages: "the mass of bar".
     pub what: std::sync::Arc<str>,
     /// Where it stands.
@@ -54,7 +69,7 @@ impl Formula {
     /// Its value from the parameters alone.
     ///
     /// # Errors
-    /// A fault if the value is not finite.
+    /// A fault if the value is not finite or not allowed.
     pub fn constant(&self, parameters: &[f64]) -> Result<f64, Fault> {
         self.value(&Values { parameters, coordinates: &[], rates: &[], time: 0.0 })
     }
@@ -62,9 +77,19 @@ impl Formula {
     /// Its value in a state.
     ///
     /// # Errors
-    /// A fault if the value is not finite.
+    /// A fault if the value is not finite or not allowed.
     pub fn value(&self, values: &Values<'_>) -> Result<f64, Fault> {
-        self.expression.evaluate(values).map_err(|fault| self.origin.fault(fault))
+        let value = self.expression.evaluate(values).map_err(|fault| self.origin.fault(fault))?;
+        let (allowed, wanted) = match self.allowed {
+            Allowed::Any => (true, ""),
+            Allowed::Positive => (value > 0.0, "greater than zero"),
+            Allowed::NotNegative => (value >= 0.0, "at least zero"),
+        };
+        if allowed {
+            return Ok(value);
+        }
+        let kind = FaultKind::OutOfRange { what: self.what.to_string(), wanted, value };
+        Err(Fault::new(kind, self.origin.place()))
     }
 
     /// Whether its value depends on coordinates, rates or time.
@@ -84,7 +109,7 @@ impl Formula {
         }
         match (self.expression.dimension(of), self.wanted) {
             (Err(fault), _) => faults.push(self.origin.fault(fault)),
-            (Ok(found), Some(wanted)) if !found.fits(wanted) => {
+            (Ok(Inferred::Known(found)), Some(wanted)) if found != wanted => {
                 faults.push(Fault::new(FaultKind::WrongDimension { wanted, found }, self.origin.place()));
             }
             _ => {}

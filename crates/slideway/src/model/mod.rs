@@ -30,6 +30,7 @@
 //! assert!(model.with(&Settings::default().parameter("m", "3 m")).is_err());
 //! ```
 
+mod check;
 mod file;
 mod formula;
 mod quantity;
@@ -39,7 +40,7 @@ mod settings;
 mod structure;
 
 pub use file::{CarriedBy, ForceFrame, PreloadLine};
-pub use formula::{Formula, Origin};
+pub use formula::{Allowed, Formula, Origin};
 pub use settings::{Setting, SettingKind, Settings};
 
 use crate::fault::{Fault, FaultKind, Faults, Place};
@@ -56,8 +57,8 @@ pub struct Model {
     pub title: Option<String>,
     /// The named parameters, in the order of the file.
     pub parameters: Vec<Parameter>,
-    /// Acceleration of free fall [x, y].
-    pub gravity: [FormulaId; 2],
+    /// Acceleration of free fall.
+    pub gravity: Gravity,
     /// The bodies, in the order of the file.
     pub bodies: Vec<Body>,
     /// The joints, in the order of the file.
@@ -72,6 +73,17 @@ pub struct Model {
     pub formulas: Arc<Vec<Formula>>,
     /// The parameters in an order in which each uses only those before it.
     evaluation_order: Vec<usize>,
+}
+
+/// Acceleration of free fall.
+#[derive(Debug, Clone, Copy)]
+pub enum Gravity {
+    /// No gravity.
+    None,
+    /// Its magnitude, along -y.
+    Down(FormulaId),
+    /// Its components [x, y].
+    Components([FormulaId; 2]),
 }
 
 /// A named number.
@@ -419,22 +431,6 @@ impl Model {
     /// The formula with this number.
     pub fn formula(&self, id: FormulaId) -> &Formula {
         &self.formulas[id.index()]
-    }
-
-    /// The values of all parameters, in the order of the file.
-    ///
-    /// # Errors
-    /// A fault for each parameter that has no finite value.
-    pub fn parameter_values(&self) -> Result<Vec<f64>, Faults> {
-        let mut values = vec![0.0; self.parameters.len()];
-        let mut faults = Faults::default();
-        for &index in &self.evaluation_order {
-            match self.formula(self.parameters[index].value).constant(&values) {
-                Ok(value) => values[index] = value,
-                Err(fault) => faults.push(fault),
-            }
-        }
-        faults.or(values)
     }
 }
 

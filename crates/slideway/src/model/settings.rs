@@ -1,6 +1,6 @@
 //! What a command changes in a model before it is solved: parameters, coordinate values and rates.
 
-use super::formula::{Formula, Origin};
+use super::formula::{Allowed, Formula, Origin};
 use super::{Coordinate, Model};
 use crate::expression::{Dimension, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
@@ -101,8 +101,8 @@ impl Model {
                 faults.append(fault);
             }
         }
-        let model = faults.or(model)?;
-        model.checked()
+        let mut model = faults.or(model)?;
+        model.check(true).or(model)
     }
 
     fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {
@@ -145,7 +145,7 @@ impl Model {
             faults
         })?;
         let what = Arc::from(format!("the value of {}", setting.name));
-        Ok(Formula { expression, wanted, may_move: false, what, origin })
+        Ok(Formula { expression, wanted, allowed: Allowed::Any, may_move: false, broken: false, what, origin })
     }
 
     fn add_formula(&mut self, formula: Formula) -> FormulaId {

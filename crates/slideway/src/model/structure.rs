@@ -86,13 +86,12 @@ impl<'s> StructureCheck<'s> {
     /// Checks the keys of a table.
     fn table(&mut self, table: &DeTable<'_>, span: &Span, schema: &'s Schema, place: &str) {
         let schema = self.resolve(schema);
-        let empty = serde_json::Map::new();
-        let properties = schema.get("properties").and_then(Schema::as_object).unwrap_or(&empty);
+        let properties = schema.get("properties").and_then(Schema::as_object);
         for (key, value) in table {
             let name: &str = key.get_ref();
             let inner = if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") };
             let of_map = schema.get("additionalProperties").filter(|s| s.is_object());
-            match properties.get(name).or(of_map) {
+            match properties.and_then(|properties| properties.get(name)).or(of_map) {
                 Some(schema) => self.value(value, schema, &inner),
                 None => self.unknown_key(key, properties, place),
             }
@@ -109,10 +108,10 @@ impl<'s> StructureCheck<'s> {
     fn unknown_key(
         &mut self,
         key: &Spanned<std::borrow::Cow<'_, str>>,
-        properties: &serde_json::Map<String, Schema>,
+        properties: Option<&serde_json::Map<String, Schema>>,
         place: &str,
     ) {
-        let known: Vec<&str> = properties.keys().map(String::as_str).collect();
+        let known: Vec<&str> = properties.into_iter().flat_map(|p| p.keys()).map(String::as_str).collect();
         let kind = FaultKind::UnknownKey {
             key: key.get_ref().to_string(),
             table: place.to_owned(),

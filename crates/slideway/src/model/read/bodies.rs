@@ -70,8 +70,12 @@ impl Reader<'_> {
         let mass = self.formula(mass, Wanted::constant(format!("the mass of {name}"), Dimension::MASS).positive());
         let moment = self.moment(table, name, span);
         let centre = table.centre_of_mass.as_ref();
-        if centre.is_none() && !matches!(moment, Moment::Bar(_)) {
-            self.fault(FaultKind::NoneOf { owner, one_of: vec!["centre_of_mass"] }, span);
+        match (&moment, centre) {
+            (Moment::Bar(_), Some(_)) => {
+                self.fault(FaultKind::Both { owner, first: "shape.bar", second: "centre_of_mass" }, span);
+            }
+            (Moment::Bar(_), None) | (_, Some(_)) => {}
+            (_, None) => self.fault(FaultKind::NoneOf { owner, one_of: vec!["centre_of_mass"] }, span),
         }
         let centre_of_mass = centre.map(|place| self.place(place, &format!("the centre of mass of {name}")));
         Inertia::Massive { mass, centre_of_mass, moment }

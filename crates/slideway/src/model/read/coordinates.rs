@@ -66,7 +66,7 @@ impl Reader<'_> {
             self.fault(kind, span);
         }
         if let Some(joint) = &table.slide {
-            return CoordinateKind::Slide(self.joint(joint));
+            return CoordinateKind::Slide(self.sliding_joint(joint));
         }
         if let Some(body) = &table.rotation {
             let relative_to = self.frame_or_ground(table.relative_to.as_ref());

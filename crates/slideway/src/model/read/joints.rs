@@ -9,7 +9,7 @@ use super::super::{Contact, Joint, JointKind, Slider, SliderKind};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
-use crate::ids::{FormulaId, Frame};
+use crate::ids::FormulaId;
 use std::sync::Arc;
 
 /// The friction of one contact as it is written.
@@ -181,10 +181,5 @@ impl Reader<'_> {
             PerSide::Both(quantity) => [self.formula(quantity, wanted()); 2],
             PerSide::Each(sides) => [self.formula(&sides.plus, wanted()), self.formula(&sides.minus, wanted())],
         }
-    }
-
-    /// The name of a frame for messages.
-    pub(super) fn named(&self, frame: Frame) -> String {
-        self.frame_name(frame).to_owned()
     }
 }

@@ -9,9 +9,9 @@ mod joints;
 mod loads;
 
 use super::formula::{Allowed, Formula, Origin, expression_start};
-use super::quantity::{Components, Direction, Gravity, Name, Place, Quantity, Written};
-use super::sections::{Sections, sections};
-use super::{Along, Model, NamedPoint, Parameter};
+use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity, Written};
+use super::sections::{JointContents, Sections, sections};
+use super::{Along, Gravity, Model, NamedPoint, Parameter};
 use crate::expression::{Dimension, Expression, Names, is_reserved, is_valid_name, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
@@ -22,18 +22,24 @@ use std::sync::Arc;
 pub(super) fn read(text: &str) -> Result<Model, Faults> {
     let (sections, faults) = sections(text);
     let mut reader = Reader::new(text, &sections, faults);
-    let model = reader.model(sections);
-    let faults = reader.faults;
-    let checked = model.check();
-    match checked {
-        Err(found) if faults.is_empty() => Err(found),
-        Err(found) => {
-            let mut all = faults;
-            all.append(found);
-            Err(all)
-        }
-        Ok(()) => faults.or(model),
-    }
+    let mut model = reader.model(sections);
+    let mut faults = std::mem::take(&mut reader.faults);
+    let complete = faults.is_empty();
+    faults.append(model.check(complete));
+    faults.or(model)
+}
+
+/// Whether an entry is a sliding joint; one that could not be read may be one.
+fn slides(entry: &super::file::Entry<JointContents>) -> bool {
+    !matches!(entry.contents, Some(JointContents::Hinge(_)))
+}
+
+/// Names of the coordinates that are angles.
+fn angles(sections: &Sections) -> Vec<String> {
+    let is_angle = |entry: &&super::file::Entry<super::file::CoordinateTable>| {
+        entry.contents.as_ref().is_some_and(|table| table.rotation.is_some())
+    };
+    sections.coordinates.iter().filter(is_angle).map(|entry| entry.name.clone()).collect()
 }
 
 /// What a formula is wanted for.
@@ -73,9 +79,12 @@ struct Reader<'t> {
     points: BTreeMap<String, NamedPoint>,
     owners: BTreeMap<String, Vec<BodyId>>,
     bodies: Vec<String>,
-    joints: Vec<String>,
+    /// The joints and whether they are sliding joints.
+    joints: Vec<(String, bool)>,
     coordinates: Vec<String>,
-    /// Coordinates whose entry could not be read; naming one is no further fault.
+    /// The coordinates that are angles.
+    angles: Vec<String>,
+    /// The number zero, where the file gives none.
     zero: FormulaId,
 }
 
@@ -90,8 +99,9 @@ impl<'t> Reader<'t> {
             points: BTreeMap::new(),
             owners: BTreeMap::new(),
             bodies: sections.bodies.iter().map(|entry| entry.name.clone()).collect(),
-            joints: sections.joints.iter().map(|entry| entry.name.clone()).collect(),
+            joints: sections.joints.iter().map(|entry| (entry.name.clone(), slides(entry))).collect(),
             coordinates: sections.coordinates.iter().map(|entry| entry.name.clone()).collect(),
+            angles: angles(sections),
             zero: FormulaId(0),
         };
         for entry in &sections.parameters {
@@ -244,16 +254,14 @@ impl<'t> Reader<'t> {
         id
     }
 
-    fn gravity(&mut self, gravity: Option<&Gravity>) -> [FormulaId; 2] {
+    fn gravity(&mut self, gravity: Option<&WrittenGravity>) -> Gravity {
         match gravity {
-            None => [self.zero; 2],
-            Some(Gravity::Components(components)) => self.components(components, "gravity", Dimension::ACCELERATION),
-            Some(Gravity::Down(quantity)) => {
-                let wanted = Wanted::constant("gravity", Dimension::ACCELERATION);
-                let down = self.formula(quantity, wanted);
-                let mut formula = self.formulas[down.index()].clone();
-                formula.expression = formula.expression.negated();
-                [self.zero, self.push(formula)]
+            None => Gravity::None,
+            Some(WrittenGravity::Down(quantity)) => {
+                Gravity::Down(self.formula(quantity, Wanted::constant("gravity", Dimension::ACCELERATION)))
+            }
+            Some(WrittenGravity::Components(components)) => {
+                Gravity::Components(self.components(components, "gravity", Dimension::ACCELERATION))
             }
         }
     }
@@ -278,15 +286,12 @@ impl<'t> Reader<'t> {
         name.map_or(Frame::Ground, |name| self.frame(name))
     }
 
-    fn frame_name(&self, frame: Frame) -> &str {
-        frame.body().map_or("ground", |body| &self.bodies[body.index()])
-    }
-
-    fn joint(&mut self, name: &Name) -> JointId {
-        let found = self.joints.iter().position(|joint| *joint == name.text);
+    fn sliding_joint(&mut self, name: &Name) -> JointId {
+        let found = self.joints.iter().position(|(joint, slides)| *slides && *joint == name.text);
         JointId(found.unwrap_or_else(|| {
-            let known = self.joints.clone();
-            self.unknown_name("joint", name, known.iter().map(String::as_str));
+            let known: Vec<String> =
+                self.joints.iter().filter(|(_, slides)| *slides).map(|(joint, _)| joint.clone()).collect();
+            self.unknown_name("sliding joint", name, known.iter().map(String::as_str));
             0
         }))
     }

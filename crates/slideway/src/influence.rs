@@ -1,0 +1,93 @@
+//! Influence coefficients: how every unknown answers to a unit friction force of each contact, eqs. (3)-(5).
+//!
+//! Fifth stage of the pipeline: [`KineticEquations`] in, [`Influence`] out. All unknowns are affine in the
+//! friction forces,
+//!
+//! ```text
+//! N_j = N_j(0) + sum_k eta_jk^side F_k       and likewise the accelerations, couples, hinge forces and efforts
+//! ```
+//!
+//! and come from the one factorization of the kinetic equations. Since the side of contact `k` decides at which
+//! face its friction acts, column `k` has two versions; they are equal where the height is zero.
+
+use crate::ids::ContactId;
+use crate::kinetics::{KineticEquations, Layout, Reaction};
+use nalgebra::{DMatrix, DVector};
+
+/// The unknowns without friction, and what each contact's friction adds to them.
+#[derive(Debug, Clone)]
+pub struct Influence {
+    layout: Layout,
+    /// All unknowns without friction.
+    pub frictionless: DVector<f64>,
+    /// For each contact: what a unit friction force adds, at the face where the normal force is positive and at
+    /// the one where it is negative.
+    pub columns: Vec<[DVector<f64>; 2]>,
+    /// Index of each contact's normal force among the unknowns.
+    normal: Vec<usize>,
+}
+
+/// Friction of one contact, split by where it acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactFriction {
+    /// At the face that is pressed when the normal force is positive (N).
+    pub positive_face: f64,
+    /// At the face that is pressed when the normal force is negative (N).
+    pub negative_face: f64,
+}
+
+impl ContactFriction {
+    /// The whole friction force (N).
+    pub fn total(self) -> f64 {
+        self.positive_face + self.negative_face
+    }
+}
+
+impl Influence {
+    /// The influence coefficients of factored kinetic equations.
+    pub fn new(equations: &KineticEquations) -> Self {
+        let contacts = equations.contacts.len();
+        let layout = equations.layout.clone();
+        let normal = (0..contacts)
+            .map(|k| layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force"))
+            .collect();
+        Self {
+            layout,
+            frictionless: equations.frictionless(),
+            columns: (0..contacts).map(|k| equations.influence_of(ContactId(k))).collect(),
+            normal,
+        }
+    }
+
+    /// Where the unknowns stand.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Normal forces without friction, N(0): one for each contact (N).
+    pub fn normal_forces(&self) -> DVector<f64> {
+        self.normal_part(&self.frictionless)
+    }
+
+    /// eta_jk: what a unit friction force of contact k adds to the normal force of contact j, for friction at the
+    /// faces of positive normal force (`side` 0) or of negative (`side` 1). Square, dimensionless, eq. (4).
+    pub fn eta(&self, side: usize) -> DMatrix<f64> {
+        let contacts = self.columns.len();
+        DMatrix::from_fn(contacts, contacts, |j, k| self.columns[k][side][self.normal[j]])
+    }
+
+    /// The normal forces among all unknowns.
+    pub fn normal_part(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(self.normal.len(), self.normal.iter().map(|&index| unknowns[index]))
+    }
+
+    /// All unknowns for given friction forces, eqs. (3)-(5).
+    pub fn unknowns(&self, friction: &[ContactFriction]) -> DVector<f64> {
+        let mut unknowns = self.frictionless.clone();
+        for (column, friction) in self.columns.iter().zip(friction) {
+            unknowns.axpy(friction.positive_face, &column[0], 1.0);
+            unknowns.axpy(friction.negative_face, &column[1], 1.0);
+        }
+        unknowns
+    }
+}

@@ -1,0 +1,177 @@
+//! Weights, loads and the lines of action of the drives, as forces and couples on the bodies.
+
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{BodyId, Frame};
+use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Quantity};
+use nalgebra::Vector2;
+
+/// A force at a place, or a couple, on a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wrench {
+    /// What it acts on.
+    pub frame: Frame,
+    /// Where the force acts (m).
+    pub place: Vector2<f64>,
+    /// The force (N).
+    pub force: Vector2<f64>,
+    /// The couple (N m), counter-clockwise positive.
+    pub couple: f64,
+}
+
+impl Wrench {
+    fn force(frame: Frame, place: Vector2<f64>, force: Vector2<f64>) -> Self {
+        Self { frame, place, force, couple: 0.0 }
+    }
+
+    fn couple(frame: Frame, couple: f64) -> Self {
+        Self { frame, place: Vector2::zeros(), force: Vector2::zeros(), couple }
+    }
+}
+
+/// All weights and loads in a configuration.
+pub(super) fn applied(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<Wrench>, Faults> {
+    let mut loads = Loads { mechanism, configuration, wrenches: Vec::new() };
+    loads.weights();
+    let mut faults = Faults::default();
+    for load in &mechanism.loads {
+        if let Err(fault) = loads.load(load) {
+            faults.push(fault);
+        }
+    }
+    faults.or(loads.wrenches)
+}
+
+/// A unit effort of a drive and its reaction.
+pub(crate) fn unit_effort(mechanism: &Mechanism, configuration: &Configuration, effort: &Effort) -> Vec<Wrench> {
+    match *effort {
+        Effort::Force { at, direction, turns, reaction } => {
+            let direction = if turns { configuration.direction(at.frame, direction) } else { direction };
+            let place = configuration.position(mechanism, &at);
+            let opposite = reaction.map(|frame| Wrench::force(frame, place, -direction));
+            [Wrench::force(at.frame, place, direction)].into_iter().chain(opposite).collect()
+        }
+        Effort::Torque { body, reaction } => {
+            let opposite = reaction.map(|frame| Wrench::couple(frame, -1.0));
+            [Wrench::couple(body, 1.0)].into_iter().chain(opposite).collect()
+        }
+    }
+}
+
+struct Loads<'m> {
+    mechanism: &'m Mechanism,
+    configuration: &'m Configuration,
+    wrenches: Vec<Wrench>,
+}
+
+impl Loads<'_> {
+    fn weights(&mut self) {
+        for (index, body) in self.mechanism.bodies.iter().enumerate() {
+            let weight = body.mass * self.mechanism.gravity;
+            let place = self.configuration.poses[index].position;
+            self.wrenches.push(Wrench::force(Frame::Body(BodyId(index)), place, weight));
+        }
+    }
+
+    fn quantity(&self, quantity: Quantity) -> Result<f64, Fault> {
+        let Configuration { coordinates, rates, time, .. } = self.configuration;
+        self.mechanism.quantity(quantity, coordinates, rates, *time)
+    }
+
+    fn load(&mut self, load: &Load) -> Result<(), Fault> {
+        match &load.kind {
+            LoadKind::Force { at, components, axes, turns, reaction } => {
+                let mut force = Vector2::zeros();
+                for (component, axis) in components.iter().zip(axes) {
+                    let axis = if *turns { self.configuration.direction(at.frame, *axis) } else { *axis };
+                    force += self.quantity(*component)? * axis;
+                }
+                let place = self.configuration.position(self.mechanism, at);
+                self.wrenches.push(Wrench::force(at.frame, place, force));
+                if let Some(reaction) = reaction {
+                    self.wrenches.push(Wrench::force(*reaction, place, -force));
+                }
+            }
+            LoadKind::Torque { body, moment, reaction } => {
+                let moment = self.quantity(*moment)?;
+                self.couples(*body, *reaction, moment);
+            }
+            LoadKind::Spring { between, stiffness, free_length } => {
+                let (stiffness, free_length) = (self.quantity(*stiffness)?, self.quantity(*free_length)?);
+                self.spring(load, between, stiffness, free_length)?;
+            }
+            LoadKind::Damper { between, damping } => {
+                let damping = self.quantity(*damping)?;
+                self.damper(load, between, damping)?;
+            }
+            LoadKind::TorsionalSpring { between: [first, second], stiffness, free_angle } => {
+                let angle = self.configuration.angle(*first) - self.configuration.angle(*second);
+                let moment = -self.quantity(*stiffness)? * (angle - self.quantity(*free_angle)?);
+                self.couples(*first, Some(*second), moment);
+            }
+            LoadKind::TorsionalDamper { between: [first, second], damping } => {
+                let relative =
+                    self.configuration.angular_velocity(*first) - self.configuration.angular_velocity(*second);
+                let moment = -self.quantity(*damping)? * relative;
+                self.couples(*first, Some(*second), moment);
+            }
+        }
+        Ok(())
+    }
+
+    fn couples(&mut self, body: Frame, reaction: Option<Frame>, moment: f64) {
+        self.wrenches.push(Wrench::couple(body, moment));
+        if let Some(reaction) = reaction {
+            self.wrenches.push(Wrench::couple(reaction, -moment));
+        }
+    }
+
+    /// Pulls its ends together with k (length - free length).
+    fn spring(
+        &mut self,
+        load: &Load,
+        between: &[Attachment; 2],
+        stiffness: f64,
+        free_length: f64,
+    ) -> Result<(), Fault> {
+        let [first, second] = self.places(between);
+        let axis = second - first;
+        let pull = if free_length == 0.0 {
+            stiffness * axis
+        } else {
+            let length = axis.norm();
+            let tension = stiffness * (length - free_length);
+            if tension == 0.0 { Vector2::zeros() } else { tension * direction(load, axis)? }
+        };
+        self.pull(between, [first, second], pull);
+        Ok(())
+    }
+
+    /// Pulls its ends together with c times the rate of its length.
+    fn damper(&mut self, load: &Load, between: &[Attachment; 2], damping: f64) -> Result<(), Fault> {
+        if damping == 0.0 {
+            return Ok(());
+        }
+        let [first, second] = self.places(between);
+        let axis = direction(load, second - first)?;
+        let relative = self.configuration.velocity_at(between[1].frame, second)
+            - self.configuration.velocity_at(between[0].frame, first);
+        self.pull(between, [first, second], damping * axis.dot(&relative) * axis);
+        Ok(())
+    }
+
+    fn places(&self, between: &[Attachment; 2]) -> [Vector2<f64>; 2] {
+        between.each_ref().map(|end| self.configuration.position(self.mechanism, end))
+    }
+
+    fn pull(&mut self, between: &[Attachment; 2], places: [Vector2<f64>; 2], pull: Vector2<f64>) {
+        self.wrenches.push(Wrench::force(between[0].frame, places[0], pull));
+        self.wrenches.push(Wrench::force(between[1].frame, places[1], -pull));
+    }
+}
+
+fn direction(load: &Load, axis: Vector2<f64>) -> Result<Vector2<f64>, Fault> {
+    axis.try_normalize(0.0).ok_or_else(|| {
+        Fault::new(FaultKind::ZeroLength { load: load.name.to_string() }, load.place.clone())
+    })
+}

@@ -1,0 +1,319 @@
+//! The kinetic equations in descriptor form, eq. (1), and their factorization.
+//!
+//! Fourth stage of the pipeline: [`Mechanism`] and [`Configuration`] in, [`KineticEquations`] out.
+//!
+//! ```text
+//! M a - G^T lambda - B u - sum_k W_k^side F_k = f(q, qd, t)      three equations for each body
+//! G a                                         = gamma(q, qd)     one for each scalar constraint
+//! C a                                         = prescribed       one for each drive
+//! ```
+//!
+//! Unknown are the accelerations `a` of the bodies, the reactions `lambda` (hinge forces, normal forces,
+//! couples) and the efforts `u` of the drives; the friction forces `F` are the parameters.
+
+mod loads;
+mod rows;
+mod system;
+
+pub use loads::Wrench;
+pub(crate) use loads::unit_effort as effort_forces;
+
+use crate::configuration::{Configuration, ContactState};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
+use crate::mechanism::{JointKind, Mechanism, rot90};
+use crate::model::SliderKind;
+use nalgebra::{DMatrix, DVector, Vector2};
+use rows::ConstraintRow;
+use system::{Factorization, Singular};
+
+/// What a component of the vector of reactions is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reaction {
+    /// Component of a hinge force on the first body: 0 along x, 1 along y (N).
+    Hinge(JointId, usize),
+    /// Normal force of a contact on the block, along n (N).
+    Normal(ContactId),
+    /// Couple of a guided slider on the block about the middle of the pressed face (N m).
+    Couple(JointId),
+}
+
+/// Where the unknowns stand in their vector: accelerations, reactions, efforts of the drives.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layout {
+    bodies: usize,
+    reactions: Vec<Reaction>,
+    drives: usize,
+}
+
+impl Layout {
+    fn new(mechanism: &Mechanism) -> Self {
+        let mut reactions = Vec::new();
+        for (index, joint) in mechanism.joints.iter().enumerate() {
+            let id = JointId(index);
+            match &joint.kind {
+                JointKind::Hinge(_) => reactions.extend([Reaction::Hinge(id, 0), Reaction::Hinge(id, 1)]),
+                JointKind::Slider(slider) => {
+                    reactions.extend(slider.contacts.iter().map(|contact| Reaction::Normal(*contact)));
+                    if slider.kind == SliderKind::Guided {
+                        reactions.push(Reaction::Couple(id));
+                    }
+                }
+            }
+        }
+        Self { bodies: mechanism.bodies.len(), reactions, drives: mechanism.drives.len() }
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        3 * self.bodies + self.reactions.len() + self.drives
+    }
+
+    /// Whether there are no unknowns.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The reactions in their order.
+    pub fn reactions(&self) -> &[Reaction] {
+        &self.reactions
+    }
+
+    /// Index of a body's acceleration along x; those along y and of rotation follow.
+    pub fn acceleration(&self, body: BodyId) -> usize {
+        3 * body.index()
+    }
+
+    /// Index of a reaction, if the mechanism has it.
+    pub fn reaction(&self, reaction: Reaction) -> Option<usize> {
+        let index = self.reactions.iter().position(|other| *other == reaction)?;
+        Some(3 * self.bodies + index)
+    }
+
+    /// Index of a drive's effort.
+    pub fn effort(&self, drive: DriveId) -> usize {
+        3 * self.bodies + self.reactions.len() + drive.index()
+    }
+}
+
+/// The kinetic equations of a mechanism in a configuration, factored.
+#[derive(Debug, Clone)]
+pub struct KineticEquations {
+    /// Where the unknowns stand.
+    pub layout: Layout,
+    /// The contacts in this configuration.
+    pub contacts: Vec<ContactState>,
+    /// All that acts on the bodies besides reactions and friction: weights and loads.
+    pub applied: Vec<Wrench>,
+    /// Right-hand side without friction: f, gamma, prescribed accelerations.
+    load: DVector<f64>,
+    /// Unit friction of each contact at its face where the normal force is positive, and where it is negative.
+    friction: Vec<[DVector<f64>; 2]>,
+    factorization: Factorization,
+    coordinate_rows: Vec<ConstraintRow>,
+}
+
+impl KineticEquations {
+    /// The equations of a mechanism in a configuration.
+    ///
+    /// # Errors
+    /// Loads without a value or direction; a motion without inertia; drives that cannot produce their motion;
+    /// equations too ill-conditioned to be solved.
+    pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
+        let layout = Layout::new(mechanism);
+        let contacts: Vec<ContactState> =
+            (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
+        let applied = loads::applied(mechanism, configuration)?;
+        let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
+        let coordinate_rows = rows::coordinates(mechanism, configuration);
+        let builder = Builder { mechanism, configuration, layout: &layout };
+        let matrix = builder.matrix(&constraints, &coordinate_rows);
+        let load = builder.load(&applied, &constraints, &coordinate_rows)?;
+        let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
+        let factorization = Factorization::new(matrix)
+            .map_err(|singular| builder.singular_fault(&singular))?;
+        Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
+    }
+
+    /// The unknowns without friction.
+    pub fn frictionless(&self) -> DVector<f64> {
+        self.factorization.solve(&self.load)
+    }
+
+    /// What a unit friction force of a contact adds to the unknowns, for both sides of contact.
+    pub fn influence_of(&self, contact: ContactId) -> [DVector<f64>; 2] {
+        let [positive, negative] = &self.friction[contact.index()];
+        let first = self.factorization.solve(positive);
+        let second = if positive == negative { first.clone() } else { self.factorization.solve(negative) };
+        [first, second]
+    }
+
+    /// Estimate of how much rounding is amplified: ratio of the greatest to the least pivot.
+    pub fn condition(&self) -> f64 {
+        self.factorization.condition()
+    }
+
+    /// Accelerations of the chosen coordinates that belong to accelerations of the bodies.
+    pub fn coordinate_accelerations(&self, unknowns: &DVector<f64>) -> Vec<f64> {
+        self.coordinate_rows.iter().map(|row| row.times(unknowns) - row.right_hand_side).collect()
+    }
+}
+
+struct Builder<'a> {
+    mechanism: &'a Mechanism,
+    configuration: &'a Configuration,
+    layout: &'a Layout,
+}
+
+impl Builder<'_> {
+    /// [[M, -G^T, -B], [G, 0, 0], [C, 0, 0]]
+    fn matrix(&self, constraints: &[ConstraintRow], coordinates: &[ConstraintRow]) -> DMatrix<f64> {
+        let size = self.layout.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        for (index, body) in self.mechanism.bodies.iter().enumerate() {
+            matrix[(3 * index, 3 * index)] = body.mass;
+            matrix[(3 * index + 1, 3 * index + 1)] = body.mass;
+            matrix[(3 * index + 2, 3 * index + 2)] = body.moment_of_inertia;
+        }
+        let first = 3 * self.mechanism.bodies.len();
+        for (index, row) in constraints.iter().enumerate() {
+            for &(column, value) in &row.entries {
+                matrix[(first + index, column)] += value;
+                matrix[(column, first + index)] -= value;
+            }
+        }
+        for (index, drive) in self.mechanism.drives.iter().enumerate() {
+            let effort = self.layout.effort(DriveId(index));
+            for &(column, value) in &coordinates[drive.coordinate.index()].entries {
+                matrix[(effort, column)] += value;
+            }
+            for wrench in loads::unit_effort(self.mechanism, self.configuration, &drive.effort) {
+                self.add(&wrench, |row, value| matrix[(row, effort)] -= value);
+            }
+        }
+        matrix
+    }
+
+    fn load(
+        &self,
+        applied: &[Wrench],
+        constraints: &[ConstraintRow],
+        coordinates: &[ConstraintRow],
+    ) -> Result<DVector<f64>, Faults> {
+        let mut load = DVector::zeros(self.layout.len());
+        for wrench in applied {
+            self.add(wrench, |row, value| load[row] += value);
+        }
+        let first = 3 * self.mechanism.bodies.len();
+        for (index, row) in constraints.iter().enumerate() {
+            load[first + index] = row.right_hand_side;
+        }
+        let mut faults = Faults::default();
+        for (index, drive) in self.mechanism.drives.iter().enumerate() {
+            let Configuration { coordinates: values, rates, time, .. } = self.configuration;
+            match self.mechanism.quantity(drive.acceleration, values, rates, *time) {
+                Ok(prescribed) => {
+                    let bias = coordinates[drive.coordinate.index()].right_hand_side;
+                    load[self.layout.effort(DriveId(index))] = prescribed + bias;
+                }
+                Err(fault) => faults.push(fault),
+            }
+        }
+        faults.or(load)
+    }
+
+    /// W_k^{+} and W_k^{-}: a unit friction force, -u on the block and u on the guide, at the pressed face
+    /// P - sign(N) (h/2) n.
+    fn friction(&self, id: ContactId, contact: &ContactState) -> [DVector<f64>; 2] {
+        [1.0, -1.0].map(|sign| {
+            let mut column = DVector::zeros(self.layout.len());
+            for wrench in friction_forces(self.mechanism, id, contact, sign, 1.0) {
+                self.add(&wrench, |row, value| column[row] += value);
+            }
+            column
+        })
+    }
+
+    /// Adds a force or couple on a body to the three equations of that body.
+    fn add(&self, wrench: &Wrench, mut add: impl FnMut(usize, f64)) {
+        let Some(body) = wrench.frame.body() else { return };
+        let row = self.layout.acceleration(body);
+        let arm = self.configuration.arm(wrench.frame, wrench.place);
+        add(row, wrench.force.x);
+        add(row + 1, wrench.force.y);
+        add(row + 2, rot90(arm).dot(&wrench.force) + wrench.couple);
+    }
+
+    /// Which motion or drive makes the equations singular: read off a vector that they map to zero.
+    fn singular_fault(&self, singular: &Singular) -> Fault {
+        let Singular { null_vector, weights, condition } = singular;
+        let bodies = 3 * self.mechanism.bodies.len();
+        let efforts = self.layout.len() - self.layout.drives;
+        let accelerations = null_vector.rows(0, bodies).into_owned();
+        let significant = |part: f64| part > 1e-6;
+        let driven = weights.rows(efforts, self.layout.drives);
+        if self.layout.drives > 0 && significant(driven.amax()) {
+            let drives: Vec<_> =
+                (0..self.layout.drives).filter(|&drive| significant(driven[drive].abs())).collect();
+            let motion = self.prescribed_motion(&drives);
+            let names = drives.iter().map(|&drive| self.mechanism.drives[drive].name.to_string()).collect();
+            let place = self.mechanism.drives[drives[0]].place.clone();
+            return Fault::new(FaultKind::DriveCannotMove { drives: names, motion }, place);
+        }
+        let Some(first) = (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()))
+        else {
+            return Fault::general(FaultKind::IllConditioned { condition: *condition });
+        };
+        let motion = self.motion_in_words(&accelerations);
+        Fault::new(FaultKind::MotionWithoutInertia { motion }, self.mechanism.bodies[first].place.clone())
+    }
+
+    fn prescribed_motion(&self, drives: &[usize]) -> String {
+        let names: Vec<String> = drives
+            .iter()
+            .map(|&drive| {
+                let drive = &self.mechanism.drives[drive];
+                let coordinate = &self.mechanism.coordinates[drive.coordinate.index()].name;
+                format!("{} does no work when {coordinate} changes", drive.name)
+            })
+            .collect();
+        names.join(", ")
+    }
+
+    /// "rod rotates about (0.1, 0.2), block moves along (1, 0)"
+    fn motion_in_words(&self, motion: &DVector<f64>) -> String {
+        let size = self.mechanism.size;
+        let scale = (0..self.mechanism.bodies.len())
+            .map(|b| motion[3 * b].hypot(motion[3 * b + 1]).max(size * motion[3 * b + 2].abs()))
+            .fold(0.0, f64::max);
+        let mut parts = Vec::new();
+        for (index, body) in self.mechanism.bodies.iter().enumerate() {
+            let velocity = Vector2::new(motion[3 * index], motion[3 * index + 1]);
+            let angular = motion[3 * index + 2];
+            if angular.abs() * size > 1e-6 * scale {
+                // The pole: the point that stays at rest, c + rot90(v)/omega.
+                let pole = self.configuration.poses[index].position + rot90(velocity) / angular;
+                parts.push(format!("{} rotates about ({:.4}, {:.4})", body.name, pole.x, pole.y));
+            } else if velocity.norm() > 1e-6 * scale {
+                let direction = velocity.normalize();
+                parts.push(format!("{} moves along ({:.4}, {:.4})", body.name, direction.x, direction.y));
+            }
+        }
+        parts.join(", ")
+    }
+}
+
+/// The friction force `friction` of a contact as forces on block and guide, acting at the face that is pressed
+/// when the normal force has this sign (theory, section 1).
+pub(crate) fn friction_forces(
+    mechanism: &Mechanism,
+    id: ContactId,
+    contact: &ContactState,
+    sign: f64,
+    friction: f64,
+) -> [Wrench; 2] {
+    let slider = mechanism.slider(mechanism.contacts[id.index()].joint).expect("contacts belong to sliding joints");
+    let place = contact.point - sign * (slider.height / 2.0) * contact.normal;
+    let on = |frame: Frame, force: Vector2<f64>| Wrench { frame, place, force, couple: 0.0 };
+    [on(slider.block, -friction * contact.tangent), on(slider.guide, friction * contact.tangent)]
+}

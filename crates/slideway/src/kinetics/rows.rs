@@ -1,0 +1,126 @@
+//! Rows of the acceleration constraints: G a = gamma, and the coordinates' C a = prescribed + bias.
+
+use super::{Layout, Reaction};
+use crate::configuration::{Configuration, ContactState};
+use crate::ids::{Frame, JointId};
+use crate::mechanism::{CoordinateKind, JointKind, Mechanism, rot90};
+use nalgebra::{DVector, Vector2};
+
+/// One row: entries by the index of the acceleration, and the right-hand side.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ConstraintRow {
+    pub(super) entries: Vec<(usize, f64)>,
+    pub(super) right_hand_side: f64,
+}
+
+impl ConstraintRow {
+    /// Scalar product with the vector of unknowns.
+    pub(super) fn times(&self, unknowns: &DVector<f64>) -> f64 {
+        self.entries.iter().map(|(index, value)| value * unknowns[*index]).sum()
+    }
+
+    /// Adds sign * axis . (acceleration of the material point of `frame` at `place`).
+    ///
+    /// The acceleration is a_c + alpha x r - omega^2 r; its last term goes to the right-hand side.
+    fn add(&mut self, configuration: &Configuration, frame: Frame, place: Vector2<f64>, axis: Vector2<f64>) {
+        let Some(body) = frame.body() else { return };
+        let arm = configuration.arm(frame, place);
+        let first = 3 * body.index();
+        self.entries.push((first, axis.x));
+        self.entries.push((first + 1, axis.y));
+        self.entries.push((first + 2, axis.dot(&rot90(arm))));
+        self.right_hand_side += configuration.angular_velocity(frame).powi(2) * axis.dot(&arm);
+    }
+
+    /// Adds sign * (angular acceleration of `frame`).
+    fn add_rotation(&mut self, frame: Frame, sign: f64) {
+        if let Some(body) = frame.body() {
+            self.entries.push((3 * body.index() + 2, sign));
+        }
+    }
+}
+
+/// The rows of all reactions, in the order of the layout.
+pub(super) fn constraints(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    contacts: &[ContactState],
+    layout: &Layout,
+) -> Vec<ConstraintRow> {
+    let row = |reaction: &Reaction| match *reaction {
+        Reaction::Hinge(joint, axis) => hinge(mechanism, configuration, joint, axis),
+        Reaction::Normal(contact) => {
+            let joint = mechanism.contacts[contact.index()].joint;
+            normal(mechanism, configuration, joint, &contacts[contact.index()])
+        }
+        Reaction::Couple(joint) => no_relative_rotation(mechanism, joint),
+    };
+    layout.reactions().iter().map(row).collect()
+}
+
+/// Both points of a hinge have the same acceleration.
+fn hinge(mechanism: &Mechanism, configuration: &Configuration, joint: JointId, axis: usize) -> ConstraintRow {
+    let mut row = ConstraintRow::default();
+    if let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind {
+        let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
+        row.add(configuration, first.frame, configuration.position(mechanism, first), axis);
+        row.add(configuration, second.frame, configuration.position(mechanism, second), -axis);
+    }
+    row
+}
+
+/// The block's material point stays on the line of the guide: n . (a_block - a_guide) = 2 omega_guide ds.
+///
+/// A contact that is carried by the guide stays on a line of the block; block and guide turn together there, so
+/// that the row is the same.
+fn normal(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    joint: JointId,
+    contact: &ContactState,
+) -> ConstraintRow {
+    let mut row = ConstraintRow::default();
+    if let Some(slider) = mechanism.slider(joint) {
+        row.add(configuration, slider.block, contact.point, contact.normal);
+        row.add(configuration, slider.guide, contact.point, -contact.normal);
+        row.right_hand_side += 2.0 * configuration.angular_velocity(slider.guide) * contact.sliding_velocity;
+    }
+    row
+}
+
+fn no_relative_rotation(mechanism: &Mechanism, joint: JointId) -> ConstraintRow {
+    let mut row = ConstraintRow::default();
+    if let Some(slider) = mechanism.slider(joint) {
+        row.add_rotation(slider.block, 1.0);
+        row.add_rotation(slider.guide, -1.0);
+    }
+    row
+}
+
+/// The rows that give the accelerations of the coordinates: C a - right-hand side.
+pub(super) fn coordinates(mechanism: &Mechanism, configuration: &Configuration) -> Vec<ConstraintRow> {
+    let row = |kind: CoordinateKind| {
+        let mut row = ConstraintRow::default();
+        match kind {
+            // s'' = u . (a_block - a_guide), both at the place of the block: the Coriolis term is normal to u.
+            CoordinateKind::Slide(joint) => {
+                if let Some(slider) = mechanism.slider(joint) {
+                    let slide = configuration.slide(mechanism, slider);
+                    let at = crate::mechanism::Attachment { frame: slider.block, position: slider.at };
+                    let place = configuration.position(mechanism, &at);
+                    row.add(configuration, slider.block, place, slide.tangent);
+                    row.add(configuration, slider.guide, place, -slide.tangent);
+                }
+            }
+            CoordinateKind::Rotation(body, against) => {
+                row.add_rotation(Frame::Body(body), 1.0);
+                row.add_rotation(against, -1.0);
+            }
+            CoordinateKind::Displacement(point, axis) => {
+                row.add(configuration, point.frame, configuration.position(mechanism, &point), axis);
+            }
+        }
+        row
+    };
+    mechanism.coordinates.iter().map(|coordinate| row(coordinate.kind)).collect()
+}

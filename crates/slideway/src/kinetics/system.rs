@@ -1,0 +1,89 @@
+//! Factorization of the kinetic equations: equilibrated, fully pivoted, with a step of refinement.
+
+use crate::configuration::null_space;
+use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
+
+/// Pivots below this multiple of the greatest count as zero; the equations are then singular.
+const SINGULAR: f64 = 1e-13;
+
+/// The factored matrix of the kinetic equations.
+#[derive(Debug, Clone)]
+pub(super) struct Factorization {
+    matrix: DMatrix<f64>,
+    /// Powers of two that bring every row and column to order one.
+    row_scale: DVector<f64>,
+    column_scale: DVector<f64>,
+    factors: FullPivLU<f64, Dyn, Dyn>,
+    condition: f64,
+}
+
+/// Why a matrix has no factorization.
+#[derive(Debug, Clone)]
+pub(super) struct Singular {
+    /// A vector that the matrix maps to zero, in the units of the unknowns.
+    pub(super) null_vector: DVector<f64>,
+    /// The same in the equilibrated system, where its components can be compared with each other.
+    pub(super) weights: DVector<f64>,
+    /// Ratio of the greatest to the least pivot.
+    pub(super) condition: f64,
+}
+
+impl Factorization {
+    /// Factors a square matrix.
+    pub(super) fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
+        let (row_scale, column_scale) = equilibration(&matrix);
+        let scaled = scaled(&matrix, &row_scale, &column_scale);
+        let factors = scaled.clone().full_piv_lu();
+        let pivots = factors.u().diagonal().abs();
+        let condition = if pivots.is_empty() { 1.0 } else { pivots.max() / pivots.min() };
+        if condition.is_finite() && condition < 1.0 / SINGULAR {
+            return Ok(Self { matrix, row_scale, column_scale, factors, condition });
+        }
+        let null = null_space(&scaled);
+        let vector = if null.ncols() > 0 { null.column(0).into_owned() } else { DVector::zeros(scaled.ncols()) };
+        Err(Singular { null_vector: vector.component_mul(&column_scale), weights: vector, condition })
+    }
+
+    /// Solution of `matrix` x = `right_hand_side`, with one step of iterative refinement.
+    pub(super) fn solve(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
+        let first = self.solve_once(right_hand_side);
+        let residual = right_hand_side - &self.matrix * &first;
+        first + self.solve_once(&residual)
+    }
+
+    pub(super) fn condition(&self) -> f64 {
+        self.condition
+    }
+
+    fn solve_once(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
+        let scaled = right_hand_side.component_mul(&self.row_scale);
+        let solution = self.factors.solve(&scaled).expect("the pivots were found to be regular");
+        solution.component_mul(&self.column_scale)
+    }
+}
+
+fn scaled(matrix: &DMatrix<f64>, rows: &DVector<f64>, columns: &DVector<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| rows[i] * matrix[(i, j)] * columns[j])
+}
+
+/// Powers of two by which rows and columns are multiplied so that their greatest entries are near one
+/// (Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices, 2001).
+fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64>) {
+    let mut rows = DVector::from_element(matrix.nrows(), 1.0);
+    let mut columns = DVector::from_element(matrix.ncols(), 1.0);
+    for _ in 0..6 {
+        let current = scaled(matrix, &rows, &columns);
+        for i in 0..matrix.nrows() {
+            rows[i] *= inverse_root(current.row(i).amax());
+        }
+        for j in 0..matrix.ncols() {
+            columns[j] *= inverse_root(current.column(j).amax());
+        }
+    }
+    (rows, columns)
+}
+
+/// The power of two nearest to 1/sqrt(x); 1 for an empty row.
+fn inverse_root(x: f64) -> f64 {
+    if x > 0.0 && x.is_finite() { (-x.log2() / 2.0).round().exp2() } else { 1.0 }
+}

@@ -1,0 +1,348 @@
+//! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
+//! relations between values, and how its parts are connected.
+
+use super::{Along, JointKind, LoadKind, Model, NamedPoint, Slider};
+use crate::expression::{Dimension, Inferred, Names, Symbol};
+use crate::fault::{Fault, FaultKind, Faults, Place};
+use crate::ids::{FormulaId, Frame};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+impl Model {
+    /// All faults of the model as a whole; also settles the order in which the parameters are evaluated.
+    ///
+    /// Connections are judged only in a `complete` model: where a joint could not be read, a body is no
+    /// further fault for lacking it.
+    pub(super) fn check(&mut self, complete: bool) -> Faults {
+        let mut faults = Faults::default();
+        self.order_parameters(&mut faults);
+        self.check_dimensions(&mut faults);
+        let values = self.allowed_values(&mut faults);
+        self.check_relations(&values, &mut faults);
+        if complete {
+            self.check_connections(&mut faults);
+        }
+        faults
+    }
+
+    /// The names that an expression of this model may use.
+    pub(super) fn names(&self) -> Names {
+        let mut names = Names::new();
+        for parameter in &self.parameters {
+            names.parameter(&parameter.name);
+        }
+        for coordinate in &self.coordinates {
+            names.coordinate(&coordinate.name);
+        }
+        names
+    }
+
+    /// Dimension of a parameter's present value, if it is known.
+    pub(super) fn parameter_dimension(&self, index: usize) -> Option<Dimension> {
+        match self.inferred_parameters()[index] {
+            Inferred::Known(dimension) => Some(dimension),
+            _ => None,
+        }
+    }
+
+    /// The values of all formulas that do not depend on the motion; 0 for the others.
+    ///
+    /// # Errors
+    /// A fault for each value that is not finite or not allowed.
+    pub fn constants(&self) -> Result<Vec<f64>, Faults> {
+        let mut faults = Faults::default();
+        let values = self.allowed_values(&mut faults);
+        self.check_relations(&values, &mut faults);
+        faults.or(values.into_iter().map(Option::unwrap_or_default).collect())
+    }
+
+    /// The values of the parameters among those of all formulas.
+    pub fn parameter_values(&self, constants: &[f64]) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
+    }
+
+    fn used_parameters(&self, formula: FormulaId) -> impl Iterator<Item = usize> + '_ {
+        self.formula(formula).expression.symbols().filter_map(|(symbol, _)| match symbol {
+            Symbol::Parameter(index) => Some(index),
+            _ => None,
+        })
+    }
+
+    /// Depth-first search over the parameters; a parameter met again on its own path closes a circle.
+    fn order_parameters(&mut self, faults: &mut Faults) {
+        let state = vec![State::New; self.parameters.len()];
+        let mut search = Search { model: self, state, order: vec![], circles: vec![] };
+        for index in 0..self.parameters.len() {
+            search.visit(index);
+        }
+        let Search { order, circles, .. } = search;
+        let formulas = Arc::make_mut(&mut self.formulas);
+        for circle in circles {
+            let mut cycle: Vec<String> = circle.iter().map(|&i| self.parameters[i].name.to_string()).collect();
+            cycle.push(cycle[0].clone());
+            let place = formulas[self.parameters[circle[0]].value.index()].origin.place();
+            faults.push(Fault::new(FaultKind::CircularParameters { cycle }, place));
+            for index in circle {
+                formulas[self.parameters[index].value.index()].broken = true;
+            }
+        }
+        self.evaluation_order = order;
+        self.spread_broken();
+    }
+
+    /// A formula that uses a broken parameter is broken, too: what follows from it is no further fault.
+    fn spread_broken(&mut self) {
+        let mut formulas = std::mem::take(&mut self.formulas);
+        let list = Arc::make_mut(&mut formulas);
+        let values: Vec<usize> = self.parameters.iter().map(|parameter| parameter.value.index()).collect();
+        let spread = |list: &mut Vec<super::Formula>, id: usize| {
+            let broken = list[id].expression.symbols().any(|(symbol, _)| {
+                matches!(symbol, Symbol::Parameter(index) if list[values[index]].broken)
+            });
+            list[id].broken |= broken;
+        };
+        for &index in &self.evaluation_order {
+            spread(list, values[index]);
+        }
+        for id in 0..list.len() {
+            spread(list, id);
+        }
+        self.formulas = formulas;
+    }
+
+    fn inferred_parameters(&self) -> Vec<Inferred> {
+        let mut inferred = vec![Inferred::Any; self.parameters.len()];
+        for &index in &self.evaluation_order {
+            let of = |symbol| self.inferred(symbol, &inferred);
+            let found = self.formula(self.parameters[index].value).expression.dimension(&of);
+            inferred[index] = match found {
+                Ok(Inferred::Known(dimension)) => Inferred::Known(dimension),
+                _ => Inferred::Any,
+            };
+        }
+        inferred
+    }
+
+    fn inferred(&self, symbol: Symbol, parameters: &[Inferred]) -> Inferred {
+        let coordinate = |index: usize, position| {
+            self.coordinates.get(index).map_or(Inferred::Any, |coordinate| {
+                Inferred::Known(super::settings::dimension_of(coordinate, position))
+            })
+        };
+        match symbol {
+            Symbol::Parameter(index) => parameters[index],
+            Symbol::Coordinate(index) => coordinate(index, true),
+            Symbol::Rate(index) => coordinate(index, false),
+            Symbol::Time => Inferred::Known(Dimension::TIME),
+        }
+    }
+
+    fn check_dimensions(&self, faults: &mut Faults) {
+        let inferred = self.inferred_parameters();
+        let of = |symbol| self.inferred(symbol, &inferred);
+        let name = |symbol| match symbol {
+            Symbol::Parameter(index) => self.parameters[index].name.to_string(),
+            Symbol::Coordinate(index) => self.coordinates[index].name.to_string(),
+            Symbol::Rate(index) => format!("rate({})", self.coordinates[index].name),
+            Symbol::Time => "t".to_owned(),
+        };
+        for formula in self.formulas.iter().filter(|formula| !formula.broken) {
+            formula.check(&of, &name).into_iter().for_each(|fault| faults.push(fault));
+        }
+    }
+
+    fn allowed_values(&self, faults: &mut Faults) -> Vec<Option<f64>> {
+        let mut parameters = vec![0.0; self.parameters.len()];
+        let mut values = vec![None; self.formulas.len()];
+        let mut unknown = vec![false; self.parameters.len()];
+        for &index in &self.evaluation_order {
+            let id = self.parameters[index].value;
+            unknown[index] = self.formula(id).broken || self.used_parameters(id).any(|used| unknown[used]);
+            if unknown[index] || self.formula(id).moves() {
+                continue;
+            }
+            match self.formula(id).constant(&parameters) {
+                Ok(value) => parameters[index] = value,
+                Err(fault) => {
+                    unknown[index] = true;
+                    faults.push(fault);
+                }
+            }
+        }
+        let is_parameter: BTreeSet<FormulaId> = self.parameters.iter().map(|parameter| parameter.value).collect();
+        for (index, formula) in self.formulas.iter().enumerate() {
+            let id = FormulaId(index);
+            if formula.broken || formula.moves() || self.used_parameters(id).any(|used| unknown[used]) {
+                continue;
+            }
+            match formula.constant(&parameters) {
+                Ok(value) => values[index] = Some(value),
+                Err(_) if is_parameter.contains(&id) => {}
+                Err(fault) => faults.push(fault),
+            }
+        }
+        values
+    }
+
+    /// Relations between values: static and kinetic friction, travel limits, points that give a direction.
+    fn check_relations(&self, values: &[Option<f64>], faults: &mut Faults) {
+        let value = |id: FormulaId| values[id.index()];
+        for joint in &self.joints {
+            let JointKind::Slider(slider) = &joint.kind else { continue };
+            self.check_static_friction(slider, &value, faults);
+            self.check_direction(&slider.along, &joint.place, &value, faults);
+            if let Some([Some(least), Some(greatest)]) = slider.travel.map(|travel| travel.map(value))
+                && least >= greatest
+            {
+                let kind = FaultKind::ReversedTravel { joint: joint.name.to_string(), least, greatest };
+                faults.push(Fault::new(kind, joint.place.clone()));
+            }
+        }
+        for load in &self.loads {
+            if let LoadKind::Force { force: super::ForceValue::Along(_, along), .. } = &load.kind {
+                self.check_direction(along, &load.place, &value, faults);
+            }
+        }
+        for drive in &self.drives {
+            if let super::Effort::Force { direction, .. } = &drive.effort {
+                self.check_direction(direction, &drive.place, &value, faults);
+            }
+        }
+    }
+
+    fn check_static_friction(
+        &self,
+        slider: &Slider,
+        value: &dyn Fn(FormulaId) -> Option<f64>,
+        faults: &mut Faults,
+    ) {
+        for contact in &slider.contacts {
+            for side in 0..2 {
+                let (Some(mu), Some(mu_static)) = (value(contact.mu[side]), value(contact.mu_static[side])) else {
+                    continue;
+                };
+                if mu_static < mu {
+                    let kind = FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
+                    faults.push(Fault::new(kind, self.formula(contact.mu_static[side]).origin.place()));
+                    break;
+                }
+            }
+        }
+    }
+
+    fn check_direction(
+        &self,
+        along: &Along,
+        place: &Place,
+        value: &dyn Fn(FormulaId) -> Option<f64>,
+        faults: &mut Faults,
+    ) {
+        let Along::Points(points) = along else { return };
+        let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
+        let [from, to] = points.as_ref();
+        if let (Some(a), Some(b)) = (at(from), at(to))
+            && a == b
+        {
+            let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
+            faults.push(Fault::new(kind, place.clone()));
+        }
+    }
+
+    /// Joints of a body with itself, doubled joints, bodies without a way to ground.
+    fn check_connections(&self, faults: &mut Faults) {
+        let mut group: Vec<usize> = (0..=self.bodies.len()).collect();
+        for (index, joint) in self.joints.iter().enumerate() {
+            let [first, second] = self.joined(&joint.kind);
+            if first == second {
+                let kind = FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
+                faults.push(Fault::new(kind, joint.place.clone()));
+            }
+            if let Some(other) = self.joints[..index].iter().find(|other| self.doubles(&joint.kind, &other.kind)) {
+                let kind = FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
+                faults.push(Fault::new(kind, joint.place.clone()));
+            }
+            let (from, to) = (group[node(first)], group[node(second)]);
+            group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
+        }
+        let floating: Vec<usize> = (1..group.len()).filter(|&body| group[body] != group[0]).map(|n| n - 1).collect();
+        if let Some(&first) = floating.first() {
+            let bodies = floating.iter().map(|&body| self.bodies[body].name.to_string()).collect();
+            faults.push(Fault::new(FaultKind::FloatingBodies { bodies }, self.bodies[first].place.clone()));
+        }
+    }
+
+    /// The two frames that a joint joins.
+    pub(crate) fn joined(&self, joint: &JointKind) -> [Frame; 2] {
+        match joint {
+            JointKind::Hinge([first, second]) => [first.frame, second.frame],
+            JointKind::Slider(slider) => [slider.block, slider.guide],
+        }
+    }
+
+    /// Whether two hinges join the same bodies at the same point.
+    fn doubles(&self, joint: &JointKind, other: &JointKind) -> bool {
+        let (JointKind::Hinge(a), JointKind::Hinge(b)) = (joint, other) else { return false };
+        let pair = |hinge: &[super::Attachment; 2]| {
+            let mut ends = hinge.each_ref().map(|end| (end.frame, end.name.clone()));
+            ends.sort();
+            ends
+        };
+        pair(a) == pair(b)
+    }
+
+    /// Name of a frame, for messages.
+    pub fn frame_name(&self, frame: Frame) -> String {
+        frame.body().map_or("ground".to_owned(), |body| self.bodies[body.index()].name.to_string())
+    }
+}
+
+/// Ground is node 0, body k node k + 1.
+fn node(frame: Frame) -> usize {
+    frame.body().map_or(0, |body| body.index() + 1)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    New,
+    OnPath,
+    Done,
+}
+
+/// Depth-first search with a stack of its own: a chain of parameters may be as long as the file.
+struct Search<'m> {
+    model: &'m Model,
+    state: Vec<State>,
+    order: Vec<usize>,
+    circles: Vec<Vec<usize>>,
+}
+
+impl Search<'_> {
+    fn visit(&mut self, start: usize) {
+        let mut path: Vec<(usize, Vec<usize>)> = Vec::new();
+        self.enter(start, &mut path);
+        while let Some((index, pending)) = path.last_mut() {
+            match pending.pop() {
+                Some(used) => self.enter(used, &mut path),
+                None => {
+                    self.state[*index] = State::Done;
+                    self.order.push(*index);
+                    path.pop();
+                }
+            }
+        }
+    }
+
+    fn enter(&mut self, index: usize, path: &mut Vec<(usize, Vec<usize>)>) {
+        match self.state[index] {
+            State::Done => {}
+            State::OnPath => {
+                let start = path.iter().position(|(on_path, _)| *on_path == index).unwrap_or(0);
+                self.circles.push(path[start..].iter().map(|(on_path, _)| *on_path).collect());
+            }
+            State::New => {
+                self.state[index] = State::OnPath;
+                path.push((index, self.model.used_parameters(self.model.parameters[index].value).collect()));
+            }
+        }
+    }
+}

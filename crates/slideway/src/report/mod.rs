@@ -1,0 +1,296 @@
+//! What is told: the answer as plain data, and its forms as text, JSON and CSV.
+//!
+//! Last stage of the pipeline. Every face of slideway (command line, library, later Python) gets the same
+//! [`Report`]; its fields are the JSON output, documented in the book under "Output".
+
+mod csv;
+mod json;
+mod number;
+mod table;
+mod text;
+
+pub use csv::to_csv;
+pub use json::to_json;
+pub use text::{Style, to_text};
+
+use serde::Serialize;
+
+/// Version of the layout of a [`Report`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/solve/1";
+
+/// How many solutions there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// No solution: friction locks the mechanism.
+    None,
+    /// Exactly one.
+    One,
+    /// Several, each in its own contact mode.
+    Several,
+    /// Infinitely many: a mode with a vanishing determinant admits a continuum.
+    Continuum,
+    /// No sign pattern gives a solution, but a state with the preload between the faces does.
+    PreloadGap,
+    /// Nothing was found, but not every pattern could be decided.
+    Unknown,
+}
+
+/// All solutions of the kinetic problem of a mechanism in one state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// How many solutions there are.
+    pub status: Status,
+    /// Whether the outcome of every pattern is known.
+    pub complete: bool,
+    /// What the model is.
+    pub model: ModelSummary,
+    /// The state: chosen coordinates and their rates.
+    pub state: Vec<CoordinateState>,
+    /// The outcome of all sign patterns.
+    pub patterns: PatternSummary,
+    /// The solutions, in the order of their patterns.
+    pub solutions: Vec<Solution>,
+    /// States with a contact between its faces, in which the preload friction acts (theory, section 3).
+    pub preload_gap_states: Vec<Solution>,
+    /// Modes with a vanishing determinant that admit infinitely many solutions.
+    pub continua: Vec<Continuum>,
+    /// Modes with a vanishing determinant that admit none: these modes are locked.
+    pub locked_modes: Vec<LockedMode>,
+    /// Solutions of the equations that a guided slider rejects, because it would tip.
+    pub rejected: Vec<Rejection>,
+    /// Where there is no solution: the modes with the smallest determinants.
+    pub closest_modes: Vec<ClosestMode>,
+    /// Accelerations and normal forces without friction, and the influence coefficients.
+    pub influence: InfluenceSummary,
+    /// Greatest factor by which rounding in the kinetic equations may be amplified.
+    pub condition: f64,
+}
+
+/// What a model is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelSummary {
+    /// Its title.
+    pub title: Option<String>,
+    /// Degrees of freedom.
+    pub degrees_of_freedom: usize,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of contacts.
+    pub contacts: usize,
+    /// Number of drives.
+    pub drives: usize,
+}
+
+/// A chosen coordinate in the state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoordinateState {
+    /// Its name.
+    pub name: String,
+    /// "m" or "rad".
+    pub unit: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its rate.
+    pub rate: f64,
+}
+
+/// How many patterns had which outcome; all but `rejected` and the gap states add up to `total`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct PatternSummary {
+    /// 2^r sign patterns.
+    pub total: u64,
+    /// Patterns with a solution inside: every normal force differs from zero.
+    pub solution: u64,
+    /// Patterns with a solution on their boundary: some normal force is zero.
+    pub boundary: u64,
+    /// Patterns without a solution.
+    pub no_solution: u64,
+    /// Patterns with a vanishing determinant and no solution.
+    pub singular_without_solution: u64,
+    /// Patterns with a vanishing determinant and a single solution.
+    pub singular_with_point: u64,
+    /// Patterns with a vanishing determinant and a continuum of solutions.
+    pub singular_with_continuum: u64,
+    /// Patterns that could not be decided within the limits of work.
+    pub undecided: u64,
+    /// Solutions and gap states that a guided slider rejects because it would tip.
+    pub rejected: u64,
+    /// Patterns with gap states that were tried besides.
+    pub gap_patterns: u64,
+}
+
+/// One solution, or one state of a preload gap.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Solution {
+    /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
+    pub pattern: String,
+    /// All patterns that give this same solution: more than one on a boundary.
+    pub patterns: Vec<String>,
+    /// Sign of each normal force, 0 where it vanishes.
+    pub signs: Vec<i8>,
+    /// Whether some contact is about to change side: its normal force is zero within rounding.
+    pub on_boundary: bool,
+    /// Determinant D of the mode's equations, eq. (6).
+    pub determinant: f64,
+    /// D times the product of the signs; positive without friction (theory, section 5).
+    pub oriented_determinant: f64,
+    /// The contacts, in the order of the model.
+    pub contacts: Vec<Contact>,
+    /// The contact mode of each sliding joint.
+    pub joints: Vec<JointMode>,
+    /// The hinge forces.
+    pub hinges: Vec<Hinge>,
+    /// The accelerations of the bodies.
+    pub bodies: Vec<Body>,
+    /// The accelerations of the chosen coordinates.
+    pub coordinates: Vec<CoordinateAcceleration>,
+    /// The efforts of the drives.
+    pub drives: Vec<Drive>,
+    /// Greatest relative residual of a body's force and moment balance, recomputed independently.
+    pub residual: f64,
+}
+
+/// A contact in a solution. Signs as in theory, section 1.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Contact {
+    /// "joint", "joint.front" or "joint.rear".
+    pub name: String,
+    /// 1 where the normal force is positive, -1 where it is negative, 0 where it vanishes.
+    pub side: i8,
+    /// Normal force on the block along n (N).
+    pub normal_force: f64,
+    /// Friction force, positive against positive sliding (N).
+    pub friction_force: f64,
+    /// Sliding velocity of the block against the guide along u (m/s).
+    pub sliding_velocity: f64,
+    /// Couple of a guided slider about the middle of the pressed face (N m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub couple: Option<f64>,
+    /// In a preload gap: the share of the preload friction at the face of positive normal force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preload_share: Option<f64>,
+}
+
+/// The contact mode of a sliding joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointMode {
+    /// Its name.
+    pub name: String,
+    /// The mode in words: "tipped: lower right, upper left".
+    pub mode: String,
+}
+
+/// A hinge force.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Hinge {
+    /// The hinge.
+    pub name: String,
+    /// The body on which the force is counted.
+    pub on: String,
+    /// Its components (N).
+    pub force: [f64; 2],
+}
+
+/// Acceleration of a body, and what is left over in its balance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Acceleration of the centre of mass (m/s^2).
+    pub acceleration: [f64; 2],
+    /// Angular acceleration (rad/s^2).
+    pub angular_acceleration: f64,
+    /// Left-over force of the recomputed balance (N).
+    pub residual_force: f64,
+    /// Left-over moment of the recomputed balance (N m).
+    pub residual_moment: f64,
+}
+
+/// Acceleration of a chosen coordinate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoordinateAcceleration {
+    /// The coordinate.
+    pub name: String,
+    /// "m/s^2" or "rad/s^2".
+    pub unit: &'static str,
+    /// Its acceleration.
+    pub acceleration: f64,
+}
+
+/// The effort of a drive.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Drive {
+    /// The drive.
+    pub name: String,
+    /// "N" or "N m".
+    pub unit: &'static str,
+    /// The force or torque that produces the prescribed motion.
+    pub effort: f64,
+}
+
+/// Infinitely many solutions of one mode: all convex combinations of the vertices plus all non-negative multiples
+/// of the directions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Continuum {
+    /// Its pattern.
+    pub pattern: String,
+    /// Normal forces of the contacts at each vertex (N).
+    pub vertices: Vec<Vec<f64>>,
+    /// Directions in which the normal forces may grow without bound.
+    pub directions: Vec<Vec<f64>>,
+}
+
+/// A mode with a vanishing determinant and no solution.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LockedMode {
+    /// Its pattern.
+    pub pattern: String,
+    /// The contact mode of each sliding joint.
+    pub joints: Vec<JointMode>,
+}
+
+/// A solution of the equations that is none of the mechanism.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Rejection {
+    /// Its pattern.
+    pub pattern: String,
+    /// The guided slider that would tip.
+    pub joint: String,
+    /// The couple it would need (N m).
+    pub couple: f64,
+    /// The greatest couple that its pressure gives: |N| L / 2 (N m).
+    pub limit: f64,
+    /// Normal forces of all contacts (N).
+    pub normal_forces: Vec<f64>,
+}
+
+/// A mode without a solution, close to locking.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ClosestMode {
+    /// Its pattern.
+    pub pattern: String,
+    /// Determinant D.
+    pub determinant: f64,
+    /// D times the product of the signs; not positive beyond locking.
+    pub oriented_determinant: f64,
+    /// The contact mode of each sliding joint.
+    pub joints: Vec<JointMode>,
+    /// What the mode's equations give for |N| of each contact (N); a negative value contradicts the mode.
+    pub absolute_normal_forces: Vec<f64>,
+}
+
+/// The frictionless answer and the influence coefficients.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InfluenceSummary {
+    /// Accelerations of the coordinates without friction.
+    pub coordinate_accelerations: Vec<f64>,
+    /// Normal forces without friction, N(0) (N).
+    pub normal_forces: Vec<f64>,
+    /// eta_jk for friction at the faces of positive normal force; row j is the contact that answers.
+    pub eta_positive: Vec<Vec<f64>>,
+    /// The same at the faces of negative normal force.
+    pub eta_negative: Vec<Vec<f64>>,
+}

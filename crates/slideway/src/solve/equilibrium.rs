@@ -1,0 +1,122 @@
+//! An independent check of a solution: force and moment balance of every body, from the forces themselves.
+//!
+//! Nothing of the kinetic equations' matrix is used: the forces are placed at their points, and their moments are
+//! taken about the origin of the world frame.
+
+use crate::configuration::{Configuration, ContactState};
+use crate::ids::{BodyId, ContactId, Frame, JointId};
+use crate::influence::ContactFriction;
+use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
+use crate::mechanism::{JointKind, Mechanism};
+use nalgebra::{DVector, Vector2};
+
+/// What is left over in the balance of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// Left-over force (N).
+    pub force: f64,
+    /// Left-over moment about the world origin (N m).
+    pub moment: f64,
+    /// The greater of both, divided by the greatest force or moment that acts on the body.
+    pub relative: f64,
+}
+
+/// A solution as the balance sees it.
+pub(super) struct Balance<'a> {
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) configuration: &'a Configuration,
+    pub(super) contacts: &'a [ContactState],
+    pub(super) applied: &'a [Wrench],
+    pub(super) layout: &'a Layout,
+    pub(super) unknowns: &'a DVector<f64>,
+    pub(super) friction: &'a [ContactFriction],
+}
+
+impl Balance<'_> {
+    /// The residual of every body.
+    pub(super) fn residuals(&self) -> Vec<Residual> {
+        let forces = self.forces();
+        (0..self.mechanism.bodies.len()).map(|body| self.residual(BodyId(body), &forces)).collect()
+    }
+
+    /// Every force and couple on every body.
+    fn forces(&self) -> Vec<Wrench> {
+        let mut forces = self.applied.to_vec();
+        for (index, reaction) in self.layout.reactions().iter().enumerate() {
+            let value = self.unknowns[3 * self.mechanism.bodies.len() + index];
+            forces.extend(self.reaction(*reaction, value));
+        }
+        for (index, friction) in self.friction.iter().enumerate() {
+            let (id, contact) = (ContactId(index), &self.contacts[index]);
+            forces.extend(friction_forces(self.mechanism, id, contact, 1.0, friction.positive_face));
+            forces.extend(friction_forces(self.mechanism, id, contact, -1.0, friction.negative_face));
+        }
+        for (index, drive) in self.mechanism.drives.iter().enumerate() {
+            let value = self.unknowns[self.layout.effort(crate::ids::DriveId(index))];
+            for unit in effort_forces(self.mechanism, self.configuration, &drive.effort) {
+                forces.push(Wrench { force: value * unit.force, couple: value * unit.couple, ..unit });
+            }
+        }
+        forces
+    }
+
+    fn reaction(&self, reaction: Reaction, value: f64) -> Vec<Wrench> {
+        match reaction {
+            Reaction::Hinge(joint, axis) => {
+                let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
+                self.hinge(joint, value * axis)
+            }
+            Reaction::Normal(contact) => {
+                let state = &self.contacts[contact.index()];
+                let joint = self.mechanism.contacts[contact.index()].joint;
+                self.on_slider(joint, state.point, value * state.normal, 0.0)
+            }
+            Reaction::Couple(joint) => self.on_slider(joint, Vector2::zeros(), Vector2::zeros(), value),
+        }
+    }
+
+    fn hinge(&self, joint: JointId, force: Vector2<f64>) -> Vec<Wrench> {
+        let JointKind::Hinge(ends) = &self.mechanism.joints[joint.index()].kind else { return Vec::new() };
+        let on = |end: usize, force: Vector2<f64>| Wrench {
+            frame: ends[end].frame,
+            place: self.configuration.position(self.mechanism, &ends[end]),
+            force,
+            couple: 0.0,
+        };
+        vec![on(0, force), on(1, -force)]
+    }
+
+    fn on_slider(&self, joint: JointId, place: Vector2<f64>, force: Vector2<f64>, couple: f64) -> Vec<Wrench> {
+        let Some(slider) = self.mechanism.slider(joint) else { return Vec::new() };
+        let on = |frame: Frame, sign: f64| Wrench { frame, place, force: sign * force, couple: sign * couple };
+        vec![on(slider.block, 1.0), on(slider.guide, -1.0)]
+    }
+
+    /// Sum of forces minus m a, and sum of moments about the origin minus (c x m a + J alpha).
+    fn residual(&self, body: BodyId, forces: &[Wrench]) -> Residual {
+        let first = self.layout.acceleration(body);
+        let acceleration = Vector2::new(self.unknowns[first], self.unknowns[first + 1]);
+        let properties = &self.mechanism.bodies[body.index()];
+        let centre = self.configuration.poses[body.index()].position;
+        let inertia = properties.mass * acceleration;
+        let spin = properties.moment_of_inertia * self.unknowns[first + 2];
+        let mut sum = -inertia;
+        let mut moment = -(centre.perp(&inertia) + spin);
+        let (mut greatest_force, mut greatest_moment) = (inertia.norm(), moment.abs());
+        for wrench in forces.iter().filter(|wrench| wrench.frame == Frame::Body(body)) {
+            let turning = wrench.place.perp(&wrench.force) + wrench.couple;
+            sum += wrench.force;
+            moment += turning;
+            greatest_force = greatest_force.max(wrench.force.norm());
+            greatest_moment = greatest_moment.max(turning.abs());
+        }
+        let (force, moment) = (sum.norm(), moment.abs());
+        let relative = ratio(force, greatest_force).max(ratio(moment, greatest_moment));
+        Residual { force, moment, relative }
+    }
+}
+
+/// a / b, and zero where nothing acts at all.
+fn ratio(a: f64, b: f64) -> f64 {
+    if a == 0.0 { 0.0 } else { a / b }
+}

@@ -1,0 +1,108 @@
+//! From a mechanism's influence coefficients to the pure numbers of its mode problem.
+
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::influence::Influence;
+use crate::kinetics::KineticEquations;
+use crate::mechanism::Mechanism;
+use crate::model::{PreloadLine, SliderKind};
+use crate::modes::{BySide, EnumerationError, InfluenceCoefficients, ModeProblem, ModeProblemError};
+use nalgebra::{DMatrix, DVector};
+
+/// Sliding velocities below this multiple of the greatest velocity count as zero.
+const AT_REST: f64 = 1e-12;
+/// Versions of an influence column that differ by less than this multiple of it are the same.
+const SAME: f64 = 1e-12;
+
+/// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
+pub(super) fn velocity_signs(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    equations: &KineticEquations,
+) -> Result<DVector<f64>, Faults> {
+    let sliding: Vec<f64> = equations.contacts.iter().map(|contact| contact.sliding_velocity).collect();
+    let speeds = configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * mechanism.size));
+    let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
+    let at_rest = |velocity: f64| velocity.abs() <= AT_REST * greatest;
+    let undefined: Vec<usize> = (0..sliding.len())
+        .filter(|&k| at_rest(sliding[k]) && !mechanism.contacts[k].is_frictionless())
+        .collect();
+    if let Some(&first) = undefined.first() {
+        let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
+        let joint = mechanism.contacts[first].joint;
+        let place = mechanism.joints[joint.index()].place.clone();
+        return Err(Fault::new(FaultKind::ZeroSlidingVelocity { contacts }, place).into());
+    }
+    let sign = |velocity: &f64| if at_rest(*velocity) { 0.0 } else { velocity.signum() };
+    Ok(DVector::from_iterator(sliding.len(), sliding.iter().map(sign)))
+}
+
+/// The mode problem of a mechanism, eqs. (6) and (8): its unknowns are the |N_k|.
+///
+/// # Errors
+/// A fault if a number is beyond the range of floating point.
+pub fn mode_problem(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    velocity_signs: &DVector<f64>,
+) -> Result<ModeProblem, Faults> {
+    let eta = sides(mechanism, influence);
+    let contacts = &mechanism.contacts;
+    let by_side = |value: &dyn Fn(usize, usize) -> f64| BySide {
+        positive: DVector::from_fn(contacts.len(), |k, _| value(k, 0)),
+        negative: DVector::from_fn(contacts.len(), |k, _| value(k, 1)),
+    };
+    let coefficients = InfluenceCoefficients {
+        eta_preload: preload_columns(mechanism, &eta),
+        mu: by_side(&|k, side| contacts[k].mu[side]),
+        preload: by_side(&|k, side| contacts[k].preload[side]),
+        velocity_signs: velocity_signs.clone(),
+        frictionless: influence.normal_forces(),
+        eta,
+    };
+    ModeProblem::from_influence(&coefficients).map_err(|error| overflow(&error).into())
+}
+
+/// Both versions of eta; equal where the theory says so, which rounding would hide: for guided sliders, whose
+/// couple takes up the moment of friction, and wherever the moment of friction has no influence.
+fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
+    let positive = influence.eta(0);
+    let mut negative = influence.eta(1);
+    for (k, contact) in mechanism.contacts.iter().enumerate() {
+        let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
+        let difference = (positive.column(k) - negative.column(k)).amax();
+        if guided || difference <= SAME * positive.column(k).amax() {
+            negative.set_column(k, &positive.column(k));
+        }
+    }
+    BySide { positive, negative }
+}
+
+/// The columns of the preload's friction: at the pressed face, or in the middle between both.
+fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
+    let mut preload = eta.clone();
+    for (k, contact) in mechanism.contacts.iter().enumerate() {
+        if contact.preload_line == PreloadLine::Centre {
+            let centre = (eta.positive.column(k) + eta.negative.column(k)) / 2.0;
+            preload.positive.set_column(k, &centre);
+            preload.negative.set_column(k, &centre);
+        }
+    }
+    preload
+}
+
+fn overflow(error: &ModeProblemError) -> Fault {
+    Fault::general(FaultKind::Overflow { quantity: error.to_string() })
+}
+
+/// The fault of a problem that is too large to be enumerated.
+pub(super) fn too_large(error: &EnumerationError) -> Faults {
+    Fault::general(match *error {
+        EnumerationError::TooManyContacts { contacts, limit } => FaultKind::TooManyContacts { contacts, limit },
+        EnumerationError::TooManyPatterns { contacts, with_jump, limit, .. } => {
+            FaultKind::TooManyPatterns { contacts, with_jump, limit }
+        }
+        EnumerationError::TooManySolutions { limit } => FaultKind::TooManySolutions { limit },
+    })
+    .into()
+}

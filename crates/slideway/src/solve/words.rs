@@ -1,0 +1,76 @@
+//! Contact modes in words: which face of its guide a slider touches, and where.
+//!
+//! Faces are named by where they lie as one looks at the drawing: lower and upper for a guide that is nearer to
+//! the horizontal, left and right for one that is nearer to the vertical.
+
+use crate::mechanism::Slider;
+use crate::model::SliderKind;
+use nalgebra::Vector2;
+
+/// The contact mode of a sliding joint.
+///
+/// `signs` are the signs of its normal forces, 0 where one vanishes; `tangent` is the direction of its guide.
+pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
+    let guide = GuideInWords { tangent, around: slider.height < 0.0 };
+    match (slider.kind, signs) {
+        (_, signs) if signs.iter().all(|sign| *sign == 0) => "no contact force".to_owned(),
+        (SliderKind::Pin, [sign, ..]) => format!("on the {} side of the slot", guide.face(*sign)),
+        (SliderKind::Block, [front, rear]) => match (front, rear) {
+            (0, sign) => format!("on the {} corner only", guide.corner(*sign, -1.0)),
+            (sign, 0) => format!("on the {} corner only", guide.corner(*sign, 1.0)),
+            (front, rear) if front == rear => guide.flat(*front),
+            (front, rear) => {
+                format!("tipped: {}, {}", guide.corner(*front, 1.0), guide.corner(*rear, -1.0))
+            }
+        },
+        (_, [sign, ..]) => guide.flat(*sign),
+        (_, []) => String::new(),
+    }
+}
+
+struct GuideInWords {
+    tangent: Vector2<f64>,
+    around: bool,
+}
+
+impl GuideInWords {
+    fn is_vertical(&self) -> bool {
+        // A guide at exactly 45 degrees, within rounding, counts as horizontal.
+        self.tangent.y.abs() > self.tangent.x.abs() * (1.0 + 1e-9)
+    }
+
+    fn flat(&self, sign: i8) -> String {
+        let face = self.face(sign);
+        if self.around { format!("flat on the {face} face of the guide") } else { format!("flat on the {face} guide") }
+    }
+
+    /// The face that presses: on the side opposite to the normal force, or on the same side for a block that
+    /// surrounds its guide.
+    fn face(&self, sign: i8) -> &'static str {
+        let towards = f64::from(sign) * if self.around { 1.0 } else { -1.0 };
+        // n = rot90(u) = (-u_y, u_x)
+        if self.is_vertical() {
+            if -self.tangent.y * towards > 0.0 { "right" } else { "left" }
+        } else if self.tangent.x * towards > 0.0 {
+            "upper"
+        } else {
+            "lower"
+        }
+    }
+
+    /// The end of the block in the direction of the tangent (`end` = 1) or against it (-1).
+    fn end(&self, end: f64) -> &'static str {
+        if self.is_vertical() {
+            if self.tangent.y * end > 0.0 { "upper" } else { "lower" }
+        } else if self.tangent.x * end > 0.0 {
+            "right"
+        } else {
+            "left"
+        }
+    }
+
+    fn corner(&self, sign: i8, end: f64) -> String {
+        let (face, end) = (self.face(sign), self.end(end));
+        if self.is_vertical() { format!("{end} {face}") } else { format!("{face} {end}") }
+    }
+}
