@@ -1,0 +1,100 @@
+//! The careful solution of a single regular pattern.
+
+use nalgebra::{DVector, Dyn, LU};
+
+use super::scaling::ScaledProblem;
+use super::solutions::ContactState;
+
+/// Values within this fraction of the largest `y` (or of 1 for a share) count as zero.
+const ZERO: f64 = 1e-12;
+/// Factor on the unit roundoff in the bound of rounding errors.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The solution of one pattern's equations, in the problem's own units.
+#[derive(Debug, Clone)]
+pub(super) struct Candidate {
+    /// `y_k`, or `lambda_k` in a gap; those that count as zero (or a share as one) are exactly that.
+    pub(super) unknowns: DVector<f64>,
+    /// Contacts with `y_k = 0`, bit by bit.
+    pub(super) zero: u64,
+    /// Contacts in the gap with a share of 0 or 1, bit by bit.
+    pub(super) at_end: u64,
+    /// No `y_k < 0`, no share outside of 0 to 1.
+    pub(super) admissible: bool,
+    pub(super) determinant: f64,
+    /// Largest error bound among the `y_k`.
+    pub(super) tolerance: f64,
+}
+
+/// Solves the equations of a pattern by LU with partial pivoting and one step of iterative
+/// refinement; none if the matrix is exactly singular or numbers overflow.
+pub(super) fn solve_pattern(problem: &ScaledProblem, pattern: &[ContactState]) -> Option<Candidate> {
+    if pattern.is_empty() {
+        // nalgebra's triangular solutions do not take empty systems.
+        return Some(judge(pattern, DVector::zeros(0), &DVector::zeros(0), problem.load_unit, 1.0));
+    }
+    let (matrix, right_hand_side) = problem.system(pattern);
+    let factors = matrix.clone().lu();
+    let mut unknowns = factors.solve(&right_hand_side)?;
+    unknowns += factors.solve(&(&right_hand_side - &matrix * &unknowns))?;
+    let inverse = factors.try_inverse()?;
+    if unknowns.iter().chain(&inverse).any(|value| !value.is_finite()) {
+        return None;
+    }
+    // |delta y| <= |C^-1| (|C| |y| + |b|) eps, componentwise.
+    let terms: DVector<f64> = matrix.abs() * unknowns.abs() + problem.load_size();
+    let bounds: DVector<f64> = inverse.abs() * terms * ROUNDING;
+    let determinant = unscaled_determinant(problem, pattern, &factors);
+    Some(judge(pattern, unknowns, &bounds, problem.load_unit, determinant))
+}
+
+fn judge(
+    pattern: &[ContactState],
+    mut unknowns: DVector<f64>,
+    bounds: &DVector<f64>,
+    load_unit: f64,
+    determinant: f64,
+) -> Candidate {
+    let pressed = |contact: usize| pattern[contact] != ContactState::Gap;
+    let largest =
+        (0..pattern.len()).filter(|&k| pressed(k)).fold(0.0, |most: f64, k| most.max(unknowns[k].abs()));
+    let (mut zero, mut at_end, mut admissible, mut tolerance) = (0, 0, true, 0.0_f64);
+    for contact in 0..pattern.len() {
+        let value = unknowns[contact];
+        let bit = 1_u64 << contact;
+        if pressed(contact) {
+            let bound = ZERO * largest + bounds[contact];
+            tolerance = tolerance.max(bound * load_unit);
+            admissible &= value >= -bound;
+            zero |= if value.abs() <= bound { bit } else { 0 };
+            unknowns[contact] = if value.abs() <= bound { 0.0 } else { value * load_unit };
+        } else {
+            let bound = ZERO + bounds[contact];
+            admissible &= -bound <= value && value <= 1.0 + bound;
+            at_end |= if value.abs() <= bound || (value - 1.0).abs() <= bound { bit } else { 0 };
+            unknowns[contact] = if value.abs() <= bound {
+                0.0
+            } else if (value - 1.0).abs() <= bound {
+                1.0
+            } else {
+                value
+            };
+        }
+    }
+    Candidate { unknowns, zero, at_end, admissible, determinant, tolerance }
+}
+
+/// `det C` of the unscaled matrix, as the product of scaled pivots so that nothing overflows that
+/// need not.
+fn unscaled_determinant(
+    problem: &ScaledProblem,
+    pattern: &[ContactState],
+    factors: &LU<f64, Dyn, Dyn>,
+) -> f64 {
+    let pivots = factors.lu_internal().diagonal();
+    let scaled = pattern
+        .iter()
+        .enumerate()
+        .map(|(contact, &state)| pivots[contact] * problem.determinant_factor(contact, state));
+    scaled.product::<f64>() * factors.p().determinant::<f64>()
+}

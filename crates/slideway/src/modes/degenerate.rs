@@ -1,0 +1,252 @@
+//! Singular patterns: what they admit.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::scaling::ScaledProblem;
+use super::solutions::{ContactState, SolutionSet};
+
+/// A pivot below this, with columns scaled to a largest entry of 1, is zero.
+const ZERO_PIVOT: f64 = 1e-12;
+/// Equations that hold to this are consistent.
+const CONSISTENT: f64 = 1e-10;
+/// Values above minus this fraction of the largest are not negative.
+const NON_NEGATIVE: f64 = 1e-9;
+/// Points closer than this fraction of their size are one point.
+const SAME_POINT: f64 = 1e-8;
+
+/// The outcome of a closer look at a suspect pattern.
+pub(super) enum Examined {
+    /// It is regular.
+    Regular,
+    /// `D = 0`, and this is what it admits.
+    Singular(SolutionSet),
+}
+
+/// Whether a pattern is singular, by elimination with complete pivoting, and what it admits.
+/// `bases` is the work that is left and gets less.
+pub(super) fn examine(problem: &ScaledProblem, pattern: &[ContactState], bases: &mut u64) -> Examined {
+    let contacts = pattern.len();
+    let (mut matrix, right_hand_side) = problem.system(pattern);
+    let column_sizes = scale_columns(&mut matrix);
+    if Reduced::new(augment(&matrix, &right_hand_side)).rank() == contacts {
+        return Examined::Regular;
+    }
+    let (matrix, right_hand_side) = with_share_limits(&matrix, &right_hand_side, pattern, &column_sizes);
+    let Some(polyhedron) = Polyhedron::new(&matrix, &right_hand_side, bases) else {
+        return Examined::Singular(SolutionSet::NotComputed);
+    };
+    // Signed normal forces from scaled unknowns; shares and their complements are left out.
+    let normal_force = |unknowns: &DVector<f64>| {
+        DVector::from_fn(contacts, |contact, _| {
+            pattern[contact].sign() * unknowns[contact] * problem.load_unit / column_sizes[contact]
+        })
+    };
+    let vertices = distinct(polyhedron.vertices.iter().map(normal_force));
+    let directions =
+        polyhedron.directions.iter().map(normal_force).filter(|direction| direction.amax() > 0.0);
+    let directions = distinct(directions.map(|direction| &direction / direction.amax()));
+    Examined::Singular(solution_set(vertices, directions))
+}
+
+fn solution_set(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> SolutionSet {
+    match (vertices.len(), directions.len()) {
+        (0, _) => SolutionSet::Empty,
+        (1, 0) => SolutionSet::Point(vertices.swap_remove(0)),
+        (2, 0) => SolutionSet::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
+        (1, 1) => SolutionSet::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
+        _ => SolutionSet::Polytope { vertices, directions },
+    }
+}
+
+/// Divides every column by its largest entry, and returns these (1 for a zero column).
+fn scale_columns(matrix: &mut DMatrix<f64>) -> Vec<f64> {
+    matrix
+        .column_iter_mut()
+        .map(|mut column| {
+            let size = if column.amax() > 0.0 { column.amax() } else { 1.0 };
+            column /= size;
+            size
+        })
+        .collect()
+}
+
+/// The equations together with `lambda_k + complement_k = 1` for every contact in its gap.
+fn with_share_limits(
+    matrix: &DMatrix<f64>,
+    right_hand_side: &DVector<f64>,
+    pattern: &[ContactState],
+    column_sizes: &[f64],
+) -> (DMatrix<f64>, DVector<f64>) {
+    let contacts = pattern.len();
+    let in_gap: Vec<usize> = (0..contacts).filter(|&k| pattern[k] == ContactState::Gap).collect();
+    let size = contacts + in_gap.len();
+    let mut extended = matrix.clone().resize(size, size, 0.0);
+    let mut extended_right = right_hand_side.clone().resize_vertically(size, 0.0);
+    for (index, &contact) in in_gap.iter().enumerate() {
+        let row = contacts + index;
+        // With z = size lambda as unknown: z + z' = size, each divided by size.
+        extended[(row, contact)] = column_sizes[contact].recip();
+        extended[(row, row)] = 1.0;
+        extended_right[row] = 1.0;
+    }
+    (extended, extended_right)
+}
+
+fn augment(matrix: &DMatrix<f64>, right_hand_side: &DVector<f64>) -> DMatrix<f64> {
+    let columns = matrix.ncols();
+    let mut augmented = matrix.clone().insert_column(columns, 0.0);
+    augmented.set_column(columns, right_hand_side);
+    augmented
+}
+
+/// Equations reduced to independent ones by Gauss-Jordan elimination with complete pivoting.
+struct Reduced {
+    /// The independent equations first, right-hand side last.
+    table: DMatrix<f64>,
+    basic: Vec<usize>,
+}
+
+impl Reduced {
+    fn new(mut table: DMatrix<f64>) -> Self {
+        let unknowns = table.ncols() - 1;
+        let mut basic = Vec::new();
+        while basic.len() < table.nrows().min(unknowns) {
+            let rank = basic.len();
+            let rest = table.view((rank, 0), (table.nrows() - rank, unknowns));
+            let (row, column) = rest.icamax_full();
+            if rest[(row, column)].abs() <= ZERO_PIVOT {
+                break;
+            }
+            table.swap_rows(rank, rank + row);
+            let pivot = table[(rank, column)];
+            table.row_mut(rank).scale_mut(pivot.recip());
+            for other in (0..table.nrows()).filter(|&other| other != rank) {
+                let factor = table[(other, column)];
+                for at in 0..=unknowns {
+                    let eliminated = factor * table[(rank, at)];
+                    table[(other, at)] -= eliminated;
+                }
+            }
+            basic.push(column);
+        }
+        Self { table, basic }
+    }
+
+    fn rank(&self) -> usize {
+        self.basic.len()
+    }
+
+    fn is_consistent(&self) -> bool {
+        self.table
+            .column(self.table.ncols() - 1)
+            .iter()
+            .skip(self.rank())
+            .all(|rest| rest.abs() <= CONSISTENT)
+    }
+}
+
+/// `{z >= 0, A z = b}` by its vertices and extreme directions. It has no lines, so it is empty
+/// exactly if it has no vertex.
+struct Polyhedron {
+    vertices: Vec<DVector<f64>>,
+    directions: Vec<DVector<f64>>,
+}
+
+impl Polyhedron {
+    /// None if there are more bases to try than `bases` allows.
+    fn new(matrix: &DMatrix<f64>, right_hand_side: &DVector<f64>, bases: &mut u64) -> Option<Self> {
+        let reduced = Reduced::new(augment(matrix, right_hand_side));
+        if !reduced.is_consistent() {
+            return Some(Self { vertices: Vec::new(), directions: Vec::new() });
+        }
+        let rank = reduced.rank();
+        let unknowns = matrix.ncols();
+        let equations = reduced.table.rows(0, rank).into_owned();
+        let work = binomial(unknowns, rank).saturating_add(binomial(unknowns, rank + 1));
+        *bases = bases.checked_sub(work)?;
+        // Extreme directions are the vertices of {z >= 0, A z = 0, sum z = 1}.
+        let mut homogeneous = equations.clone().insert_row(rank, 1.0);
+        homogeneous.column_mut(unknowns).fill(0.0);
+        homogeneous[(rank, unknowns)] = 1.0;
+        Some(Self {
+            vertices: basic_feasible_points(&equations),
+            directions: basic_feasible_points(&homogeneous),
+        })
+    }
+}
+
+/// All points `z >= 0` that solve the independent equations with as many non-zero unknowns as there
+/// are equations.
+fn basic_feasible_points(equations: &DMatrix<f64>) -> Vec<DVector<f64>> {
+    let rank = equations.nrows();
+    let unknowns = equations.ncols() - 1;
+    let right_hand_side = equations.column(unknowns).into_owned();
+    let mut points = Vec::new();
+    if rank > unknowns {
+        return points;
+    }
+    if rank == 0 {
+        return vec![DVector::zeros(unknowns)];
+    }
+    let mut basis: Vec<usize> = (0..rank).collect();
+    loop {
+        let factors = equations.select_columns(&basis).lu();
+        let regular = factors.lu_internal().diagonal().iter().all(|pivot| pivot.abs() > CONSISTENT);
+        if let Some(values) = factors.solve(&right_hand_side).filter(|_| regular) {
+            let size = values.amax().max(right_hand_side.amax());
+            if values.iter().all(|&value| value >= -NON_NEGATIVE * size) {
+                let mut point = DVector::zeros(unknowns);
+                for (&at, &value) in basis.iter().zip(&values) {
+                    point[at] = if value <= NON_NEGATIVE * size { 0.0 } else { value };
+                }
+                points.push(point);
+            }
+        }
+        if !next_combination(&mut basis, unknowns) {
+            return points;
+        }
+    }
+}
+
+/// Advances an increasing list of indices below `count` to the next one in lexicographic order.
+fn next_combination(indices: &mut [usize], count: usize) -> bool {
+    let length = indices.len();
+    let Some(at) = (0..length).rev().find(|&at| indices[at] < count - length + at) else {
+        return false;
+    };
+    indices[at] += 1;
+    for later in at + 1..length {
+        indices[later] = indices[later - 1] + 1;
+    }
+    true
+}
+
+fn binomial(count: usize, chosen: usize) -> u64 {
+    if chosen > count {
+        return 0;
+    }
+    (0..chosen as u64).fold(1_u64, |product, at| product.saturating_mul(count as u64 - at) / (at + 1))
+}
+
+fn distinct(points: impl Iterator<Item = DVector<f64>>) -> Vec<DVector<f64>> {
+    let mut kept: Vec<DVector<f64>> = Vec::new();
+    for point in points {
+        if !kept.iter().any(|other| same_point(other, &point)) {
+            kept.push(point);
+        }
+    }
+    kept
+}
+
+/// Whether two points agree within tolerance relative to the larger one.
+pub(super) fn same_point(one: &DVector<f64>, other: &DVector<f64>) -> bool {
+    (one - other).amax() <= SAME_POINT * one.amax().max(other.amax())
+}
+
+/// Whether two sets have the same vertices and the same directions, in any order.
+pub(super) fn same_set(one: &SolutionSet, other: &SolutionSet) -> bool {
+    let same = |one: &[&DVector<f64>], other: &[&DVector<f64>]| {
+        one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| same_point(a, b)))
+    };
+    same(&one.vertices(), &other.vertices()) && same(&one.directions(), &other.directions())
+}

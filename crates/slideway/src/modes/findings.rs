@@ -1,0 +1,384 @@
+//! Collects what the tree finds: merges what several patterns share, and counts every pattern.
+
+use std::collections::HashMap;
+
+use nalgebra::DVector;
+
+use super::candidate::{Candidate, solve_pattern};
+use super::degenerate::{Examined, examine, same_point, same_set};
+use super::enumeration::{EnumerationError, Limits};
+use super::problem::Side;
+use super::scaling::ScaledProblem;
+use super::solutions::{
+    ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
+    Solutions,
+};
+
+/// How many patterns close to locking are reported.
+const CLOSEST: usize = 4;
+
+/// A solution or gap state with the patterns that give it.
+struct Found {
+    candidate: Candidate,
+    normal_force: DVector<f64>,
+    patterns: Vec<Vec<ContactState>>,
+    pattern_count: u64,
+}
+
+/// What patterns with the same boundary solution have in common: the states of contacts that are
+/// not free to change their side, and which ones are.
+#[derive(PartialEq, Eq, Hash)]
+struct SharedPattern {
+    states: Vec<ContactState>,
+    free: u64,
+}
+
+pub(super) struct Findings<'a> {
+    problem: &'a ScaledProblem,
+    limits: Limits,
+    counts: PatternCounts,
+    gap_counts: PatternCounts,
+    found: Vec<Found>,
+    shared: HashMap<SharedPattern, usize>,
+    accepted: usize,
+    singular: Vec<SingularMode>,
+    examined: usize,
+    bases: u64,
+    closest: Vec<(f64, Vec<ContactState>)>,
+}
+
+impl<'a> Findings<'a> {
+    pub(super) fn new(problem: &'a ScaledProblem, limits: &Limits) -> Self {
+        Self {
+            problem,
+            limits: *limits,
+            counts: PatternCounts::default(),
+            gap_counts: PatternCounts::default(),
+            found: Vec::new(),
+            shared: HashMap::new(),
+            accepted: 0,
+            singular: Vec::new(),
+            examined: 0,
+            bases: limits.bases,
+            closest: Vec::with_capacity(CLOSEST + 1),
+        }
+    }
+
+    fn counts_of(&mut self, pattern: &[ContactState]) -> &mut PatternCounts {
+        if pattern.contains(&ContactState::Gap) { &mut self.gap_counts } else { &mut self.counts }
+    }
+
+    pub(super) fn count_no_solution(&mut self, with_gap: bool) {
+        let counts = if with_gap { &mut self.gap_counts } else { &mut self.counts };
+        counts.no_solution += 1;
+    }
+
+    /// Keeps a regular pattern if its determinant is among the smallest.
+    pub(super) fn offer_closest(&mut self, pattern: &[ContactState], determinant: f64) {
+        let size = determinant.abs();
+        if self.closest.last().is_some_and(|(largest, _)| self.closest.len() == CLOSEST && size >= *largest) {
+            return;
+        }
+        let at = self.closest.partition_point(|(other, _)| *other <= size);
+        self.closest.insert(at, (size, pattern.to_vec()));
+        self.closest.truncate(CLOSEST);
+    }
+
+    /// Solves a pattern carefully and files its outcome.
+    pub(super) fn examine_candidate(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+        let Some(candidate) = solve_pattern(self.problem, pattern) else {
+            self.counts_of(pattern).not_examined += 1;
+            return Ok(());
+        };
+        let counts = self.counts_of(pattern);
+        if !candidate.admissible {
+            counts.no_solution += 1;
+            return Ok(());
+        }
+        if candidate.zero | candidate.at_end == 0 {
+            counts.solution += 1;
+        } else {
+            counts.boundary += 1;
+        }
+        self.accepted += 1;
+        if self.accepted > self.limits.solutions {
+            return Err(EnumerationError::TooManySolutions { limit: self.limits.solutions });
+        }
+        self.file(pattern, candidate);
+        Ok(())
+    }
+
+    fn file(&mut self, pattern: &[ContactState], candidate: Candidate) {
+        let free = self.free_contacts(&candidate);
+        let key = SharedPattern { states: canonical(pattern, free), free };
+        let signed = pattern.iter().zip(&candidate.unknowns).map(|(state, value)| state.sign() * value);
+        let normal_force = DVector::from_iterator(pattern.len(), signed);
+        let (patterns, pattern_count) = (vec![pattern.to_vec()], 1);
+        let new = Found { candidate, normal_force, patterns, pattern_count };
+        match self.shared.get(&key) {
+            Some(&index) if self.found[index].agrees_with(&new) => {
+                self.found[index].absorb(new, self.limits.listed);
+            }
+            _ => {
+                self.shared.insert(key, self.found.len());
+                self.found.push(new);
+            }
+        }
+    }
+
+    /// Contacts with `y_k = 0` at which the right-hand side does not jump: either side will do.
+    fn free_contacts(&self, candidate: &Candidate) -> u64 {
+        let jumps = self.problem.has_jump.iter().enumerate();
+        jumps.fold(candidate.zero, |free, (contact, &jump)| free & !(u64::from(jump) << contact))
+    }
+
+    /// Examines one by one all patterns that share the states of the contacts before `first`.
+    pub(super) fn examine_all_below(
+        &mut self,
+        pattern: &mut [ContactState],
+        first: usize,
+    ) -> Result<(), EnumerationError> {
+        if self.examined >= self.limits.singular {
+            self.leave_unexamined(pattern, first);
+            return Ok(());
+        }
+        if first < pattern.len() {
+            for &state in self.problem.states(first) {
+                pattern[first] = state;
+                self.examine_all_below(pattern, first + 1)?;
+            }
+            return Ok(());
+        }
+        self.examined += 1;
+        match examine(self.problem, pattern, &mut self.bases) {
+            Examined::Regular => self.examine_candidate(pattern)?,
+            Examined::Singular(set) => self.file_singular(pattern, set),
+        }
+        Ok(())
+    }
+
+    fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
+        let (pressed, all) = self.problem.patterns_from(first);
+        if pattern[..first].contains(&ContactState::Gap) {
+            self.gap_counts.not_examined += all;
+        } else {
+            self.counts.not_examined += pressed;
+            self.gap_counts.not_examined += all - pressed;
+        }
+    }
+
+    fn file_singular(&mut self, pattern: &[ContactState], set: SolutionSet) {
+        self.counts_of(pattern).count_set(&set);
+        let known =
+            self.singular.iter_mut().find(|mode| !set.vertices().is_empty() && same_set(&mode.set, &set));
+        if let Some(mode) = known {
+            mode.pattern_count += 1;
+            if mode.patterns.len() < self.limits.listed {
+                mode.patterns.push(pattern.to_vec());
+            }
+            return;
+        }
+        self.singular.push(SingularMode {
+            pattern: pattern.to_vec(),
+            patterns: vec![pattern.to_vec()],
+            pattern_count: 1,
+            set,
+            contains: Vec::new(),
+        });
+    }
+
+    pub(super) fn into_solutions(mut self) -> Solutions {
+        self.merge_neighbours();
+        let (gaps, ordinary): (Vec<Found>, Vec<Found>) =
+            std::mem::take(&mut self.found).into_iter().partition(Found::has_gap);
+        let kept: Vec<bool> = gaps.iter().map(|gap| !self.is_known(gap, &ordinary, &gaps)).collect();
+        let gaps = gaps.into_iter().zip(kept).filter(|(_, kept)| *kept);
+        let gaps: Vec<GapState> = gaps.map(|(gap, _)| gap.into_gap_state()).collect();
+        let solutions: Vec<ModeSolution> = ordinary.into_iter().map(Found::into_mode_solution).collect();
+        for mode in &mut self.singular {
+            let vertices = mode.set.vertices();
+            let is_vertex = |solution: &ModeSolution| {
+                vertices.iter().any(|vertex| same_point(vertex, &solution.normal_force))
+            };
+            let contained = solutions.iter().enumerate().filter(|(_, solution)| is_vertex(solution));
+            let contained = contained.map(|(index, _)| index).collect();
+            mode.contains = contained;
+        }
+        let closest = if solutions.is_empty() { self.closest_modes() } else { Vec::new() };
+        let (counts, gap_counts, singular) = (self.counts, self.gap_counts, self.singular);
+        Solutions { counts, gap_counts, solutions, gaps, singular, closest }
+    }
+
+    /// Merges boundary solutions with the solution of a neighbour that was not quite on the
+    /// boundary by its own tolerance.
+    fn merge_neighbours(&mut self) {
+        let free: Vec<u64> = self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
+        let mut merged: Vec<Option<usize>> = vec![None; self.found.len()];
+        for one in 0..self.found.len() {
+            if merged[one].is_some() {
+                continue;
+            }
+            for other in one + 1..self.found.len() {
+                let between = free[one] | free[other];
+                let neighbours = between != 0
+                    && merged[other].is_none()
+                    && differ_only_in(self.found[one].pattern(), self.found[other].pattern(), between);
+                if neighbours && self.found[one].agrees_with(&self.found[other]) {
+                    merged[other] = Some(one);
+                }
+            }
+        }
+        let mut kept: Vec<Found> = Vec::with_capacity(self.found.len());
+        let mut places = Vec::with_capacity(self.found.len());
+        for (found, merged) in std::mem::take(&mut self.found).into_iter().zip(merged) {
+            if let Some(into) = merged {
+                let place: usize = places[into];
+                kept[place].absorb(found, self.limits.listed);
+                places.push(place);
+            } else {
+                places.push(kept.len());
+                kept.push(found);
+            }
+        }
+        self.found = kept;
+    }
+
+    /// Whether a gap state with a share of 0 or 1 is reported already: as a solution, as a gap state
+    /// with fewer gaps, or as a vertex of what a singular pattern admits.
+    fn is_known(&self, gap: &Found, ordinary: &[Found], gaps: &[Found]) -> bool {
+        if gap.candidate.at_end == 0 {
+            return false;
+        }
+        let mut vertices = self.singular.iter().flat_map(|mode| mode.set.vertices());
+        ordinary.iter().chain(gaps).any(|other| gap.ends_at(other, &self.problem.has_jump))
+            || vertices.any(|vertex| same_point(vertex, &gap.normal_force))
+    }
+
+    fn closest_modes(&self) -> Vec<ClosestMode> {
+        let solved = self.closest.iter().filter_map(|(_, pattern)| {
+            let Candidate { unknowns, determinant, .. } = solve_pattern(self.problem, pattern)?;
+            let pattern = sides(pattern);
+            let oriented_determinant = oriented(determinant, &pattern);
+            Some(ClosestMode { pattern, determinant, oriented_determinant, y: unknowns })
+        });
+        solved.collect()
+    }
+}
+
+impl Found {
+    fn pattern(&self) -> &[ContactState] {
+        &self.patterns[0]
+    }
+
+    fn has_gap(&self) -> bool {
+        self.pattern().contains(&ContactState::Gap)
+    }
+
+    fn agrees_with(&self, other: &Self) -> bool {
+        let tolerance = self.candidate.tolerance + other.candidate.tolerance;
+        (&self.normal_force - &other.normal_force).amax() <= tolerance
+    }
+
+    fn absorb(&mut self, other: Self, listed: usize) {
+        self.pattern_count += other.pattern_count;
+        let room = listed.saturating_sub(self.patterns.len());
+        self.patterns.extend(other.patterns.into_iter().take(room));
+        for contact in bits(other.candidate.zero) {
+            self.candidate.zero |= 1 << contact;
+            self.candidate.unknowns[contact] = 0.0;
+            self.normal_force[contact] = 0.0;
+        }
+    }
+
+    /// Whether another finding is the same state with some gaps closed, at the face where this
+    /// state's shares end.
+    fn ends_at(&self, other: &Self, has_jump: &[bool]) -> bool {
+        let states = self.pattern().iter().zip(other.pattern()).enumerate();
+        let mut closed = 0;
+        for (contact, (&state, &face)) in states.filter(|(contact, _)| has_jump[*contact]) {
+            if state == face {
+                continue;
+            }
+            let end = if self.candidate.unknowns[contact] == 1.0 {
+                ContactState::Positive
+            } else {
+                ContactState::Negative
+            };
+            let at_end = self.candidate.at_end >> contact & 1 == 1;
+            if !at_end || face != end {
+                return false;
+            }
+            closed += 1;
+        }
+        closed > 0 && self.agrees_with(other)
+    }
+
+    fn signs(&self) -> Vec<i8> {
+        let sign = |(contact, state): (usize, &ContactState)| match state {
+            _ if self.candidate.zero >> contact & 1 == 1 => 0,
+            ContactState::Positive => 1,
+            ContactState::Negative => -1,
+            ContactState::Gap => 0,
+        };
+        self.pattern().iter().enumerate().map(sign).collect()
+    }
+
+    fn into_mode_solution(self) -> ModeSolution {
+        let pattern = sides(self.pattern());
+        ModeSolution {
+            signs: self.signs(),
+            y: self.normal_force.abs(),
+            determinant: self.candidate.determinant,
+            oriented_determinant: oriented(self.candidate.determinant, &pattern),
+            pattern,
+            on_boundary: bits(self.candidate.zero).collect(),
+            patterns: self.patterns.iter().map(|pattern| sides(pattern)).collect(),
+            pattern_count: self.pattern_count,
+            tolerance: self.candidate.tolerance,
+            normal_force: self.normal_force,
+        }
+    }
+
+    fn into_gap_state(self) -> GapState {
+        let in_gap =
+            (0..self.pattern().len()).filter(|&contact| self.pattern()[contact] == ContactState::Gap);
+        let share = |contact| GapShare { contact, lambda: self.candidate.unknowns[contact] };
+        GapState {
+            pattern: self.pattern().to_vec(),
+            shares: in_gap.map(share).collect(),
+            signs: self.signs(),
+            y: self.normal_force.abs(),
+            determinant: self.candidate.determinant,
+            on_boundary: bits(self.candidate.zero).collect(),
+            patterns: self.patterns,
+            pattern_count: self.pattern_count,
+            tolerance: self.candidate.tolerance,
+            normal_force: self.normal_force,
+        }
+    }
+}
+
+/// `p = D prod_k sigma_k` (theory, section 5).
+fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
+    pattern.iter().fold(determinant, |product, side| product * side.sign())
+}
+
+/// The sides of a pattern without gaps.
+fn sides(pattern: &[ContactState]) -> Vec<Side> {
+    pattern.iter().filter_map(|state| state.side()).collect()
+}
+
+fn bits(mask: u64) -> impl Iterator<Item = usize> {
+    (0..64).filter(move |contact| mask >> contact & 1 == 1)
+}
+
+/// The pattern with all free contacts on their positive side.
+fn canonical(pattern: &[ContactState], free: u64) -> Vec<ContactState> {
+    let state = |(contact, &state)| if free >> contact & 1 == 1 { ContactState::Positive } else { state };
+    pattern.iter().enumerate().map(state).collect()
+}
+
+fn differ_only_in(one: &[ContactState], other: &[ContactState], contacts: u64) -> bool {
+    let mut states = one.iter().zip(other).enumerate();
+    states.all(|(contact, (one, other))| one == other || contacts >> contact & 1 == 1)
+}

@@ -1,0 +1,114 @@
+//! The mode problem in units in which tolerances are plain numbers.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::problem::{ModeProblem, Side};
+use super::solutions::ContactState;
+
+/// A mode problem with rows divided by their largest coefficient and loads divided by the largest
+/// load, both rounded to powers of two so that scaling makes no rounding error.
+///
+/// Unknowns are `y_k` divided by `load_unit`, and `lambda_k` itself for a contact in its gap.
+pub(super) struct ScaledProblem {
+    columns: [DMatrix<f64>; 2],
+    /// `d_k^+ - d_k^-` of the contacts with a jump; other columns are zero.
+    jump_difference: DMatrix<f64>,
+    /// `N(0) + sum_k d_k^-`.
+    base: DVector<f64>,
+    /// `|N(0)| + sum_k max(|d_k^+|, |d_k^-|)`: the size of the terms a right-hand side is made of.
+    load_size: DVector<f64>,
+    row_scale: DVector<f64>,
+    pub(super) load_unit: f64,
+    pub(super) has_jump: Vec<bool>,
+}
+
+impl ScaledProblem {
+    pub(super) fn new(problem: &ModeProblem) -> Self {
+        let contacts = problem.contacts();
+        let [positive, negative] = Side::BOTH.map(|side| problem.columns(side));
+        let row_scale = DVector::from_fn(contacts, |row, _| {
+            power_of_two_above(positive.row(row).amax().max(negative.row(row).amax())).recip()
+        });
+        let scale_rows = |matrix: &DMatrix<f64>| DMatrix::from_diagonal(&row_scale) * matrix;
+        let [jumps_positive, jumps_negative] = Side::BOTH.map(|side| scale_rows(problem.jumps(side)));
+        let right_hand_side = problem.right_hand_side().component_mul(&row_scale);
+
+        let load_size = right_hand_side.abs() + jumps_positive.abs().sup(&jumps_negative.abs()).column_sum();
+        let load_unit = power_of_two_above(load_size.amax());
+        let has_jump: Vec<bool> = (0..contacts).map(|contact| problem.has_jump(contact)).collect();
+        let mut jump_difference = (&jumps_positive - &jumps_negative) / load_unit;
+        for (contact, mut column) in jump_difference.column_iter_mut().enumerate() {
+            if !has_jump[contact] {
+                column.fill(0.0);
+            }
+        }
+        Self {
+            columns: [scale_rows(positive), scale_rows(negative)],
+            jump_difference,
+            base: (right_hand_side + jumps_negative.column_sum()) / load_unit,
+            load_size: load_size / load_unit,
+            row_scale,
+            load_unit,
+            has_jump,
+        }
+    }
+
+    pub(super) fn contacts(&self) -> usize {
+        self.has_jump.len()
+    }
+
+    /// The states that a contact can take, in the order of enumeration.
+    pub(super) fn states(&self, contact: usize) -> &'static [ContactState] {
+        if self.has_jump[contact] { &ContactState::ALL } else { &ContactState::PRESSED }
+    }
+
+    /// Number of patterns of the contacts from `first` on: without and with gap states.
+    pub(super) fn patterns_from(&self, first: usize) -> (u64, u64) {
+        (first..self.contacts()).fold((1, 1), |(pressed, all): (u64, u64), contact| {
+            (pressed.saturating_mul(2), all.saturating_mul(self.states(contact).len() as u64))
+        })
+    }
+
+    pub(super) fn base(&self) -> &DVector<f64> {
+        &self.base
+    }
+
+    pub(super) fn load_size(&self) -> &DVector<f64> {
+        &self.load_size
+    }
+
+    /// The column of a contact in a state: `c_k^+`, `c_k^-`, or `-(d_k^+ - d_k^-)` in its gap.
+    pub(super) fn column(&self, contact: usize, state: ContactState) -> DVector<f64> {
+        match state {
+            ContactState::Positive => self.columns[0].column(contact).into_owned(),
+            ContactState::Negative => self.columns[1].column(contact).into_owned(),
+            ContactState::Gap => -self.jump_difference.column(contact),
+        }
+    }
+
+    /// Matrix and right-hand side of a pattern.
+    pub(super) fn system(&self, pattern: &[ContactState]) -> (DMatrix<f64>, DVector<f64>) {
+        let mut matrix = DMatrix::zeros(self.contacts(), self.contacts());
+        let mut right_hand_side = self.base.clone();
+        for (contact, &state) in pattern.iter().enumerate() {
+            matrix.set_column(contact, &self.column(contact, state));
+            if state == ContactState::Positive {
+                right_hand_side += self.jump_difference.column(contact);
+            }
+        }
+        (matrix, right_hand_side)
+    }
+
+    /// The factor by which a column in the given state and the row of the same number enlarge the
+    /// determinant of the unscaled matrix.
+    pub(super) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {
+        let column_unit = if state == ContactState::Gap { self.load_unit } else { 1.0 };
+        column_unit / self.row_scale[contact]
+    }
+}
+
+/// The smallest power of two above `size`, kept within the range where its reciprocal is finite;
+/// 1 for zero.
+fn power_of_two_above(size: f64) -> f64 {
+    if size == 0.0 { 1.0 } else { (size.log2().floor() + 1.0).clamp(-1000.0, 1000.0).exp2() }
+}

@@ -1,0 +1,276 @@
+//! What an enumeration finds.
+
+use nalgebra::DVector;
+
+use super::problem::Side;
+
+/// What one contact does in a pattern: pressed on one of its sides, or between its faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ContactState {
+    /// `N > 0`.
+    Positive,
+    /// `N < 0`.
+    Negative,
+    /// `N = 0`, and the preload friction acts between the faces (theory, section 3).
+    Gap,
+}
+
+impl ContactState {
+    pub(super) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
+    pub(super) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
+
+    /// The side on which the contact is pressed; none in the gap.
+    pub fn side(self) -> Option<Side> {
+        match self {
+            Self::Positive => Some(Side::Positive),
+            Self::Negative => Some(Side::Negative),
+            Self::Gap => None,
+        }
+    }
+
+    /// The sign of the normal force, 0 in the gap.
+    pub fn sign(self) -> f64 {
+        self.side().map_or(0.0, Side::sign)
+    }
+}
+
+impl From<Side> for ContactState {
+    fn from(side: Side) -> Self {
+        match side {
+            Side::Positive => Self::Positive,
+            Side::Negative => Self::Negative,
+        }
+    }
+}
+
+/// A solution with every contact pressed on a side or just about to change it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeSolution {
+    /// The first pattern, in the order of enumeration, that gives the solution.
+    pub pattern: Vec<Side>,
+    /// Sign of every normal force, 0 for a contact on the boundary.
+    pub signs: Vec<i8>,
+    /// `y_k = |N_k|`, exactly 0 on the boundary.
+    pub y: DVector<f64>,
+    /// Signed normal forces `N_k = sigma_k y_k`.
+    pub normal_force: DVector<f64>,
+    /// `D = det [c_k^{sigma_k}]` of `pattern`.
+    pub determinant: f64,
+    /// `p = D prod_k sigma_k` of `pattern` (theory, section 5).
+    pub oriented_determinant: f64,
+    /// Contacts with `y_k = 0` within `tolerance`.
+    pub on_boundary: Vec<usize>,
+    /// The patterns that give this same solution, at most [`Limits::listed`](super::Limits::listed).
+    pub patterns: Vec<Vec<Side>>,
+    /// How many patterns give this same solution.
+    pub pattern_count: u64,
+    /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
+    pub tolerance: f64,
+}
+
+/// A state with at least one contact between its faces (theory, section 3, "Preload gap").
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapState {
+    /// The first pattern, in the order of enumeration, that gives the state.
+    pub pattern: Vec<ContactState>,
+    /// The contacts in their gap and the share `lambda` of `d_k^+` in their preload friction
+    /// `lambda d_k^+ + (1 - lambda) d_k^-`, `0 <= lambda <= 1`.
+    pub shares: Vec<GapShare>,
+    /// Sign of every normal force, 0 in the gap and on the boundary.
+    pub signs: Vec<i8>,
+    /// `y_k = |N_k|`, exactly 0 in the gap and on the boundary.
+    pub y: DVector<f64>,
+    /// Signed normal forces.
+    pub normal_force: DVector<f64>,
+    /// Determinant of the pattern's matrix, which has `-(d_k^+ - d_k^-)` as the column of a
+    /// contact in its gap.
+    pub determinant: f64,
+    /// Pressed contacts with `y_k = 0` within `tolerance`.
+    pub on_boundary: Vec<usize>,
+    /// The patterns that give this same state, at most [`Limits::listed`](super::Limits::listed).
+    pub patterns: Vec<Vec<ContactState>>,
+    /// How many patterns give this same state.
+    pub pattern_count: u64,
+    /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
+    pub tolerance: f64,
+}
+
+/// How the preload friction of a contact in its gap is shared between the faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapShare {
+    /// The contact, from 0.
+    pub contact: usize,
+    /// The share of the positive side, from 0 to 1.
+    pub lambda: f64,
+}
+
+/// The signed normal forces that a singular pattern admits.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SolutionSet {
+    /// No solution: locking of the mode.
+    Empty,
+    /// One solution.
+    Point(DVector<f64>),
+    /// All `N` between two ends.
+    Segment {
+        /// One end.
+        from: DVector<f64>,
+        /// The other end.
+        to: DVector<f64>,
+    },
+    /// All `from + t direction`, `t >= 0`.
+    Ray {
+        /// The end of the ray.
+        from: DVector<f64>,
+        /// The direction, its largest component being 1 in size.
+        direction: DVector<f64>,
+    },
+    /// Convex combinations of the vertices plus non-negative combinations of the directions.
+    Polytope {
+        /// The vertices.
+        vertices: Vec<DVector<f64>>,
+        /// Extreme directions, the largest component of each being 1 in size.
+        directions: Vec<DVector<f64>>,
+    },
+    /// Describing the set takes more work than [`Limits::bases`](super::Limits::bases) allows.
+    NotComputed,
+}
+
+impl SolutionSet {
+    /// The vertices of the set, none if it is empty or was not computed.
+    pub fn vertices(&self) -> Vec<&DVector<f64>> {
+        match self {
+            Self::Empty | Self::NotComputed => Vec::new(),
+            Self::Point(point) => vec![point],
+            Self::Segment { from, to } => vec![from, to],
+            Self::Ray { from, .. } => vec![from],
+            Self::Polytope { vertices, .. } => vertices.iter().collect(),
+        }
+    }
+
+    /// The extreme directions of the set, none if it is bounded or was not computed.
+    pub fn directions(&self) -> Vec<&DVector<f64>> {
+        match self {
+            Self::Ray { direction, .. } => vec![direction],
+            Self::Polytope { directions, .. } => directions.iter().collect(),
+            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
+        }
+    }
+
+    /// Whether the set holds more than one point.
+    pub fn is_continuum(&self) -> bool {
+        matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
+    }
+}
+
+/// A pattern with `D = 0` within tolerance and what it admits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SingularMode {
+    /// The first pattern, in the order of enumeration; with gap states where they were tried.
+    pub pattern: Vec<ContactState>,
+    /// The singular patterns that admit this same set: several only if it is not empty; at most
+    /// [`Limits::listed`](super::Limits::listed).
+    pub patterns: Vec<Vec<ContactState>>,
+    /// How many singular patterns admit this same set.
+    pub pattern_count: u64,
+    /// What the pattern admits. For a pattern with gap states these are its normal forces; the
+    /// shares `lambda` may vary besides.
+    pub set: SolutionSet,
+    /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
+    /// reported there as well.
+    pub contains: Vec<usize>,
+}
+
+/// A regular pattern close to locking.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClosestMode {
+    /// The pattern.
+    pub pattern: Vec<Side>,
+    /// `D = det [c_k^{sigma_k}]`, not zero.
+    pub determinant: f64,
+    /// `p = D prod_k sigma_k`.
+    pub oriented_determinant: f64,
+    /// The solution of the pattern's equations; at least one `y_k` is negative.
+    pub y: DVector<f64>,
+}
+
+/// How many patterns had which outcome. Every pattern is in exactly one of the counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PatternCounts {
+    /// All `y_k > 0`.
+    pub solution: u64,
+    /// Solutions with at least one `y_k = 0`, or a share `lambda` of 0 or 1.
+    pub boundary: u64,
+    /// Some `y_k < 0`.
+    pub no_solution: u64,
+    /// `D = 0` and nothing that solves the equations with `y >= 0`: locking of the mode.
+    pub singular_empty: u64,
+    /// `D = 0` and exactly one `y >= 0`.
+    pub singular_point: u64,
+    /// `D = 0` and a continuum of `y >= 0`.
+    pub singular_continuum: u64,
+    /// `D = 0`, or so close to it that only a closer look could tell, and no such look was taken
+    /// or completed: it would have passed [`Limits::singular`](super::Limits::singular) or
+    /// [`Limits::bases`](super::Limits::bases), or numbers overflowed.
+    pub not_examined: u64,
+}
+
+impl PatternCounts {
+    /// The sum of all counts.
+    pub fn total(&self) -> u64 {
+        self.solution
+            + self.boundary
+            + self.no_solution
+            + self.singular_empty
+            + self.singular_point
+            + self.singular_continuum
+            + self.not_examined
+    }
+
+    pub(super) fn count_set(&mut self, set: &SolutionSet) {
+        match set {
+            SolutionSet::Empty => self.singular_empty += 1,
+            SolutionSet::Point(_) => self.singular_point += 1,
+            SolutionSet::NotComputed => self.not_examined += 1,
+            SolutionSet::Segment { .. } | SolutionSet::Ray { .. } | SolutionSet::Polytope { .. } => {
+                self.singular_continuum += 1;
+            }
+        }
+    }
+}
+
+/// Everything that an enumeration found. Lists are in the order of enumeration: lexicographic by
+/// pattern, contact 0 first, positive before negative before gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solutions {
+    /// The outcome of all `2^r` patterns.
+    pub counts: PatternCounts,
+    /// The outcome of the `2^(r-j) 3^j - 2^r` patterns with gap states that `j` contacts with a
+    /// jump add.
+    pub gap_counts: PatternCounts,
+    /// Solutions of regular patterns, each reported once.
+    pub solutions: Vec<ModeSolution>,
+    /// Preload-gap states that are not already in `solutions`.
+    pub gaps: Vec<GapState>,
+    /// Singular patterns that were examined, each set reported once, and those without a solution
+    /// one by one.
+    pub singular: Vec<SingularMode>,
+    /// Up to four regular patterns with the smallest `|D|`, if `solutions` is empty.
+    pub closest: Vec<ClosestMode>,
+}
+
+impl Solutions {
+    /// Whether every pattern's outcome is known.
+    pub fn is_complete(&self) -> bool {
+        self.counts.not_examined == 0 && self.gap_counts.not_examined == 0
+    }
+
+    /// Whether there is nothing at all: no solution, no gap state, no singular pattern that admits
+    /// something, and nothing left unexamined.
+    pub fn is_jammed(&self) -> bool {
+        self.is_complete()
+            && self.solutions.is_empty()
+            && self.gaps.is_empty()
+            && self.singular.iter().all(|mode| mode.set == SolutionSet::Empty)
+    }
+}

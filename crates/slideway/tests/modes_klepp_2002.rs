@@ -1,0 +1,209 @@
+//! The example of Klepp (2002), sections 6 and 7, as raw mode problems in the paper's convention
+//! (reactions in units of m g, `N_3` positive downwards).
+
+use std::error::Error;
+
+use nalgebra::{DMatrix, DVector, dvector};
+use serde::Deserialize;
+use slideway::modes::{
+    BySide, ContactState, InfluenceCoefficients, Limits, ModeProblem, ModeSolution, Side, Solutions,
+    enumerate,
+};
+
+#[derive(Deserialize)]
+struct Reference {
+    parameters: Parameters,
+    printed: Vec<Printed>,
+    intervals: Vec<Intervals>,
+}
+
+#[derive(Deserialize)]
+struct Parameters {
+    alpha_deg: f64,
+    b_over_l: f64,
+    h_over_l: f64,
+    mu_2: f64,
+    mu_3: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "PascalCase")]
+struct PrintedSolution {
+    n: Vec<f64>,
+    f: Vec<f64>,
+    #[serde(rename = "F_total")]
+    f_total: f64,
+}
+
+#[derive(Deserialize)]
+struct Printed {
+    mu_1: f64,
+    #[serde(rename = "F0")]
+    preload: [f64; 3],
+    velocity: f64,
+    solutions: Vec<PrintedSolution>,
+}
+
+#[derive(Deserialize)]
+struct Intervals {
+    #[serde(rename = "F0")]
+    preload: [f64; 3],
+    velocity: f64,
+    modes: Vec<Interval>,
+}
+
+#[derive(Deserialize)]
+struct Interval {
+    signs: String,
+    from: f64,
+    to: f64,
+}
+
+fn reference() -> Result<Reference, Box<dyn Error>> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/klepp-2002.toml");
+    Ok(toml::from_str(&std::fs::read_to_string(path)?)?)
+}
+
+/// The problem from the closed forms of the paper's section 6.
+fn example(parameters: &Parameters, mu_1: f64, preload: [f64; 3], velocity: f64) -> ModeProblem {
+    let tangent = parameters.alpha_deg.to_radians().tan();
+    let arm = parameters.h_over_l / (2.0 * parameters.b_over_l);
+    let eta = |side: Side| {
+        let (two, three) = (arm * side.sign(), -arm * side.sign());
+        #[rustfmt::skip]
+        let entries = [
+            -tangent / 2.0, tangent / 2.0, tangent / 2.0,
+            tangent / 4.0, two - tangent / 4.0, three - tangent / 4.0,
+            -tangent / 4.0, two + tangent / 4.0, three + tangent / 4.0,
+        ];
+        DMatrix::from_row_slice(3, 3, &entries)
+    };
+    let eta = BySide { positive: eta(Side::Positive), negative: eta(Side::Negative) };
+    ModeProblem::from_influence(&InfluenceCoefficients {
+        eta_preload: eta.clone(),
+        eta,
+        mu: BySide::same(dvector![mu_1, parameters.mu_2, parameters.mu_3]),
+        preload: BySide::same(DVector::from_row_slice(&preload)),
+        velocity_signs: DVector::repeat(3, velocity),
+        frictionless: dvector![0.5, 0.25, -0.25],
+    })
+    .expect("the example's data are finite and of one size")
+}
+
+fn solve(mu_1: f64, preload: [f64; 3], velocity: f64) -> Result<Solutions, Box<dyn Error>> {
+    let problem = example(&reference()?.parameters, mu_1, preload, velocity);
+    let solutions = enumerate(&problem, &Limits::default())?;
+    assert_eq!(solutions.counts.total(), 8);
+    Ok(solutions)
+}
+
+fn signs(solution: &ModeSolution) -> String {
+    solution.signs.iter().map(|sign| if *sign > 0 { '+' } else { '-' }).collect()
+}
+
+#[test]
+fn every_printed_number_is_reproduced() -> Result<(), Box<dyn Error>> {
+    let reference = reference()?;
+    for printed in &reference.printed {
+        let found = solve(printed.mu_1, printed.preload, printed.velocity)?;
+        assert_eq!(found.solutions.len(), printed.solutions.len());
+        for expected in &printed.solutions {
+            let close = |solution: &&ModeSolution| {
+                (0..3).all(|k| (solution.normal_force[k] - expected.n[k]).abs() < 0.6e-4)
+            };
+            let solution = found.solutions.iter().find(close).ok_or("a printed solution is missing")?;
+            let mu = [printed.mu_1, reference.parameters.mu_2, reference.parameters.mu_3];
+            let friction: Vec<f64> = (0..3).map(|k| mu[k] * solution.y[k] + printed.preload[k]).collect();
+            assert!(
+                friction.iter().zip(&expected.f).all(|(found, printed)| (found - printed).abs() < 0.6e-4)
+            );
+            assert!((friction.iter().sum::<f64>() - expected.f_total).abs() < 0.6e-4);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn modes_exist_exactly_in_their_intervals() -> Result<(), Box<dyn Error>> {
+    for intervals in reference()?.intervals {
+        let ends = intervals.modes.iter().flat_map(|mode| [mode.from, mode.to]);
+        // Just inside and outside of every end.
+        for mu_1 in ends.flat_map(|end| [end - 2e-8, end + 2e-8]).filter(|mu_1| (0.0..=0.8).contains(mu_1)) {
+            let mut expected: Vec<&str> = intervals
+                .modes
+                .iter()
+                .filter(|mode| mode.from < mu_1 && mu_1 < mode.to)
+                .map(|mode| mode.signs.as_str())
+                .collect();
+            expected.sort_unstable();
+            let found = solve(mu_1, intervals.preload, intervals.velocity)?;
+            let mut found: Vec<String> = found.solutions.iter().map(signs).collect();
+            found.sort_unstable();
+            assert_eq!(found, expected, "mu_1 = {mu_1}, velocity {}", intervals.velocity);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn nothing_is_left_beyond_the_locking_value() -> Result<(), Box<dyn Error>> {
+    let found = solve(0.6, [0.0; 3], -1.0)?;
+    assert!(found.is_jammed());
+    assert_eq!(found.counts.no_solution, 8);
+    assert_eq!(found.closest.len(), 4);
+    assert!(found.closest.is_sorted_by(|one, other| one.determinant.abs() <= other.determinant.abs()));
+    assert!(found.closest.iter().all(|mode| mode.y.min() < 0.0));
+    Ok(())
+}
+
+#[test]
+fn two_contacts_change_side_together() -> Result<(), Box<dyn Error>> {
+    let change = reference()?.parameters.alpha_deg.to_radians().tan().recip();
+    let found = solve(change, [0.0; 3], -1.0)?;
+    assert_eq!(found.solutions.len(), 1);
+    let solution = &found.solutions[0];
+    assert_eq!(solution.on_boundary, [1, 2]);
+    assert_eq!(solution.signs, [1, 0, 0]);
+    assert_eq!(solution.pattern_count, 4);
+    assert_eq!(solution.patterns.len(), 4);
+    assert_eq!(found.counts.boundary, 4);
+    assert_eq!(found.counts.no_solution, 4);
+    assert_eq!(solution.y[1], 0.0);
+    assert!((solution.y[0] - 1.0).abs() < 1e-12);
+    Ok(())
+}
+
+#[test]
+fn preload_gap_instead_of_a_pattern() -> Result<(), Box<dyn Error>> {
+    let found = solve(0.24, [0.0, 0.0, 0.5], 1.0)?;
+    assert!(found.solutions.is_empty());
+    assert_eq!(found.counts.no_solution, 8);
+    assert_eq!(found.gap_counts.total(), 4);
+    assert_eq!(found.gap_counts.solution, 1);
+    assert_eq!(found.gaps.len(), 1);
+    let gap = &found.gaps[0];
+    assert_eq!(gap.pattern[2], ContactState::Gap);
+    assert_eq!(gap.shares.len(), 1);
+    assert_eq!(gap.shares[0].contact, 2);
+    assert!((0.0..=1.0).contains(&gap.shares[0].lambda));
+    assert_eq!(gap.normal_force[2], 0.0);
+    // All determinants of the patterns have one sign: nothing locks.
+    assert!(found.closest.iter().all(|mode| mode.oriented_determinant > 0.0));
+    assert!(!found.is_jammed());
+    Ok(())
+}
+
+#[test]
+fn preload_gap_beside_the_three_printed_solutions() -> Result<(), Box<dyn Error>> {
+    // The paper does not look for it: between its first and its second solution lies a state with
+    // N_2 = 0. The other reactions balance the weight: N_1 + N_2 - N_3 = m g.
+    let found = solve(0.5, [0.0, 1.0, 0.0], 1.0)?;
+    assert_eq!(found.gaps.len(), 1);
+    let gap = &found.gaps[0];
+    assert_eq!(gap.pattern, [ContactState::Positive, ContactState::Gap, ContactState::Positive]);
+    assert!(0.0 < gap.shares[0].lambda && gap.shares[0].lambda < 1.0);
+    assert!((gap.normal_force[0] - gap.normal_force[2] - 1.0).abs() < 1e-14);
+    // Without preload there is no jump, and so no gap to look into.
+    assert_eq!(solve(0.6, [0.0; 3], 1.0)?.gap_counts.total(), 0);
+    Ok(())
+}
