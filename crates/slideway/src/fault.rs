@@ -209,7 +209,9 @@ pub enum FaultKind {
     NotAssembled { joint: String, gap: String, reached: String },
     #[error("the overlap of {joint} has shrunk to {overlap:.6} m at a displacement of {displacement:.6} m")]
     OverlapVanished { joint: String, overlap: f64, displacement: f64 },
-    #[error("{joint} is at a displacement of {displacement:.6} m, outside its travel of {least:.6} m to {greatest:.6} m")]
+    #[error(
+        "{joint} is at a displacement of {displacement:.6} m, outside its travel of {least:.6} m to {greatest:.6} m"
+    )]
     TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64 },
     #[error("the length of {load} is zero, so its force has no direction")]
     ZeroLength { load: String },
@@ -227,6 +229,10 @@ pub enum FaultKind {
     // Enumeration of the modes.
     #[error("{contacts} contacts with friction have 2^{contacts} contact modes; at most 2^{limit} are tried")]
     TooManyContacts { contacts: usize, limit: usize },
+    #[error(
+        "{contacts} contacts, {with_jump} of them with preload, have more contact modes and preload gaps than the {limit} that are tried"
+    )]
+    TooManyPatterns { contacts: usize, with_jump: usize, limit: u64 },
     #[error("there are more than {limit} solutions")]
     TooManySolutions { limit: usize },
     #[error("the mode problem overflows: {quantity} is beyond the range of floating-point numbers")]
@@ -254,7 +260,9 @@ impl FaultKind {
             Self::SeveralOwners { point, owners } => {
                 Some(format!("say which one: \"{}.{point}\"", owners.first().map_or("body", String::as_str)))
             }
-            Self::NotAssembled { reached, .. } => Some(format!("the nearest state that can be assembled is {reached}")),
+            Self::NotAssembled { reached, .. } => {
+                Some(format!("the nearest state that can be assembled is {reached}"))
+            }
             _ => self.fixed_hint().map(str::to_owned),
         }
     }
@@ -264,7 +272,9 @@ impl FaultKind {
         match self {
             Self::Empty => Some("start from a model of the gallery: `slideway models` lists it"),
             Self::NotUtf8 { .. } => Some("save it as UTF-8"),
-            Self::MissingKey { key, .. } if key == "mu" => Some("write `mu = 0` for a contact without friction"),
+            Self::MissingKey { key, .. } if key == "mu" => {
+                Some("write `mu = 0` for a contact without friction")
+            }
             Self::WrongDimension { .. } => Some("plain numbers are in SI units (m, kg, s, N, rad)"),
             Self::DependsOnMotion { .. } => {
                 Some("only loads and drives may depend on coordinates, rates and the time t")
@@ -272,12 +282,16 @@ impl FaultKind {
             Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `--set mu=0.2` or `--set \"alpha=80 deg\"`"),
-            Self::SingularPosition { .. } => Some("move it a little with --at to leave the singular position"),
+            Self::SingularPosition { .. } => {
+                Some("move it a little with --at to leave the singular position")
+            }
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
-            Self::OverlapVanished { .. } => Some("the block has left its guide; use --at with a smaller displacement"),
+            Self::OverlapVanished { .. } => {
+                Some("the block has left its guide; use --at with a smaller displacement")
+            }
             Self::MotionWithoutInertia { .. } => {
                 Some("give the bodies that move a mass, or prescribe the motion with a drive")
             }
@@ -285,7 +299,10 @@ impl FaultKind {
             Self::ZeroSlidingVelocity { .. } => Some(
                 "give the mechanism a velocity, for instance with `--rate COORDINATE=1`; what holds at rest is another question",
             ),
-            Self::TooManyContacts { .. } => Some("make contacts frictionless that do not matter (mu = 0, no preload), or merge them"),
+            Self::TooManyPatterns { .. } => Some("preload_line = \"centre\" makes no gaps to be tried"),
+            Self::TooManyContacts { .. } => {
+                Some("a guided slider or a pin in a slot has one contact where a block slider has two")
+            }
             _ => None,
         }
     }
@@ -315,7 +332,9 @@ fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {
 fn ownership_hint(body: &str, point: &str, owners: &[String]) -> String {
     match owners {
         [] => format!("add \"{point}\" to the points of {body}; so far it belongs to ground"),
-        owners => format!("add \"{point}\" to the points of {body}; so far it belongs to {}", owners.join(", ")),
+        owners => {
+            format!("add \"{point}\" to the points of {body}; so far it belongs to {}", owners.join(", "))
+        }
     }
 }
 

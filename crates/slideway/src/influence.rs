@@ -49,7 +49,9 @@ impl Influence {
         let contacts = equations.contacts.len();
         let layout = equations.layout.clone();
         let normal = (0..contacts)
-            .map(|k| layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force"))
+            .map(|k| {
+                layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force")
+            })
             .collect();
         Self {
             layout,

@@ -1,16 +1,29 @@
 //! All solutions of planar mechanisms with dry friction in sliding joints.
 //!
-//! The data flows through the modules in this order, each arrow one pure function:
+//! In a mechanism with dry friction in its sliding joints the equations of motion can have no solution (it jams),
+//! one, or several. This library finds all of them: the side on which each slider touches its guide, its contact
+//! mode, is tried for every sign pattern, and each leaves a linear system (H. J. Klepp, Modes of contact and
+//! uniqueness of solutions for systems with friction-affected sliders, Journal of Sound and Vibration 254, 2002).
+//!
+//! [`solve::solve`] does everything; the data flows through the modules in this order, each arrow one pure
+//! function:
 //!
 //! ```text
 //! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> Report
 //! ```
+//!
+//! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
+//! enters at [`modes`].
 
 pub mod configuration;
 pub mod expression;
 pub mod fault;
+pub mod gallery;
+pub mod ids;
+pub mod influence;
 pub mod kinetics;
 pub mod mechanism;
-pub mod ids;
 pub mod model;
 pub mod modes;
+pub mod report;
+pub mod solve;

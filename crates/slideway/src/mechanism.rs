@@ -7,8 +7,8 @@ use crate::expression::Values;
 use crate::fault::{Fault, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::model::{
-    self, Along, CarriedBy, Effort as ModelEffort, ForceFrame, Formula, Gravity, Inertia, LoadKind as ModelLoadKind,
-    Model, Moment, PreloadLine, SliderKind,
+    self, Along, CarriedBy, Effort as ModelEffort, ForceFrame, Formula, Gravity, Inertia,
+    LoadKind as ModelLoadKind, Model, Moment, PreloadLine, SliderKind,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -315,7 +315,13 @@ impl Mechanism {
     ///
     /// # Errors
     /// A fault if a formula has no finite or allowed value there.
-    pub fn quantity(&self, quantity: Quantity, coordinates: &[f64], rates: &[f64], time: f64) -> Result<f64, Fault> {
+    pub fn quantity(
+        &self,
+        quantity: Quantity,
+        coordinates: &[f64],
+        rates: &[f64],
+        time: f64,
+    ) -> Result<f64, Fault> {
         match quantity {
             Quantity::Constant(value) => Ok(value),
             Quantity::Varying(id) => {
@@ -367,7 +373,11 @@ impl<'m> Evaluation<'m> {
     }
 
     fn quantity(&self, id: FormulaId) -> Quantity {
-        if self.model.formula(id).moves() { Quantity::Varying(id) } else { Quantity::Constant(self.value(id)) }
+        if self.model.formula(id).moves() {
+            Quantity::Varying(id)
+        } else {
+            Quantity::Constant(self.value(id))
+        }
     }
 
     fn vector(&self, components: [FormulaId; 2]) -> Vector2<f64> {
@@ -408,7 +418,8 @@ impl<'m> Evaluation<'m> {
                 (mass, mass * specific, centre)
             }
         };
-        let points = body.points.iter().map(|point| (point.name.clone(), self.vector(point.position))).collect();
+        let points =
+            body.points.iter().map(|point| (point.name.clone(), self.vector(point.position))).collect();
         Body {
             name: body.name.clone(),
             place: body.place.clone(),
@@ -434,7 +445,9 @@ impl<'m> Evaluation<'m> {
 
     fn joint(&self, id: JointId, joint: &model::Joint, contacts: &mut Vec<Contact>) -> Joint {
         let kind = match &joint.kind {
-            model::JointKind::Hinge(ends) => JointKind::Hinge(ends.each_ref().map(|end| self.attachment(end))),
+            model::JointKind::Hinge(ends) => {
+                JointKind::Hinge(ends.each_ref().map(|end| self.attachment(end)))
+            }
             model::JointKind::Slider(slider) => JointKind::Slider(self.slider(slider, id, contacts)),
         };
         Joint { name: joint.name.clone(), place: joint.place.clone(), kind }
@@ -495,7 +508,8 @@ impl<'m> Evaluation<'m> {
                 LoadKind::Spring {
                     between,
                     stiffness: self.quantity(*stiffness),
-                    free_length: free_length.map_or(Quantity::Constant(drawn), |length| self.quantity(length)),
+                    free_length: free_length
+                        .map_or(Quantity::Constant(drawn), |length| self.quantity(length)),
                 }
             }
             ModelLoadKind::Damper { between, damping } => LoadKind::Damper {
@@ -536,9 +550,15 @@ impl<'m> Evaluation<'m> {
     fn coordinate(&self, coordinate: &model::Coordinate) -> Coordinate {
         let kind = match &coordinate.kind {
             model::CoordinateKind::Slide(joint) => CoordinateKind::Slide(*joint),
-            model::CoordinateKind::Rotation { body, relative_to } => CoordinateKind::Rotation(*body, *relative_to),
-            model::CoordinateKind::X(point) => CoordinateKind::Displacement(self.attachment(point), Vector2::x()),
-            model::CoordinateKind::Y(point) => CoordinateKind::Displacement(self.attachment(point), Vector2::y()),
+            model::CoordinateKind::Rotation { body, relative_to } => {
+                CoordinateKind::Rotation(*body, *relative_to)
+            }
+            model::CoordinateKind::X(point) => {
+                CoordinateKind::Displacement(self.attachment(point), Vector2::x())
+            }
+            model::CoordinateKind::Y(point) => {
+                CoordinateKind::Displacement(self.attachment(point), Vector2::y())
+            }
         };
         let drawn_at = coordinate.drawn_at.map_or(0.0, |id| self.value(id));
         Coordinate {
@@ -578,7 +598,9 @@ fn mean_joint_place(frame: Frame, joints: &[Joint]) -> Vector2<f64> {
     for joint in joints {
         let place = match &joint.kind {
             JointKind::Hinge(ends) => ends.iter().find(|end| end.frame == frame).map(|end| end.position),
-            JointKind::Slider(slider) => (slider.block == frame || slider.guide == frame).then_some(slider.at),
+            JointKind::Slider(slider) => {
+                (slider.block == frame || slider.guide == frame).then_some(slider.at)
+            }
         };
         if let Some(place) = place {
             sum += place;

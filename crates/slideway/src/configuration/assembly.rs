@@ -151,7 +151,8 @@ fn not_assembled(mechanism: &Mechanism, poses: &[Pose], values: &[f64], reached:
     let Some((joint, row)) = open else { return Fault::general(FaultKind::NoFreedom) };
     let is_angle = row > 0 && equations.joints[row - 1] == Some(joint) && is_slider(mechanism, joint);
     let residual = equations.residual[row].abs();
-    let gap = if is_angle { format!("{residual:.3e} rad") } else { format!("{:.3e} m", residual * mechanism.size) };
+    let gap =
+        if is_angle { format!("{residual:.3e} rad") } else { format!("{:.3e} m", residual * mechanism.size) };
     let kind = FaultKind::NotAssembled {
         joint: mechanism.joints[joint.index()].name.to_string(),
         gap,

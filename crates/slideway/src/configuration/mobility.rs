@@ -69,7 +69,8 @@ impl Mobility {
     /// The fault that a redundancy is, if there is one.
     pub fn fault(&self, mechanism: &Mechanism) -> Option<FaultKind> {
         let redundancy = self.redundancy.as_ref()?;
-        let joints = redundancy.joints.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();
+        let joints =
+            redundancy.joints.iter().map(|joint| mechanism.joints[joint.index()].name.to_string()).collect();
         Some(if redundancy.only_here {
             FaultKind::SingularPosition { lost: self.excess(), joints }
         } else {
@@ -116,9 +117,9 @@ fn joints_in_excess(equations: &JointEquations) -> Vec<JointId> {
 
 /// A guided or block slider holds the angle of its block; a pin in a slot does not.
 fn suggestion(mechanism: &Mechanism, joints: &[JointId]) -> Option<String> {
-    let slider = joints.iter().find(|joint| {
-        mechanism.slider(**joint).is_some_and(|slider| slider.kind != SliderKind::Pin)
-    })?;
+    let slider = joints
+        .iter()
+        .find(|joint| mechanism.slider(**joint).is_some_and(|slider| slider.kind != SliderKind::Pin))?;
     let kind = match &mechanism.joints[slider.index()].kind {
         JointKind::Slider(slider) if slider.kind == SliderKind::Guided => "guided slider",
         _ => "block slider",

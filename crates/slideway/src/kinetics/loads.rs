@@ -43,7 +43,11 @@ pub(super) fn applied(mechanism: &Mechanism, configuration: &Configuration) -> R
 }
 
 /// A unit effort of a drive and its reaction.
-pub(crate) fn unit_effort(mechanism: &Mechanism, configuration: &Configuration, effort: &Effort) -> Vec<Wrench> {
+pub(crate) fn unit_effort(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    effort: &Effort,
+) -> Vec<Wrench> {
     match *effort {
         Effort::Force { at, direction, turns, reaction } => {
             let direction = if turns { configuration.direction(at.frame, direction) } else { direction };
@@ -110,8 +114,8 @@ impl Loads<'_> {
                 self.couples(*first, Some(*second), moment);
             }
             LoadKind::TorsionalDamper { between: [first, second], damping } => {
-                let relative =
-                    self.configuration.angular_velocity(*first) - self.configuration.angular_velocity(*second);
+                let relative = self.configuration.angular_velocity(*first)
+                    - self.configuration.angular_velocity(*second);
                 let moment = -self.quantity(*damping)? * relative;
                 self.couples(*first, Some(*second), moment);
             }
@@ -171,7 +175,6 @@ impl Loads<'_> {
 }
 
 fn direction(load: &Load, axis: Vector2<f64>) -> Result<Vector2<f64>, Fault> {
-    axis.try_normalize(0.0).ok_or_else(|| {
-        Fault::new(FaultKind::ZeroLength { load: load.name.to_string() }, load.place.clone())
-    })
+    axis.try_normalize(0.0)
+        .ok_or_else(|| Fault::new(FaultKind::ZeroLength { load: load.name.to_string() }, load.place.clone()))
 }

@@ -130,8 +130,8 @@ impl KineticEquations {
         let matrix = builder.matrix(&constraints, &coordinate_rows);
         let load = builder.load(&applied, &constraints, &coordinate_rows)?;
         let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
-        let factorization = Factorization::new(matrix)
-            .map_err(|singular| builder.singular_fault(&singular))?;
+        let factorization =
+            Factorization::new(matrix).map_err(|singular| builder.singular_fault(&singular))?;
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
     }
 
@@ -260,7 +260,8 @@ impl Builder<'_> {
             let place = self.mechanism.drives[drives[0]].place.clone();
             return Fault::new(FaultKind::DriveCannotMove { drives: names, motion }, place);
         }
-        let Some(first) = (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()))
+        let Some(first) =
+            (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()))
         else {
             return Fault::general(FaultKind::IllConditioned { condition: *condition });
         };
@@ -312,7 +313,8 @@ pub(crate) fn friction_forces(
     sign: f64,
     friction: f64,
 ) -> [Wrench; 2] {
-    let slider = mechanism.slider(mechanism.contacts[id.index()].joint).expect("contacts belong to sliding joints");
+    let slider =
+        mechanism.slider(mechanism.contacts[id.index()].joint).expect("contacts belong to sliding joints");
     let place = contact.point - sign * (slider.height / 2.0) * contact.normal;
     let on = |frame: Frame, force: Vector2<f64>| Wrench { frame, place, force, couple: 0.0 };
     [on(slider.block, -friction * contact.tangent), on(slider.guide, friction * contact.tangent)]

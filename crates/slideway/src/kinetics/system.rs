@@ -40,7 +40,8 @@ impl Factorization {
             return Ok(Self { matrix, row_scale, column_scale, factors, condition });
         }
         let null = null_space(&scaled);
-        let vector = if null.ncols() > 0 { null.column(0).into_owned() } else { DVector::zeros(scaled.ncols()) };
+        let vector =
+            if null.ncols() > 0 { null.column(0).into_owned() } else { DVector::zeros(scaled.ncols()) };
         Err(Singular { null_vector: vector.component_mul(&column_scale), weights: vector, condition })
     }
 

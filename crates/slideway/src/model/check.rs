@@ -78,7 +78,8 @@ impl Model {
         let Search { order, circles, .. } = search;
         let formulas = Arc::make_mut(&mut self.formulas);
         for circle in circles {
-            let mut cycle: Vec<String> = circle.iter().map(|&i| self.parameters[i].name.to_string()).collect();
+            let mut cycle: Vec<String> =
+                circle.iter().map(|&i| self.parameters[i].name.to_string()).collect();
             cycle.push(cycle[0].clone());
             let place = formulas[self.parameters[circle[0]].value.index()].origin.place();
             faults.push(Fault::new(FaultKind::CircularParameters { cycle }, place));
@@ -96,9 +97,10 @@ impl Model {
         let list = Arc::make_mut(&mut formulas);
         let values: Vec<usize> = self.parameters.iter().map(|parameter| parameter.value.index()).collect();
         let spread = |list: &mut Vec<super::Formula>, id: usize| {
-            let broken = list[id].expression.symbols().any(|(symbol, _)| {
-                matches!(symbol, Symbol::Parameter(index) if list[values[index]].broken)
-            });
+            let broken = list[id]
+                .expression
+                .symbols()
+                .any(|(symbol, _)| matches!(symbol, Symbol::Parameter(index) if list[values[index]].broken));
             list[id].broken |= broken;
         };
         for &index in &self.evaluation_order {
@@ -169,7 +171,8 @@ impl Model {
                 }
             }
         }
-        let is_parameter: BTreeSet<FormulaId> = self.parameters.iter().map(|parameter| parameter.value).collect();
+        let is_parameter: BTreeSet<FormulaId> =
+            self.parameters.iter().map(|parameter| parameter.value).collect();
         for (index, formula) in self.formulas.iter().enumerate() {
             let id = FormulaId(index);
             if formula.broken || formula.moves() || self.used_parameters(id).any(|used| unknown[used]) {
@@ -218,11 +221,13 @@ impl Model {
     ) {
         for contact in &slider.contacts {
             for side in 0..2 {
-                let (Some(mu), Some(mu_static)) = (value(contact.mu[side]), value(contact.mu_static[side])) else {
+                let (Some(mu), Some(mu_static)) = (value(contact.mu[side]), value(contact.mu_static[side]))
+                else {
                     continue;
                 };
                 if mu_static < mu {
-                    let kind = FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
+                    let kind =
+                        FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
                     faults.push(Fault::new(kind, self.formula(contact.mu_static[side]).origin.place()));
                     break;
                 }
@@ -243,7 +248,8 @@ impl Model {
         if let (Some(a), Some(b)) = (at(from), at(to))
             && a == b
         {
-            let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
+            let kind =
+                FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
             faults.push(Fault::new(kind, place.clone()));
         }
     }
@@ -254,17 +260,22 @@ impl Model {
         for (index, joint) in self.joints.iter().enumerate() {
             let [first, second] = self.joined(&joint.kind);
             if first == second {
-                let kind = FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
+                let kind =
+                    FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
                 faults.push(Fault::new(kind, joint.place.clone()));
             }
-            if let Some(other) = self.joints[..index].iter().find(|other| self.doubles(&joint.kind, &other.kind)) {
-                let kind = FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
+            if let Some(other) =
+                self.joints[..index].iter().find(|other| self.doubles(&joint.kind, &other.kind))
+            {
+                let kind =
+                    FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
                 faults.push(Fault::new(kind, joint.place.clone()));
             }
             let (from, to) = (group[node(first)], group[node(second)]);
             group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
         }
-        let floating: Vec<usize> = (1..group.len()).filter(|&body| group[body] != group[0]).map(|n| n - 1).collect();
+        let floating: Vec<usize> =
+            (1..group.len()).filter(|&body| group[body] != group[0]).map(|n| n - 1).collect();
         if let Some(&first) = floating.first() {
             let bodies = floating.iter().map(|&body| self.bodies[body].name.to_string()).collect();
             faults.push(Fault::new(FaultKind::FloatingBodies { bodies }, self.bodies[first].place.clone()));

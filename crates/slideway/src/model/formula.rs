@@ -98,10 +98,15 @@ impl Formula {
     }
 
     /// Every way in which it is not what is wanted: its dimension, and a dependence on the motion.
-    pub(super) fn check(&self, of: &dyn Fn(Symbol) -> Inferred, names: &dyn Fn(Symbol) -> String) -> Vec<Fault> {
+    pub(super) fn check(
+        &self,
+        of: &dyn Fn(Symbol) -> Inferred,
+        names: &dyn Fn(Symbol) -> String,
+    ) -> Vec<Fault> {
         let mut faults = Vec::new();
         if !self.may_move {
-            let moving = self.expression.symbols().find(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_)));
+            let moving =
+                self.expression.symbols().find(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_)));
             if let Some((symbol, span)) = moving {
                 let kind = FaultKind::DependsOnMotion { what: self.what.to_string(), symbol: names(symbol) };
                 faults.push(Fault::new(kind, self.origin.part(&span)));

@@ -201,7 +201,10 @@ fn deserialize_either<'de, T: Either<'de>, D: Deserializer<'de>>(deserializer: D
     }
 }
 
-fn pair<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(mut sequence: A, expected: &str) -> Result<[T; 2], A::Error> {
+fn pair<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(
+    mut sequence: A,
+    expected: &str,
+) -> Result<[T; 2], A::Error> {
     let first = sequence.next_element()?.ok_or_else(|| de::Error::custom(expected))?;
     let second = sequence.next_element()?.ok_or_else(|| de::Error::custom(expected))?;
     Ok([first, second])
@@ -236,7 +239,8 @@ impl<'de> Either<'de> for PerSide {
         Some(Self::Both(quantity))
     }
     fn from_map<A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
-        Sides::deserialize(de::value::MapAccessDeserializer::new(map)).map(|sides| Self::Each(Box::new(sides)))
+        Sides::deserialize(de::value::MapAccessDeserializer::new(map))
+            .map(|sides| Self::Each(Box::new(sides)))
     }
 }
 

@@ -2,8 +2,9 @@
 //! faulty entry hides no other.
 
 use super::file::{
-    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, Entry, ForceTable, GuidedSliderTable,
-    HingeTable, PinInSlotTable, SpringTable, TorqueTable, TorsionalDamperTable, TorsionalSpringTable,
+    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, Entry, ForceTable,
+    GuidedSliderTable, HingeTable, PinInSlotTable, SpringTable, TorqueTable, TorsionalDamperTable,
+    TorsionalSpringTable,
 };
 use super::quantity::{Components, Gravity, Name, Quantity};
 use super::structure::StructureCheck;

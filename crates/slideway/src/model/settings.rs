@@ -110,7 +110,12 @@ impl Model {
         match setting.kind {
             SettingKind::Parameter => {
                 let Some(index) = self.parameters.iter().position(|p| p.name.as_ref() == name) else {
-                    return Err(unknown("parameter", setting, source, self.parameters.iter().map(|p| &*p.name)));
+                    return Err(unknown(
+                        "parameter",
+                        setting,
+                        source,
+                        self.parameters.iter().map(|p| &*p.name),
+                    ));
                 };
                 let old = self.parameter_dimension(index);
                 let formula = self.setting_formula(setting, source, old)?;
@@ -118,7 +123,12 @@ impl Model {
             }
             SettingKind::Position | SettingKind::Rate => {
                 let Some(index) = self.coordinates.iter().position(|c| c.name.as_ref() == name) else {
-                    return Err(unknown("coordinate", setting, source, self.coordinates.iter().map(|c| &*c.name)));
+                    return Err(unknown(
+                        "coordinate",
+                        setting,
+                        source,
+                        self.coordinates.iter().map(|c| &*c.name),
+                    ));
                 };
                 let position = setting.kind == SettingKind::Position;
                 let wanted = dimension_of(&self.coordinates[index], position);
@@ -138,14 +148,23 @@ impl Model {
         wanted: Option<Dimension>,
     ) -> Result<Formula, Faults> {
         let start = setting.name.len() + 1;
-        let origin = Origin { source, span: start..start + setting.value.len(), expression_start: Some(start) };
+        let origin =
+            Origin { source, span: start..start + setting.value.len(), expression_start: Some(start) };
         let expression = parse(&setting.value, &self.names()).map_err(|list| {
             let mut faults = Faults::default();
             list.into_iter().for_each(|fault| faults.push(origin.fault(fault)));
             faults
         })?;
         let what = Arc::from(format!("the value of {}", setting.name));
-        Ok(Formula { expression, wanted, allowed: Allowed::Any, may_move: false, broken: false, what, origin })
+        Ok(Formula {
+            expression,
+            wanted,
+            allowed: Allowed::Any,
+            may_move: false,
+            broken: false,
+            what,
+            origin,
+        })
     }
 
     fn add_formula(&mut self, formula: Formula) -> FormulaId {

@@ -65,7 +65,9 @@ impl<'s> StructureCheck<'s> {
             let fitting = present.iter().find(|a| self.kinds(a).contains(&kind));
             return match fitting {
                 Some(fitting) => self.value(value, fitting, place),
-                None => self.wrong_type(value, alternatives.iter().flat_map(|a| self.kinds(a)).collect(), place),
+                None => {
+                    self.wrong_type(value, alternatives.iter().flat_map(|a| self.kinds(a)).collect(), place)
+                }
             };
         }
         let kinds = self.kinds(schema);
@@ -125,8 +127,7 @@ impl<'s> StructureCheck<'s> {
         let least = schema.get("minItems").and_then(Schema::as_u64).unwrap_or(0);
         let most = schema.get("maxItems").and_then(Schema::as_u64).unwrap_or(u64::MAX);
         if !(least..=most).contains(&(items.len() as u64)) {
-            let kind =
-                FaultKind::WrongLength { place: place.to_owned(), wanted: least, found: items.len() };
+            let kind = FaultKind::WrongLength { place: place.to_owned(), wanted: least, found: items.len() };
             self.push(kind, span.clone(), place);
             return;
         }
@@ -136,12 +137,7 @@ impl<'s> StructureCheck<'s> {
         }
     }
 
-    fn tagged(
-        &mut self,
-        value: &Spanned<DeValue<'_>>,
-        tags: &[(&'s str, &'s Schema)],
-        place: &str,
-    ) {
+    fn tagged(&mut self, value: &Spanned<DeValue<'_>>, tags: &[(&'s str, &'s Schema)], place: &str) {
         let DeValue::Table(table) = value.get_ref() else {
             return self.wrong_type(value, vec!["table"], place);
         };
@@ -203,7 +199,9 @@ impl<'s> StructureCheck<'s> {
         let inner = schema.get("anyOf").or(schema.get("oneOf")).and_then(Schema::as_array);
         match (schema.get("type"), inner) {
             (Some(Schema::String(name)), _) => vec![kind_of_schema(name)],
-            (Some(Schema::Array(names)), _) => names.iter().filter_map(Schema::as_str).map(kind_of_schema).collect(),
+            (Some(Schema::Array(names)), _) => {
+                names.iter().filter_map(Schema::as_str).map(kind_of_schema).collect()
+            }
             (_, Some(alternatives)) => alternatives.iter().flat_map(|a| self.kinds(a)).collect(),
             _ => vec![],
         }

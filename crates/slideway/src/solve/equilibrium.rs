@@ -12,13 +12,13 @@ use nalgebra::{DVector, Vector2};
 
 /// What is left over in the balance of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Residual {
+pub(super) struct Residual {
     /// Left-over force (N).
-    pub force: f64,
+    pub(super) force: f64,
     /// Left-over moment about the world origin (N m).
-    pub moment: f64,
+    pub(super) moment: f64,
     /// The greater of both, divided by the greatest force or moment that acts on the body.
-    pub relative: f64,
+    pub(super) relative: f64,
 }
 
 /// A solution as the balance sees it.
@@ -86,9 +86,16 @@ impl Balance<'_> {
         vec![on(0, force), on(1, -force)]
     }
 
-    fn on_slider(&self, joint: JointId, place: Vector2<f64>, force: Vector2<f64>, couple: f64) -> Vec<Wrench> {
+    fn on_slider(
+        &self,
+        joint: JointId,
+        place: Vector2<f64>,
+        force: Vector2<f64>,
+        couple: f64,
+    ) -> Vec<Wrench> {
         let Some(slider) = self.mechanism.slider(joint) else { return Vec::new() };
-        let on = |frame: Frame, sign: f64| Wrench { frame, place, force: sign * force, couple: sign * couple };
+        let on =
+            |frame: Frame, sign: f64| Wrench { frame, place, force: sign * force, couple: sign * couple };
         vec![on(slider.block, 1.0), on(slider.guide, -1.0)]
     }
 
@@ -111,6 +118,7 @@ impl Balance<'_> {
             greatest_moment = greatest_moment.max(turning.abs());
         }
         let (force, moment) = (sum.norm(), moment.abs());
+        let greatest_moment = greatest_moment.max(greatest_force * self.mechanism.size);
         let relative = ratio(force, greatest_force).max(ratio(moment, greatest_moment));
         Residual { force, moment, relative }
     }

@@ -21,7 +21,8 @@ pub(super) fn velocity_signs(
     equations: &KineticEquations,
 ) -> Result<DVector<f64>, Faults> {
     let sliding: Vec<f64> = equations.contacts.iter().map(|contact| contact.sliding_velocity).collect();
-    let speeds = configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * mechanism.size));
+    let speeds =
+        configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * mechanism.size));
     let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
     let at_rest = |velocity: f64| velocity.abs() <= AT_REST * greatest;
     let undefined: Vec<usize> = (0..sliding.len())
@@ -98,7 +99,9 @@ fn overflow(error: &ModeProblemError) -> Fault {
 /// The fault of a problem that is too large to be enumerated.
 pub(super) fn too_large(error: &EnumerationError) -> Faults {
     Fault::general(match *error {
-        EnumerationError::TooManyContacts { contacts, limit } => FaultKind::TooManyContacts { contacts, limit },
+        EnumerationError::TooManyContacts { contacts, limit } => {
+            FaultKind::TooManyContacts { contacts, limit }
+        }
         EnumerationError::TooManyPatterns { contacts, with_jump, limit, .. } => {
             FaultKind::TooManyPatterns { contacts, with_jump, limit }
         }

@@ -41,7 +41,11 @@ impl GuideInWords {
 
     fn flat(&self, sign: i8) -> String {
         let face = self.face(sign);
-        if self.around { format!("flat on the {face} face of the guide") } else { format!("flat on the {face} guide") }
+        if self.around {
+            format!("flat on the {face} face of the guide")
+        } else {
+            format!("flat on the {face} guide")
+        }
     }
 
     /// The face that presses: on the side opposite to the normal force, or on the same side for a block that

@@ -67,7 +67,8 @@ impl Reader<'_> {
         if massless {
             self.fault(FaultKind::Both { owner: owner.clone(), first: "mass", second: "massless" }, span);
         }
-        let mass = self.formula(mass, Wanted::constant(format!("the mass of {name}"), Dimension::MASS).positive());
+        let mass =
+            self.formula(mass, Wanted::constant(format!("the mass of {name}"), Dimension::MASS).positive());
         let moment = self.moment(table, name, span);
         let centre = table.centre_of_mass.as_ref();
         match (&moment, centre) {
@@ -102,9 +103,8 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, shape: &ShapeTable, name: &str, span: &Span) -> Moment {
-        let size = |what: &str| {
-            Wanted::constant(format!("the {what} of {name}"), Dimension::LENGTH).not_negative()
-        };
+        let size =
+            |what: &str| Wanted::constant(format!("the {what} of {name}"), Dimension::LENGTH).not_negative();
         match (&shape.bar, &shape.rectangle, &shape.disc) {
             (Some(ends), None, None) => {
                 let what = format!("the end of {name}");

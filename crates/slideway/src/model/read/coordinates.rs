@@ -134,7 +134,9 @@ impl Reader<'_> {
     fn effort(&mut self, table: &DriveTable, name: &str, span: &Span) -> Effort {
         let owner = format!("the drive {name}");
         match (&table.force, &table.torque) {
-            (Some(_), Some(_)) => self.fault(FaultKind::Both { owner, first: "force", second: "torque" }, span),
+            (Some(_), Some(_)) => {
+                self.fault(FaultKind::Both { owner, first: "force", second: "torque" }, span)
+            }
             (None, None) => self.fault(FaultKind::NoneOf { owner, one_of: vec!["force", "torque"] }, span),
             _ => {}
         }

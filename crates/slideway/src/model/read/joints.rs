@@ -142,7 +142,9 @@ impl Reader<'_> {
     fn travel(&mut self, travel: Option<&[Quantity; 2]>, name: &str) -> Option<[FormulaId; 2]> {
         let what = format!("the travel limit of {name}");
         travel.map(|limits| {
-            limits.each_ref().map(|limit| self.formula(limit, Wanted::constant(what.clone(), Dimension::LENGTH)))
+            limits
+                .each_ref()
+                .map(|limit| self.formula(limit, Wanted::constant(what.clone(), Dimension::LENGTH)))
         })
     }
 
@@ -179,7 +181,9 @@ impl Reader<'_> {
         let wanted = || Wanted::constant(what, dimension).not_negative();
         match written {
             PerSide::Both(quantity) => [self.formula(quantity, wanted()); 2],
-            PerSide::Each(sides) => [self.formula(&sides.plus, wanted()), self.formula(&sides.minus, wanted())],
+            PerSide::Each(sides) => {
+                [self.formula(&sides.plus, wanted()), self.formula(&sides.minus, wanted())]
+            }
         }
     }
 }

@@ -22,18 +22,21 @@ impl Reader<'_> {
     }
 
     fn load(&mut self, contents: &LoadContents, name: &str, span: &Span) -> LoadKind {
-        let coefficient = |what: &str, dimension| {
-            Wanted::moving(format!("the {what} of {name}"), dimension).not_negative()
-        };
+        let coefficient =
+            |what: &str, dimension| Wanted::moving(format!("the {what} of {name}"), dimension).not_negative();
         match contents {
             LoadContents::Force(table) => self.force(table, name, span),
             LoadContents::Torque(table) => LoadKind::Torque {
                 body: self.frame(&table.body),
-                moment: self.formula(&table.moment, Wanted::moving(format!("the moment of {name}"), Dimension::TORQUE)),
+                moment: self.formula(
+                    &table.moment,
+                    Wanted::moving(format!("the moment of {name}"), Dimension::TORQUE),
+                ),
                 reaction: table.reaction.as_ref().map(|body| self.frame(body)),
             },
             LoadContents::Spring(table) => {
-                let free = Wanted::moving(format!("the free length of {name}"), Dimension::LENGTH).not_negative();
+                let free =
+                    Wanted::moving(format!("the free length of {name}"), Dimension::LENGTH).not_negative();
                 LoadKind::Spring {
                     between: self.ends(&table.between),
                     stiffness: self.formula(&table.stiffness, coefficient("stiffness", Dimension::STIFFNESS)),
@@ -81,7 +84,9 @@ impl Reader<'_> {
                     (true, true, _) => FaultKind::Both { owner, first: "components", second: "magnitude" },
                     (true, false, _) => FaultKind::Both { owner, first: "components", second: "direction" },
                     (false, true, _) => FaultKind::Without { owner, first: "magnitude", second: "direction" },
-                    (false, false, true) => FaultKind::Without { owner, first: "direction", second: "magnitude" },
+                    (false, false, true) => {
+                        FaultKind::Without { owner, first: "direction", second: "magnitude" }
+                    }
                     (false, false, false) => {
                         FaultKind::NoneOf { owner, one_of: vec!["components", "magnitude"] }
                     }

@@ -160,7 +160,12 @@ impl<'t> Reader<'t> {
         self.fault(FaultKind::InvalidName { what, name: name.to_owned(), reason }, span);
     }
 
-    fn unknown_name<'a>(&mut self, what: &'static str, name: &Name, known: impl Iterator<Item = &'a str> + Clone) {
+    fn unknown_name<'a>(
+        &mut self,
+        what: &'static str,
+        name: &Name,
+        known: impl Iterator<Item = &'a str> + Clone,
+    ) {
         let kind = FaultKind::UnknownName {
             what,
             name: name.text.clone(),

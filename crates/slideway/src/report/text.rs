@@ -1,0 +1,322 @@
+//! The report as text for people: words first, then aligned numbers.
+
+use super::number::{against, number};
+use super::table::table;
+use super::{ClosestMode, Contact, JointMode, Report, Solution, Status};
+use anstyle::{AnsiColor, Style as Ansi};
+use std::fmt::Write;
+
+/// Whether the text may use colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Style {
+    /// Plain text, for files and pipes.
+    #[default]
+    Plain,
+    /// ANSI colours, for terminals.
+    Colour,
+}
+
+impl Style {
+    fn paint(self, ansi: Ansi, text: &str) -> String {
+        match self {
+            Self::Plain => text.to_owned(),
+            Self::Colour => format!("{ansi}{text}{ansi:#}"),
+        }
+    }
+
+    fn heading(self, text: &str) -> String {
+        self.paint(Ansi::new().bold(), text)
+    }
+
+    fn verdict(self, status: Status, text: &str) -> String {
+        let colour = match status {
+            Status::One => AnsiColor::Green,
+            Status::None => AnsiColor::Red,
+            _ => AnsiColor::Yellow,
+        };
+        self.paint(colour.on_default().bold(), text)
+    }
+}
+
+/// The report as text.
+pub fn to_text(report: &Report, style: Style) -> String {
+    let mut text = Text { report, style, out: String::new() };
+    text.heading();
+    text.verdict();
+    for (index, solution) in report.solutions.iter().enumerate() {
+        let title = format!("Solution {} of {}", index + 1, report.solutions.len());
+        text.solution(&title, solution);
+    }
+    for (index, state) in report.preload_gap_states.iter().enumerate() {
+        let title = format!("Preload gap {} of {}", index + 1, report.preload_gap_states.len());
+        text.solution(&title, state);
+    }
+    text.continua();
+    text.rejected();
+    text.locked_modes();
+    text.closest_modes();
+    text.out
+}
+
+struct Text<'r> {
+    report: &'r Report,
+    style: Style,
+    out: String,
+}
+
+impl Text<'_> {
+    fn line(&mut self, line: &str) {
+        self.out.push_str(line);
+        self.out.push('\n');
+    }
+
+    fn heading(&mut self) {
+        let model = &self.report.model;
+        if let Some(title) = &model.title {
+            self.line(&self.style.heading(title));
+        }
+        let mut parts = vec![
+            count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+            count(model.bodies, "body", "bodies"),
+            count(model.contacts, "contact", "contacts"),
+        ];
+        if model.drives > 0 {
+            parts.push(count(model.drives, "drive", "drives"));
+        }
+        self.line(&parts.join(", "));
+        for state in &self.report.state {
+            self.line(&format!(
+                "{} = {} {unit}, rate {} {unit}/s",
+                state.name,
+                number(state.value),
+                number(state.rate),
+                unit = state.unit
+            ));
+        }
+        self.line("");
+    }
+
+    fn verdict(&mut self) {
+        let report = self.report;
+        let verdict = match report.status {
+            Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
+            Status::One => "One solution.".to_owned(),
+            Status::Several => format!("{} solutions, each in its own contact mode.", report.solutions.len()),
+            Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            Status::PreloadGap => {
+                "No contact mode has a solution, but a state with the preload between the faces has."
+                    .to_owned()
+            }
+            Status::Unknown => "Nothing found, but not every pattern could be decided.".to_owned(),
+        };
+        self.line(&self.style.verdict(report.status, &verdict));
+        self.line(&self.patterns());
+    }
+
+    /// "All 8 sign patterns tried: 3 with a solution, 5 without."
+    fn patterns(&self) -> String {
+        let counts = &self.report.patterns;
+        let outcomes = [
+            (counts.solution, "with a solution"),
+            (counts.boundary, "on the boundary of a solution"),
+            (counts.no_solution, "without"),
+            (counts.singular_without_solution, "singular and locked"),
+            (counts.singular_with_point, "singular with one solution"),
+            (counts.singular_with_continuum, "singular with a continuum"),
+            (counts.undecided, "undecided"),
+        ];
+        let parts: Vec<String> = outcomes
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, outcome)| format!("{count} {outcome}"))
+            .collect();
+        let mut line = if counts.total == 1 {
+            format!("The only sign pattern was tried: {}.", parts.join(", "))
+        } else {
+            format!("All {} sign patterns were tried: {}.", counts.total, parts.join(", "))
+        };
+        if counts.gap_patterns > 0 {
+            let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
+        }
+        line
+    }
+
+    fn solution(&mut self, title: &str, solution: &Solution) {
+        self.line("");
+        let signs = format!("signs {}", spaced(&solution.pattern));
+        self.line(&format!("{}   {signs}", self.style.heading(title)));
+        if solution.on_boundary {
+            self.line(&format!(
+                "  On the boundary between modes: {} about to change side.",
+                about_to_change(&solution.contacts)
+            ));
+        }
+        self.modes(&solution.joints);
+        self.line("");
+        let contacts = contact_table(&solution.contacts);
+        self.out.push_str(&contacts);
+        self.line("");
+        let motion = motion_table(self.report, solution);
+        self.out.push_str(&motion);
+        self.line("");
+        self.line(&format!(
+            "  determinant {}, equilibrium residual {:.0e}",
+            number(solution.determinant),
+            solution.residual
+        ));
+    }
+
+    fn modes(&mut self, joints: &[JointMode]) {
+        let width = joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0);
+        for joint in joints {
+            self.line(&format!("  {:width$}   {}", joint.name, joint.mode));
+        }
+    }
+
+    fn continua(&mut self) {
+        for continuum in &self.report.continua {
+            self.line("");
+            let title = format!("Continuum   signs {}", spaced(&continuum.pattern));
+            self.line(&self.style.heading(&title));
+            self.line("  Normal forces at the ends and directions of unbounded growth, contact by contact:");
+            for vertex in &continuum.vertices {
+                self.line(&format!("  from {}", vector(vertex, " N")));
+            }
+            for direction in &continuum.directions {
+                self.line(&format!("  along {}", vector(direction, "")));
+            }
+        }
+    }
+
+    fn rejected(&mut self) {
+        for rejection in &self.report.rejected {
+            self.line("");
+            self.line(&format!(
+                "Rejected: signs {}. {} would tip: it needs a couple of {} N m, its pressure gives at most {} N m.",
+                spaced(&rejection.pattern),
+                rejection.joint,
+                number(rejection.couple.abs()),
+                number(rejection.limit)
+            ));
+            self.line(&format!("  Model {} as a block slider to see its tipped mode.", rejection.joint));
+        }
+    }
+
+    fn locked_modes(&mut self) {
+        for mode in self.report.locked_modes.iter().take(8) {
+            self.line("");
+            self.line(&format!("Locked exactly: signs {} (determinant 0)", spaced(&mode.pattern)));
+            self.modes(&mode.joints);
+        }
+        let more = self.report.locked_modes.len().saturating_sub(8);
+        if more > 0 {
+            self.line(&format!("... and {more} more"));
+        }
+    }
+
+    fn closest_modes(&mut self) {
+        if self.report.status != Status::None || self.report.closest_modes.is_empty() {
+            return;
+        }
+        self.line("");
+        let heading =
+            "The modes that come closest to locking (a determinant at zero is where friction locks a mode)";
+        self.line(&self.style.heading(heading));
+        let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
+        self.out.push_str(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
+    }
+}
+
+fn closest_row(mode: &ClosestMode) -> Vec<String> {
+    let modes: Vec<String> =
+        mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
+    let verdict =
+        if mode.oriented_determinant < 0.0 { "beyond locking" } else { "not locked, contradicts its signs" };
+    vec![spaced(&mode.pattern), modes.join("; "), number(mode.determinant), verdict.to_owned()]
+}
+
+fn contact_table(contacts: &[Contact]) -> String {
+    let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
+    let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
+    let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
+    let mut header = vec!["contact", "N in N", "F in N", "sliding in m/s"];
+    header.extend(has_couple.then_some("C in N m"));
+    header.extend(has_share.then_some("preload share at +"));
+    let optional = |value: Option<f64>| value.map_or(String::new(), |value| against(value, scale));
+    let row = |contact: &Contact| {
+        let mut row = vec![
+            contact.name.clone(),
+            against(contact.normal_force, scale),
+            against(contact.friction_force, scale),
+            number(contact.sliding_velocity),
+        ];
+        row.extend(has_couple.then(|| optional(contact.couple)));
+        row.extend(has_share.then(|| optional(contact.preload_share)));
+        row
+    };
+    table(&header, &contacts.iter().map(row).collect::<Vec<_>>(), 1)
+}
+
+/// Coordinates, drives, hinges and bodies: name, what, value, unit.
+fn motion_table(report: &Report, solution: &Solution) -> String {
+    let mut rows = Vec::new();
+    let mut row = |name: &str, what: &str, value: String, unit: &str| {
+        rows.push(vec![name.to_owned(), what.to_owned(), value, unit.to_owned()]);
+    };
+    for (index, coordinate) in solution.coordinates.iter().enumerate() {
+        let scale = report.influence.coordinate_accelerations[index].abs();
+        let value = against(coordinate.acceleration, scale);
+        row(&coordinate.name, "acceleration", value, coordinate.unit);
+    }
+    for drive in &solution.drives {
+        row(
+            &drive.name,
+            if drive.unit == "N" { "drive force" } else { "drive torque" },
+            number(drive.effort),
+            drive.unit,
+        );
+    }
+    let force_scale = solution.contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
+    for hinge in &solution.hinges {
+        let what = format!("hinge force on {}", hinge.on);
+        row(&hinge.name, &what, pair(hinge.force, force_scale), "N");
+    }
+    let scale = solution.bodies.iter().flat_map(|body| body.acceleration).map(f64::abs).fold(0.0, f64::max);
+    for body in &solution.bodies {
+        row(&body.name, "acceleration", pair(body.acceleration, scale), "m/s^2");
+        if body.angular_acceleration.abs() > 1e-13 * scale {
+            row(&body.name, "angular acceleration", number(body.angular_acceleration), "rad/s^2");
+        }
+    }
+    table(&["", "", "value", "unit"], &rows, 2)
+}
+
+fn pair(components: [f64; 2], scale: f64) -> String {
+    let scale = scale.max(components[0].abs()).max(components[1].abs());
+    format!("({}, {})", against(components[0], scale), against(components[1], scale))
+}
+
+fn vector(components: &[f64], unit: &str) -> String {
+    let scale = components.iter().map(|component| component.abs()).fold(0.0, f64::max);
+    let list: Vec<String> = components.iter().map(|component| against(*component, scale)).collect();
+    format!("({}){unit}", list.join(", "))
+}
+
+fn about_to_change(contacts: &[Contact]) -> String {
+    let names: Vec<&str> =
+        contacts.iter().filter(|contact| contact.side == 0).map(|contact| contact.name.as_str()).collect();
+    match names.as_slice() {
+        [name] => format!("{name} is"),
+        names => format!("{} are", names.join(", ")),
+    }
+}
+
+fn count(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
+}
+
+/// "+-+" as "+ - +".
+fn spaced(pattern: &str) -> String {
+    let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();
+    signs.join(" ")
+}

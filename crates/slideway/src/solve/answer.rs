@@ -1,0 +1,477 @@
+//! From the solutions of the mode problem back to the mechanism: every force and acceleration of each solution.
+
+use super::equilibrium::{Balance, Residual};
+use super::words::mode_in_words;
+use crate::configuration::{Configuration, unit};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{BodyId, DriveId, JointId};
+use crate::influence::{ContactFriction, Influence};
+use crate::kinetics::{KineticEquations, Reaction};
+use crate::mechanism::{Effort, JointKind, Mechanism, Slider};
+use crate::model::{PreloadLine, SliderKind};
+use crate::modes::{
+    ClosestMode, ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet, Solutions,
+};
+use crate::report::{self, Report, Status};
+use nalgebra::DVector;
+
+/// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping.
+const COUPLE_TOLERANCE: f64 = 1e-9;
+
+/// A mechanism in its state, with the stages that lead to its mode problem.
+pub(super) struct Answer<'a> {
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) configuration: &'a Configuration,
+    pub(super) equations: &'a KineticEquations,
+    pub(super) influence: &'a Influence,
+    pub(super) velocity_signs: &'a DVector<f64>,
+}
+
+/// A state of all contacts: a solution of the mode problem, or a vertex of a continuum.
+struct State<'s> {
+    pattern: &'s [ContactState],
+    patterns: Vec<String>,
+    normal_force: &'s DVector<f64>,
+    /// For each contact in its gap, the share of the positive face.
+    shares: Vec<Option<f64>>,
+    signs: Vec<i8>,
+    on_boundary: bool,
+    determinant: f64,
+}
+
+impl<'a> Answer<'a> {
+    /// The report on all solutions.
+    pub(super) fn report(&self, found: &Solutions) -> Result<Report, Faults> {
+        let mut rejected = Vec::new();
+        let mut rejections = 0;
+        let mut keep = |state: &State<'_>| -> Option<report::Solution> {
+            let unknowns = self.influence.unknowns(&self.friction(state));
+            match self.tipping(state, &unknowns) {
+                None => Some(self.solution(state, &unknowns)),
+                Some(rejection) => {
+                    rejections += 1;
+                    rejected.push(rejection);
+                    None
+                }
+            }
+        };
+        let mut solutions: Vec<_> = found
+            .solutions
+            .iter()
+            .filter_map(|solution| keep(&regular(solution, &pressed(&solution.pattern))))
+            .collect();
+        solutions.extend(found.singular.iter().filter_map(|mode| keep(&point(mode)?)));
+        let gaps: Vec<_> = found.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
+        let continua: Vec<_> = found.singular.iter().filter_map(continuum).collect();
+        let complete = found.is_complete();
+        let report = Report {
+            schema: report::SCHEMA,
+            status: status(complete, solutions.len(), gaps.len(), continua.len()),
+            complete,
+            model: self.model(),
+            state: self.state(),
+            patterns: pattern_summary(found, rejections),
+            solutions,
+            preload_gap_states: gaps,
+            continua,
+            locked_modes: self.locked_modes(&found.singular),
+            rejected,
+            closest_modes: found.closest.iter().map(|mode| self.closest_mode(mode)).collect(),
+            influence: self.influence_summary(),
+            condition: self.equations.condition(),
+        };
+        check_finite(&report)?;
+        Ok(report)
+    }
+
+    fn model(&self) -> report::ModelSummary {
+        report::ModelSummary {
+            title: self.mechanism.title.clone(),
+            degrees_of_freedom: self.mechanism.coordinates.len(),
+            bodies: self.mechanism.bodies.len(),
+            contacts: self.mechanism.contacts.len(),
+            drives: self.mechanism.drives.len(),
+        }
+    }
+
+    fn state(&self) -> Vec<report::CoordinateState> {
+        let Configuration { coordinates, rates, .. } = self.configuration;
+        let values = coordinates.iter().zip(rates);
+        let one = |(coordinate, (value, rate)): (&crate::mechanism::Coordinate, (&f64, &f64))| {
+            report::CoordinateState {
+                name: coordinate.name.to_string(),
+                unit: unit(&coordinate.kind),
+                value: *value,
+                rate: *rate,
+            }
+        };
+        self.mechanism.coordinates.iter().zip(values).map(one).collect()
+    }
+
+    /// Friction forces of a state, split by the face at which they act: eq. (2) with
+    /// F_k = (mu_k |N_k| + F_k0) s_k.
+    fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
+        let one = |k: usize| {
+            let contact = &self.mechanism.contacts[k];
+            let sign = self.velocity_signs[k];
+            // Share of the friction at the face of positive normal force.
+            let share = match (state.pattern[k], state.shares[k]) {
+                (ContactState::Gap, share) => share.unwrap_or(0.5),
+                (pattern, _) => {
+                    if pattern == ContactState::Positive {
+                        1.0
+                    } else {
+                        0.0
+                    }
+                }
+            };
+            let mu = share * contact.mu[0] + (1.0 - share) * contact.mu[1];
+            let pressure = mu * state.normal_force[k].abs() * sign;
+            let preload = [share * contact.preload[0] * sign, (1.0 - share) * contact.preload[1] * sign];
+            let preload = match contact.preload_line {
+                PreloadLine::Pressed => preload,
+                PreloadLine::Centre => [(preload[0] + preload[1]) / 2.0; 2],
+            };
+            ContactFriction {
+                positive_face: share * pressure + preload[0],
+                negative_face: (1.0 - share) * pressure + preload[1],
+            }
+        };
+        (0..state.pattern.len()).map(one).collect()
+    }
+
+    /// A guided slider whose couple is more than its pressure can give: |C| <= |N| L / 2 (theory, section 1).
+    fn tipping(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Option<report::Rejection> {
+        let greatest = state.normal_force.amax();
+        self.guided_sliders().find_map(|(joint, slider)| {
+            let couple = self.couple(joint, unknowns)?;
+            let normal_force = state.normal_force[slider.contacts[0].index()].abs();
+            let limit = normal_force * slider.length / 2.0;
+            let tolerance = COUPLE_TOLERANCE * greatest.max(normal_force) * slider.length;
+            (couple.abs() > limit + tolerance).then(|| report::Rejection {
+                pattern: pattern(state.pattern),
+                joint: self.mechanism.joints[joint.index()].name.to_string(),
+                couple,
+                limit,
+                normal_forces: state.normal_force.iter().copied().collect(),
+            })
+        })
+    }
+
+    fn guided_sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
+        self.sliders().filter(|(_, slider)| slider.kind == SliderKind::Guided)
+    }
+
+    fn sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
+        self.mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
+            JointKind::Slider(slider) => Some((JointId(index), slider)),
+            JointKind::Hinge(_) => None,
+        })
+    }
+
+    fn couple(&self, joint: JointId, unknowns: &DVector<f64>) -> Option<f64> {
+        Some(unknowns[self.influence.layout().reaction(Reaction::Couple(joint))?])
+    }
+
+    fn solution(&self, state: &State<'_>, unknowns: &DVector<f64>) -> report::Solution {
+        let friction = self.friction(state);
+        let residuals = self.residuals(unknowns, &friction);
+        let orientation: f64 = state.pattern.iter().map(|contact| contact.sign()).product();
+        report::Solution {
+            pattern: pattern(state.pattern),
+            patterns: state.patterns.clone(),
+            signs: state.signs.clone(),
+            on_boundary: state.on_boundary,
+            determinant: state.determinant,
+            oriented_determinant: state.determinant * orientation,
+            contacts: self.contacts(state, unknowns, &friction),
+            joints: self.joint_modes(&state.signs),
+            hinges: self.hinges(unknowns),
+            bodies: self.bodies(unknowns, &residuals),
+            coordinates: self.coordinates(unknowns),
+            drives: self.drives(unknowns),
+            residual: residuals.iter().map(|residual| residual.relative).fold(0.0, f64::max),
+        }
+    }
+
+    fn residuals(&self, unknowns: &DVector<f64>, friction: &[ContactFriction]) -> Vec<Residual> {
+        let balance = Balance {
+            mechanism: self.mechanism,
+            configuration: self.configuration,
+            contacts: &self.equations.contacts,
+            applied: &self.equations.applied,
+            layout: self.influence.layout(),
+            unknowns,
+            friction,
+        };
+        balance.residuals()
+    }
+
+    fn contacts(
+        &self,
+        state: &State<'_>,
+        unknowns: &DVector<f64>,
+        friction: &[ContactFriction],
+    ) -> Vec<report::Contact> {
+        let one = |k: usize| {
+            let contact = &self.mechanism.contacts[k];
+            report::Contact {
+                name: contact.name.to_string(),
+                side: state.signs[k],
+                normal_force: state.normal_force[k],
+                friction_force: friction[k].total(),
+                sliding_velocity: self.equations.contacts[k].sliding_velocity,
+                couple: self.couple(contact.joint, unknowns),
+                preload_share: state.shares[k],
+            }
+        };
+        (0..state.pattern.len()).map(one).collect()
+    }
+
+    fn joint_modes(&self, signs: &[i8]) -> Vec<report::JointMode> {
+        let one = |(joint, slider): (JointId, &Slider)| {
+            let tangent = self.configuration.slide(self.mechanism, slider).tangent;
+            let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
+            report::JointMode {
+                name: self.mechanism.joints[joint.index()].name.to_string(),
+                mode: mode_in_words(slider, tangent, &signs),
+            }
+        };
+        self.sliders().map(one).collect()
+    }
+
+    fn hinges(&self, unknowns: &DVector<f64>) -> Vec<report::Hinge> {
+        let joints = self.mechanism.joints.iter().enumerate();
+        let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
+            let JointKind::Hinge(ends) = &joint.kind else { return None };
+            let component = |axis| {
+                let index = self.influence.layout().reaction(Reaction::Hinge(JointId(index), axis))?;
+                Some(unknowns[index])
+            };
+            // On ground the force is of no interest: count it on the body then.
+            let (on, sign) = match ends[0].frame.body() {
+                Some(_) => (ends[0].frame, 1.0),
+                None => (ends[1].frame, -1.0),
+            };
+            Some(report::Hinge {
+                name: joint.name.to_string(),
+                on: self.mechanism.frame_name(on).to_owned(),
+                force: [sign * component(0)?, sign * component(1)?],
+            })
+        };
+        joints.filter_map(one).collect()
+    }
+
+    fn bodies(&self, unknowns: &DVector<f64>, residuals: &[Residual]) -> Vec<report::Body> {
+        let one = |(index, residual): (usize, &Residual)| {
+            let first = self.influence.layout().acceleration(BodyId(index));
+            report::Body {
+                name: self.mechanism.bodies[index].name.to_string(),
+                acceleration: [unknowns[first], unknowns[first + 1]],
+                angular_acceleration: unknowns[first + 2],
+                residual_force: residual.force,
+                residual_moment: residual.moment,
+            }
+        };
+        residuals.iter().enumerate().map(one).collect()
+    }
+
+    fn coordinates(&self, unknowns: &DVector<f64>) -> Vec<report::CoordinateAcceleration> {
+        let accelerations = self.equations.coordinate_accelerations(unknowns);
+        let one = |(coordinate, acceleration): (&crate::mechanism::Coordinate, f64)| {
+            report::CoordinateAcceleration {
+                name: coordinate.name.to_string(),
+                unit: if coordinate.kind.is_angle() { "rad/s^2" } else { "m/s^2" },
+                acceleration,
+            }
+        };
+        self.mechanism.coordinates.iter().zip(accelerations).map(one).collect()
+    }
+
+    fn drives(&self, unknowns: &DVector<f64>) -> Vec<report::Drive> {
+        let one = |(index, drive): (usize, &crate::mechanism::Drive)| report::Drive {
+            name: drive.name.to_string(),
+            unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
+            effort: unknowns[self.influence.layout().effort(DriveId(index))],
+        };
+        self.mechanism.drives.iter().enumerate().map(one).collect()
+    }
+
+    fn locked_modes(&self, singular: &[SingularMode]) -> Vec<report::LockedMode> {
+        let locked = singular.iter().filter(|mode| mode.set == SolutionSet::Empty);
+        locked
+            .map(|mode| report::LockedMode {
+                pattern: pattern(&mode.pattern),
+                joints: self.joint_modes(&signs(&mode.pattern)),
+            })
+            .collect()
+    }
+
+    fn closest_mode(&self, mode: &ClosestMode) -> report::ClosestMode {
+        let pressed = pressed(&mode.pattern);
+        report::ClosestMode {
+            pattern: pattern(&pressed),
+            determinant: mode.determinant,
+            oriented_determinant: mode.oriented_determinant,
+            joints: self.joint_modes(&signs(&pressed)),
+            absolute_normal_forces: mode.y.iter().copied().collect(),
+        }
+    }
+
+    fn influence_summary(&self) -> report::InfluenceSummary {
+        let rows = |side: usize| {
+            let eta = self.influence.eta(side);
+            eta.row_iter().map(|row| row.iter().copied().collect()).collect()
+        };
+        report::InfluenceSummary {
+            coordinate_accelerations: self.equations.coordinate_accelerations(&self.influence.frictionless),
+            normal_forces: self.influence.normal_forces().iter().copied().collect(),
+            eta_positive: rows(0),
+            eta_negative: rows(1),
+        }
+    }
+}
+
+fn pressed(pattern: &[Side]) -> Vec<ContactState> {
+    pattern.iter().map(|side| ContactState::from(*side)).collect()
+}
+
+fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState]) -> State<'s> {
+    State {
+        pattern,
+        patterns: solution.patterns.iter().map(|sides| self::pattern(&pressed(sides))).collect(),
+        normal_force: &solution.normal_force,
+        shares: vec![None; pattern.len()],
+        signs: solution.signs.clone(),
+        on_boundary: !solution.on_boundary.is_empty(),
+        determinant: solution.determinant,
+    }
+}
+
+fn in_gap(gap: &GapState) -> State<'_> {
+    let mut shares = vec![None; gap.pattern.len()];
+    for share in &gap.shares {
+        shares[share.contact] = Some(share.lambda);
+    }
+    State {
+        pattern: &gap.pattern,
+        patterns: gap.patterns.iter().map(|states| pattern(states)).collect(),
+        normal_force: &gap.normal_force,
+        shares,
+        signs: gap.signs.clone(),
+        on_boundary: !gap.on_boundary.is_empty(),
+        determinant: gap.determinant,
+    }
+}
+
+/// The single solution that a singular mode admits, unless a regular mode shares it.
+fn point(mode: &SingularMode) -> Option<State<'_>> {
+    let SolutionSet::Point(normal_force) = &mode.set else { return None };
+    let has_gap = mode.pattern.contains(&ContactState::Gap);
+    (mode.contains.is_empty() && !has_gap).then(|| State {
+        pattern: &mode.pattern,
+        patterns: mode.patterns.iter().map(|states| pattern(states)).collect(),
+        normal_force,
+        shares: vec![None; mode.pattern.len()],
+        signs: normal_force
+            .iter()
+            .map(|n| {
+                if *n == 0.0 {
+                    0
+                } else if *n > 0.0 {
+                    1
+                } else {
+                    -1
+                }
+            })
+            .collect(),
+        on_boundary: true,
+        determinant: 0.0,
+    })
+}
+
+fn continuum(mode: &SingularMode) -> Option<report::Continuum> {
+    let list = |vectors: Vec<&DVector<f64>>| {
+        vectors.into_iter().map(|vector| vector.iter().copied().collect()).collect()
+    };
+    mode.set.is_continuum().then(|| report::Continuum {
+        pattern: pattern(&mode.pattern),
+        vertices: list(mode.set.vertices()),
+        directions: list(mode.set.directions()),
+    })
+}
+
+fn signs(pattern: &[ContactState]) -> Vec<i8> {
+    pattern
+        .iter()
+        .map(|state| match state {
+            ContactState::Positive => 1,
+            ContactState::Negative => -1,
+            ContactState::Gap => 0,
+        })
+        .collect()
+}
+
+fn pattern(states: &[ContactState]) -> String {
+    let sign = |state: &ContactState| match state {
+        ContactState::Positive => '+',
+        ContactState::Negative => '-',
+        ContactState::Gap => '0',
+    };
+    states.iter().map(sign).collect()
+}
+
+fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
+    match (solutions, gaps, continua) {
+        (_, _, 1..) => Status::Continuum,
+        (0, 0, 0) => {
+            if complete {
+                Status::None
+            } else {
+                Status::Unknown
+            }
+        }
+        (0, _, 0) => Status::PreloadGap,
+        (1, _, 0) => Status::One,
+        _ => Status::Several,
+    }
+}
+
+fn pattern_summary(found: &Solutions, rejected: u64) -> report::PatternSummary {
+    let counts = found.counts;
+    report::PatternSummary {
+        total: counts.total(),
+        solution: counts.solution,
+        boundary: counts.boundary,
+        no_solution: counts.no_solution,
+        singular_without_solution: counts.singular_empty,
+        singular_with_point: counts.singular_point,
+        singular_with_continuum: counts.singular_continuum,
+        undecided: counts.not_examined,
+        rejected,
+        gap_patterns: found.gap_counts.total(),
+    }
+}
+
+/// No number that is printed may be infinite or undefined.
+fn check_finite(report: &Report) -> Result<(), Faults> {
+    let mut faults = Faults::default();
+    for solution in report.solutions.iter().chain(&report.preload_gap_states) {
+        let forces = solution
+            .contacts
+            .iter()
+            .flat_map(|c| [c.normal_force, c.friction_force, c.couple.unwrap_or(0.0)]);
+        let accelerations = solution
+            .bodies
+            .iter()
+            .flat_map(|b| [b.acceleration[0], b.acceleration[1], b.angular_acceleration]);
+        let hinges = solution.hinges.iter().flat_map(|hinge| hinge.force);
+        let drives = solution.drives.iter().map(|drive| drive.effort);
+        let mut all = forces.chain(accelerations).chain(hinges).chain(drives).chain([solution.determinant]);
+        if !all.all(f64::is_finite) {
+            let quantity = format!("a force or acceleration of the mode {}", solution.pattern);
+            faults.push(Fault::general(FaultKind::Overflow { quantity }));
+        }
+    }
+    faults.or(())
+}
