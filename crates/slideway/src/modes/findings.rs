@@ -42,6 +42,8 @@ pub(super) struct Findings<'a> {
     shared: HashMap<SharedPattern, usize>,
     accepted: usize,
     singular: Vec<SingularMode>,
+    /// Places in `singular` of non-empty sets, by the signs that their normal forces take.
+    singular_places: HashMap<(u64, u64), Vec<usize>>,
     examined: usize,
     bases: u64,
     closest: Vec<(f64, Vec<ContactState>)>,
@@ -58,6 +60,7 @@ impl<'a> Findings<'a> {
             shared: HashMap::new(),
             accepted: 0,
             singular: Vec::new(),
+            singular_places: HashMap::new(),
             examined: 0,
             bases: limits.bases,
             closest: Vec::with_capacity(CLOSEST + 1),
@@ -169,14 +172,17 @@ impl<'a> Findings<'a> {
 
     fn file_singular(&mut self, pattern: &[ContactState], set: SolutionSet) {
         self.counts_of(pattern).count_set(&set);
-        let known =
-            self.singular.iter_mut().find(|mode| !set.vertices().is_empty() && same_set(&mode.set, &set));
-        if let Some(mode) = known {
-            mode.pattern_count += 1;
-            if mode.patterns.len() < self.limits.listed {
-                mode.patterns.push(pattern.to_vec());
+        if !set.vertices().is_empty() {
+            let places = self.singular_places.entry(signs_taken(&set)).or_default();
+            if let Some(&place) = places.iter().find(|&&place| same_set(&self.singular[place].set, &set)) {
+                let mode = &mut self.singular[place];
+                mode.pattern_count += 1;
+                if mode.patterns.len() < self.limits.listed {
+                    mode.patterns.push(pattern.to_vec());
+                }
+                return;
             }
-            return;
+            places.push(self.singular.len());
         }
         self.singular.push(SingularMode {
             pattern: pattern.to_vec(),
@@ -213,6 +219,9 @@ impl<'a> Findings<'a> {
     /// boundary by its own tolerance.
     fn merge_neighbours(&mut self) {
         let free: Vec<u64> = self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
+        if free.iter().all(|&free| free == 0) {
+            return;
+        }
         let mut merged: Vec<Option<usize>> = vec![None; self.found.len()];
         for one in 0..self.found.len() {
             if merged[one].is_some() {
@@ -370,6 +379,15 @@ fn sides(pattern: &[ContactState]) -> Vec<Side> {
 
 fn bits(mask: u64) -> impl Iterator<Item = usize> {
     (0..64).filter(move |contact| mask >> contact & 1 == 1)
+}
+
+/// The contacts whose normal forces are positive, and negative, somewhere in a set.
+fn signs_taken(set: &SolutionSet) -> (u64, u64) {
+    let forces =
+        set.vertices().into_iter().chain(set.directions()).flat_map(|force| force.iter().enumerate());
+    forces.fold((0, 0), |(positive, negative), (contact, &force)| {
+        (positive | u64::from(force > 0.0) << contact, negative | u64::from(force < 0.0) << contact)
+    })
 }
 
 /// The pattern with all free contacts on their positive side.
