@@ -1,6 +1,6 @@
 //! Collects what the tree finds: merges what several patterns share, and counts every pattern.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
 
@@ -42,6 +42,8 @@ pub(super) struct Findings<'a> {
     shared: HashMap<SharedPattern, usize>,
     accepted: usize,
     singular: Vec<SingularMode>,
+    /// Places in `singular` of non-empty sets, by the signs that their normal forces take.
+    singular_places: HashMap<(u64, u64), Vec<usize>>,
     examined: usize,
     bases: u64,
     closest: Vec<(f64, Vec<ContactState>)>,
@@ -58,6 +60,7 @@ impl<'a> Findings<'a> {
             shared: HashMap::new(),
             accepted: 0,
             singular: Vec::new(),
+            singular_places: HashMap::new(),
             examined: 0,
             bases: limits.bases,
             closest: Vec::with_capacity(CLOSEST + 1),
@@ -169,14 +172,17 @@ impl<'a> Findings<'a> {
 
     fn file_singular(&mut self, pattern: &[ContactState], set: SolutionSet) {
         self.counts_of(pattern).count_set(&set);
-        let known =
-            self.singular.iter_mut().find(|mode| !set.vertices().is_empty() && same_set(&mode.set, &set));
-        if let Some(mode) = known {
-            mode.pattern_count += 1;
-            if mode.patterns.len() < self.limits.listed {
-                mode.patterns.push(pattern.to_vec());
+        if !set.vertices().is_empty() {
+            let places = self.singular_places.entry(signs_taken(&set)).or_default();
+            if let Some(&place) = places.iter().find(|&&place| same_set(&self.singular[place].set, &set)) {
+                let mode = &mut self.singular[place];
+                mode.pattern_count += 1;
+                if mode.patterns.len() < self.limits.listed {
+                    mode.patterns.push(pattern.to_vec());
+                }
+                return;
             }
-            return;
+            places.push(self.singular.len());
         }
         self.singular.push(SingularMode {
             pattern: pattern.to_vec(),
@@ -212,21 +218,9 @@ impl<'a> Findings<'a> {
     /// Merges boundary solutions with the solution of a neighbour that was not quite on the
     /// boundary by its own tolerance.
     fn merge_neighbours(&mut self) {
-        let free: Vec<u64> = self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
-        let mut merged: Vec<Option<usize>> = vec![None; self.found.len()];
-        for one in 0..self.found.len() {
-            if merged[one].is_some() {
-                continue;
-            }
-            for other in one + 1..self.found.len() {
-                let between = free[one] | free[other];
-                let neighbours = between != 0
-                    && merged[other].is_none()
-                    && differ_only_in(self.found[one].pattern(), self.found[other].pattern(), between);
-                if neighbours && self.found[one].agrees_with(&self.found[other]) {
-                    merged[other] = Some(one);
-                }
-            }
+        let merged = self.merging_neighbours();
+        if merged.iter().all(Option::is_none) {
+            return;
         }
         let mut kept: Vec<Found> = Vec::with_capacity(self.found.len());
         let mut places = Vec::with_capacity(self.found.len());
@@ -241,6 +235,26 @@ impl<'a> Findings<'a> {
             }
         }
         self.found = kept;
+    }
+
+    /// For each finding an earlier one that it agrees with, and from which it differs only in
+    /// contacts that are free in one of the two.
+    fn merging_neighbours(&self) -> Vec<Option<usize>> {
+        let free: Vec<u64> = self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
+        let masks: BTreeSet<u64> = free.iter().copied().filter(|&mask| mask != 0).collect();
+        let mut merged: Vec<Option<usize>> = vec![None; self.found.len()];
+        for mask in masks {
+            let mut groups: HashMap<Vec<ContactState>, Vec<usize>> = HashMap::new();
+            for (index, found) in self.found.iter().enumerate() {
+                let group = groups.entry(canonical(found.pattern(), mask)).or_default();
+                let earlier = group.iter().copied().find(|&earlier| {
+                    (free[earlier] == mask || free[index] == mask) && self.found[earlier].agrees_with(found)
+                });
+                merged[index] = merged[index].or(earlier);
+                group.push(index);
+            }
+        }
+        merged
     }
 
     /// Whether a gap state with a share of 0 or 1 is reported already: as a solution, as a gap state
@@ -372,13 +386,17 @@ fn bits(mask: u64) -> impl Iterator<Item = usize> {
     (0..64).filter(move |contact| mask >> contact & 1 == 1)
 }
 
+/// The contacts whose normal forces are positive, and negative, somewhere in a set.
+fn signs_taken(set: &SolutionSet) -> (u64, u64) {
+    let forces =
+        set.vertices().into_iter().chain(set.directions()).flat_map(|force| force.iter().enumerate());
+    forces.fold((0, 0), |(positive, negative), (contact, &force)| {
+        (positive | u64::from(force > 0.0) << contact, negative | u64::from(force < 0.0) << contact)
+    })
+}
+
 /// The pattern with all free contacts on their positive side.
 fn canonical(pattern: &[ContactState], free: u64) -> Vec<ContactState> {
     let state = |(contact, &state)| if free >> contact & 1 == 1 { ContactState::Positive } else { state };
     pattern.iter().enumerate().map(state).collect()
-}
-
-fn differ_only_in(one: &[ContactState], other: &[ContactState], contacts: u64) -> bool {
-    let mut states = one.iter().zip(other).enumerate();
-    states.all(|(contact, (one, other))| one == other || contacts >> contact & 1 == 1)
 }
