@@ -65,6 +65,11 @@ impl Faults {
         self.list.push(fault);
     }
 
+    /// Adds several.
+    pub fn extend(&mut self, faults: impl IntoIterator<Item = Fault>) {
+        self.list.extend(faults);
+    }
+
     /// Adds those of another stage.
     pub fn append(&mut self, mut other: Self) {
         self.list.append(&mut other.list);
@@ -233,7 +238,7 @@ pub enum FaultKind {
         "{contacts} contacts, {with_jump} of them with preload, have more contact modes and preload gaps than the {limit} that are tried"
     )]
     TooManyPatterns { contacts: usize, with_jump: usize, limit: u64 },
-    #[error("there are more than {limit} solutions")]
+    #[error("more than {limit} sign patterns give a solution")]
     TooManySolutions { limit: usize },
     #[error("the mode problem overflows: {quantity} is beyond the range of floating-point numbers")]
     Overflow { quantity: String },

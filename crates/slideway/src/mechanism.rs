@@ -295,7 +295,7 @@ impl Mechanism {
     /// # Errors
     /// Every value that is not finite or not allowed.
     pub fn new(model: &Model) -> Result<Self, Faults> {
-        Evaluation::new(model)?.mechanism()
+        Ok(Evaluation::new(model)?.mechanism())
     }
 
     /// The sliding joint with this number, if it is one.
@@ -343,7 +343,7 @@ impl<'m> Evaluation<'m> {
         Ok(Self { model, values: model.constants()? })
     }
 
-    fn mechanism(&self) -> Result<Mechanism, Faults> {
+    fn mechanism(&self) -> Mechanism {
         let model = self.model;
         let mut contacts = Vec::new();
         let numbered = model.joints.iter().enumerate();
@@ -365,7 +365,7 @@ impl<'m> Evaluation<'m> {
             formulas: Arc::clone(&model.formulas),
         };
         mechanism.size = size(&mechanism);
-        Ok(mechanism)
+        mechanism
     }
 
     fn value(&self, id: FormulaId) -> f64 {

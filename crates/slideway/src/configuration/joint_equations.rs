@@ -30,14 +30,14 @@ pub(super) struct JointEquations {
 impl JointEquations {
     /// The joint equations alone.
     pub(super) fn of_joints(mechanism: &Mechanism, poses: &[Pose]) -> Self {
-        let mut rows = Rows { mechanism, poses, rows: Vec::new() };
+        let mut rows = Rows { mechanism, poses, list: Vec::new() };
         rows.joints();
         rows.assemble()
     }
 
     /// The joint equations and one for each coordinate, which wants the given value.
     pub(super) fn with_coordinates(mechanism: &Mechanism, poses: &[Pose], values: &[f64]) -> Self {
-        let mut rows = Rows { mechanism, poses, rows: Vec::new() };
+        let mut rows = Rows { mechanism, poses, list: Vec::new() };
         rows.joints();
         rows.coordinates(values);
         rows.assemble()
@@ -47,7 +47,7 @@ impl JointEquations {
 struct Rows<'m> {
     mechanism: &'m Mechanism,
     poses: &'m [Pose],
-    rows: Vec<Row>,
+    list: Vec<Row>,
 }
 
 impl Rows<'_> {
@@ -74,7 +74,7 @@ impl Rows<'_> {
             let mut row = Row { joint, residual, derivatives: Vec::new() };
             add_angle(&mut row, slider.block, 1.0);
             add_angle(&mut row, slider.guide, -1.0);
-            self.rows.push(row);
+            self.list.push(row);
         }
     }
 
@@ -94,7 +94,7 @@ impl Rows<'_> {
                     let mut row = Row { joint: None, residual, derivatives: Vec::new() };
                     add_angle(&mut row, Frame::Body(body), 1.0);
                     add_angle(&mut row, against, -1.0);
-                    self.rows.push(row);
+                    self.list.push(row);
                     self.want(wanted);
                 }
                 CoordinateKind::Displacement(point, axis) => {
@@ -107,7 +107,7 @@ impl Rows<'_> {
     }
 
     fn want(&mut self, value: f64) {
-        if let Some(row) = self.rows.last_mut() {
+        if let Some(row) = self.list.last_mut() {
             row.residual -= value;
         }
     }
@@ -136,7 +136,7 @@ impl Rows<'_> {
         if let Some(body) = axis_frame.and_then(Frame::body) {
             row.derivatives.push((3 * body.index() + 2, rot90(axis).dot(&between) / size));
         }
-        self.rows.push(row);
+        self.list.push(row);
     }
 
     fn angle(&self, frame: Frame) -> f64 {
@@ -148,15 +148,15 @@ impl Rows<'_> {
     }
 
     fn assemble(self) -> JointEquations {
-        let mut jacobian = DMatrix::zeros(self.rows.len(), 3 * self.poses.len());
-        let mut residual = DVector::zeros(self.rows.len());
-        for (index, row) in self.rows.iter().enumerate() {
+        let mut jacobian = DMatrix::zeros(self.list.len(), 3 * self.poses.len());
+        let mut residual = DVector::zeros(self.list.len());
+        for (index, row) in self.list.iter().enumerate() {
             residual[index] = row.residual;
             for &(column, derivative) in &row.derivatives {
                 jacobian[(index, column)] += derivative;
             }
         }
-        JointEquations { joints: self.rows.iter().map(|row| row.joint).collect(), residual, jacobian }
+        JointEquations { joints: self.list.iter().map(|row| row.joint).collect(), residual, jacobian }
     }
 }
 

@@ -149,7 +149,7 @@ impl Model {
             Symbol::Time => "t".to_owned(),
         };
         for formula in self.formulas.iter().filter(|formula| !formula.broken) {
-            formula.check(&of, &name).into_iter().for_each(|fault| faults.push(fault));
+            faults.extend(formula.check(&of, &name));
         }
     }
 
@@ -193,7 +193,7 @@ impl Model {
         for joint in &self.joints {
             let JointKind::Slider(slider) = &joint.kind else { continue };
             self.check_static_friction(slider, &value, faults);
-            self.check_direction(&slider.along, &joint.place, &value, faults);
+            check_direction(&slider.along, &joint.place, &value, faults);
             if let Some([Some(least), Some(greatest)]) = slider.travel.map(|travel| travel.map(value))
                 && least >= greatest
             {
@@ -203,12 +203,12 @@ impl Model {
         }
         for load in &self.loads {
             if let LoadKind::Force { force: super::ForceValue::Along(_, along), .. } = &load.kind {
-                self.check_direction(along, &load.place, &value, faults);
+                check_direction(along, &load.place, &value, faults);
             }
         }
         for drive in &self.drives {
             if let super::Effort::Force { direction, .. } = &drive.effort {
-                self.check_direction(direction, &drive.place, &value, faults);
+                check_direction(direction, &drive.place, &value, faults);
             }
         }
     }
@@ -235,38 +235,17 @@ impl Model {
         }
     }
 
-    fn check_direction(
-        &self,
-        along: &Along,
-        place: &Place,
-        value: &dyn Fn(FormulaId) -> Option<f64>,
-        faults: &mut Faults,
-    ) {
-        let Along::Points(points) = along else { return };
-        let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
-        let [from, to] = points.as_ref();
-        if let (Some(a), Some(b)) = (at(from), at(to))
-            && a == b
-        {
-            let kind =
-                FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
-            faults.push(Fault::new(kind, place.clone()));
-        }
-    }
-
     /// Joints of a body with itself, doubled joints, bodies without a way to ground.
     fn check_connections(&self, faults: &mut Faults) {
         let mut group: Vec<usize> = (0..=self.bodies.len()).collect();
         for (index, joint) in self.joints.iter().enumerate() {
-            let [first, second] = self.joined(&joint.kind);
+            let [first, second] = joined(&joint.kind);
             if first == second {
                 let kind =
                     FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
                 faults.push(Fault::new(kind, joint.place.clone()));
             }
-            if let Some(other) =
-                self.joints[..index].iter().find(|other| self.doubles(&joint.kind, &other.kind))
-            {
+            if let Some(other) = self.joints[..index].iter().find(|other| doubles(&joint.kind, &other.kind)) {
                 let kind =
                     FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
                 faults.push(Fault::new(kind, joint.place.clone()));
@@ -282,29 +261,47 @@ impl Model {
         }
     }
 
-    /// The two frames that a joint joins.
-    pub(crate) fn joined(&self, joint: &JointKind) -> [Frame; 2] {
-        match joint {
-            JointKind::Hinge([first, second]) => [first.frame, second.frame],
-            JointKind::Slider(slider) => [slider.block, slider.guide],
-        }
-    }
-
-    /// Whether two hinges join the same bodies at the same point.
-    fn doubles(&self, joint: &JointKind, other: &JointKind) -> bool {
-        let (JointKind::Hinge(a), JointKind::Hinge(b)) = (joint, other) else { return false };
-        let pair = |hinge: &[super::Attachment; 2]| {
-            let mut ends = hinge.each_ref().map(|end| (end.frame, end.name.clone()));
-            ends.sort();
-            ends
-        };
-        pair(a) == pair(b)
-    }
-
     /// Name of a frame, for messages.
     pub fn frame_name(&self, frame: Frame) -> String {
         frame.body().map_or("ground".to_owned(), |body| self.bodies[body.index()].name.to_string())
     }
+}
+
+/// Two points that give a direction must differ.
+fn check_direction(
+    along: &Along,
+    place: &Place,
+    value: &dyn Fn(FormulaId) -> Option<f64>,
+    faults: &mut Faults,
+) {
+    let Along::Points(points) = along else { return };
+    let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
+    let [from, to] = points.as_ref();
+    if let (Some(a), Some(b)) = (at(from), at(to))
+        && a == b
+    {
+        let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
+        faults.push(Fault::new(kind, place.clone()));
+    }
+}
+
+/// The two frames that a joint joins.
+fn joined(joint: &JointKind) -> [Frame; 2] {
+    match joint {
+        JointKind::Hinge([first, second]) => [first.frame, second.frame],
+        JointKind::Slider(slider) => [slider.block, slider.guide],
+    }
+}
+
+/// Whether two hinges join the same bodies at the same point.
+fn doubles(joint: &JointKind, other: &JointKind) -> bool {
+    let (JointKind::Hinge(a), JointKind::Hinge(b)) = (joint, other) else { return false };
+    let pair = |hinge: &[super::Attachment; 2]| {
+        let mut ends = hinge.each_ref().map(|end| (end.frame, end.name.clone()));
+        ends.sort();
+        ends
+    };
+    pair(a) == pair(b)
 }
 
 /// Ground is node 0, body k node k + 1.
@@ -332,13 +329,12 @@ impl Search<'_> {
         let mut path: Vec<(usize, Vec<usize>)> = Vec::new();
         self.enter(start, &mut path);
         while let Some((index, pending)) = path.last_mut() {
-            match pending.pop() {
-                Some(used) => self.enter(used, &mut path),
-                None => {
-                    self.state[*index] = State::Done;
-                    self.order.push(*index);
-                    path.pop();
-                }
+            if let Some(used) = pending.pop() {
+                self.enter(used, &mut path);
+            } else {
+                self.state[*index] = State::Done;
+                self.order.push(*index);
+                path.pop();
             }
         }
     }

@@ -30,9 +30,9 @@ pub(super) struct Sections {
 /// The contents of a joint's table, by its `type`.
 pub(super) enum JointContents {
     Hinge(HingeTable),
-    Block(BlockSliderTable),
-    Guided(GuidedSliderTable),
-    Pin(PinInSlotTable),
+    Block(Box<BlockSliderTable>),
+    Guided(Box<GuidedSliderTable>),
+    Pin(Box<PinInSlotTable>),
 }
 
 /// The contents of a load's table, by its `type`.
@@ -132,7 +132,7 @@ fn deserialize<T: DeserializeOwned>(value: Spanned<DeValue<'_>>) -> Result<T, to
 }
 
 /// Takes the `type` out of a table that the structure check has passed.
-fn type_of<'i>(value: Spanned<DeValue<'i>>) -> (String, Spanned<DeValue<'i>>) {
+fn type_of(value: Spanned<DeValue<'_>>) -> (String, Spanned<DeValue<'_>>) {
     let span = value.span();
     match value.into_inner() {
         DeValue::Table(mut table) => {
@@ -147,9 +147,9 @@ fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> 
     let (kind, value) = type_of(value);
     Ok(match kind.as_str() {
         "hinge" => JointContents::Hinge(deserialize(value)?),
-        "block_slider" => JointContents::Block(deserialize(value)?),
-        "guided_slider" => JointContents::Guided(deserialize(value)?),
-        _ => JointContents::Pin(deserialize(value)?),
+        "block_slider" => JointContents::Block(Box::new(deserialize(value)?)),
+        "guided_slider" => JointContents::Guided(Box::new(deserialize(value)?)),
+        _ => JointContents::Pin(Box::new(deserialize(value)?)),
     })
 }
 

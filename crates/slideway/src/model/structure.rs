@@ -66,7 +66,7 @@ impl<'s> StructureCheck<'s> {
             return match fitting {
                 Some(fitting) => self.value(value, fitting, place),
                 None => {
-                    self.wrong_type(value, alternatives.iter().flat_map(|a| self.kinds(a)).collect(), place)
+                    self.wrong_type(value, alternatives.iter().flat_map(|a| self.kinds(a)).collect(), place);
                 }
             };
         }
@@ -156,7 +156,7 @@ impl<'s> StructureCheck<'s> {
     /// One of several words, each with its description (an enumeration with documented variants).
     fn choice(&mut self, value: &Spanned<DeValue<'_>>, alternatives: &'s [Schema], place: &str) {
         let words: Vec<&str> = alternatives.iter().filter_map(|a| a["const"].as_str()).collect();
-        self.word(value, &words, place)
+        self.word(value, &words, place);
     }
 
     fn word(&mut self, value: &Spanned<DeValue<'_>>, words: &[&str], place: &str) {

@@ -8,17 +8,50 @@ pub(super) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let magnitude = value.abs().log10().floor();
-    if !(-4.0..6.0).contains(&magnitude) {
-        return format!("{value:.4e}");
+    let scientific = format!("{value:.4e}");
+    let exponent: i32 =
+        scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    if !(-4..6).contains(&exponent) {
+        return scientific;
     }
-    // At least five digits, all of an integer part.
-    let decimals = (4.0 - magnitude).clamp(0.0, 9.0);
-    let text = format!("{value:.*}", decimals as usize);
+    // Five significant digits, and all of an integer part.
+    let decimals = usize::try_from(4 - exponent).unwrap_or(0);
+    let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// [`number`], with rounding errors against `scale` shown as 0.
 pub(super) fn against(value: f64, scale: f64) -> String {
     if value.abs() <= NOISE * scale { "0".to_owned() } else { number(value) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{against, number};
+
+    #[test]
+    fn five_significant_digits() {
+        let table = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (0.123_456_789, "0.12346"),
+            (-12.000_04, "-12"),
+            (99_999.96, "100000"),
+            (123_456.7, "123457"),
+            (0.000_123_456, "0.00012346"),
+            (1.234_56e-5, "1.2346e-5"),
+            (-2.5e7, "-2.5000e7"),
+        ];
+        for (value, text) in table {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn rounding_errors_are_shown_as_zero() {
+        assert_eq!(against(1e-15, 10.0), "0");
+        assert_eq!(against(1e-9, 10.0), "1.0000e-9");
+        assert_eq!(against(-1e-15, 0.0), "-1.0000e-15");
+    }
 }

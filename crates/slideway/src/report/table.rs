@@ -17,5 +17,5 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>], words: usize) -> Stri
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    table.to_string().lines().map(|line| format!("  {}\n", line.trim_end())).collect()
+    table.to_string().lines().flat_map(|line| ["  ", line.trim_end(), "\n"]).collect()
 }

@@ -130,7 +130,7 @@ impl<'a> Answer<'a> {
             let preload = [share * contact.preload[0] * sign, (1.0 - share) * contact.preload[1] * sign];
             let preload = match contact.preload_line {
                 PreloadLine::Pressed => preload,
-                PreloadLine::Centre => [(preload[0] + preload[1]) / 2.0; 2],
+                PreloadLine::Centre => [f64::midpoint(preload[0], preload[1]); 2],
             };
             ContactFriction {
                 positive_face: share * pressure + preload[0],

@@ -149,13 +149,12 @@ impl Reader<'_> {
     }
 
     fn contact(&mut self, friction: WrittenFriction<'_>, name: String, span: &Span) -> Contact {
-        let mu = match friction.mu {
-            Some(mu) => self.sides(mu, &format!("the friction coefficient of {name}"), Dimension::NONE),
-            None => {
-                let kind = FaultKind::MissingKey { key: "mu".into(), table: format!("joints.{name}") };
-                self.fault(kind, span);
-                [self.broken(span); 2]
-            }
+        let mu = if let Some(mu) = friction.mu {
+            self.sides(mu, &format!("the friction coefficient of {name}"), Dimension::NONE)
+        } else {
+            let kind = FaultKind::MissingKey { key: "mu".into(), table: format!("joints.{name}") };
+            self.fault(kind, span);
+            [self.broken(span); 2]
         };
         let static_what = format!("the static friction coefficient of {name}");
         let mu_static = friction.mu_static.map_or(mu, |mu| self.sides(mu, &static_what, Dimension::NONE));

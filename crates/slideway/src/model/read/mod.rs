@@ -221,7 +221,7 @@ impl<'t> Reader<'t> {
             Written::Text(text) => match parse(text, &self.names) {
                 Ok(expression) => Some(expression),
                 Err(faults) => {
-                    faults.into_iter().for_each(|fault| self.faults.push(origin.fault(fault)));
+                    self.faults.extend(faults.into_iter().map(|fault| origin.fault(fault)));
                     None
                 }
             },
@@ -277,14 +277,12 @@ impl<'t> Reader<'t> {
         if name.text == "ground" {
             return Frame::Ground;
         }
-        match self.bodies.iter().position(|body| *body == name.text) {
-            Some(index) => Frame::Body(BodyId(index)),
-            None => {
-                let known: Vec<String> = self.bodies.iter().cloned().chain(["ground".to_owned()]).collect();
-                self.unknown_name("body", name, known.iter().map(String::as_str));
-                Frame::Ground
-            }
+        if let Some(index) = self.bodies.iter().position(|body| *body == name.text) {
+            return Frame::Body(BodyId(index));
         }
+        let known: Vec<String> = self.bodies.iter().cloned().chain(["ground".to_owned()]).collect();
+        self.unknown_name("body", name, known.iter().map(String::as_str));
+        Frame::Ground
     }
 
     fn frame_or_ground(&mut self, name: Option<&Name>) -> Frame {
