@@ -143,6 +143,9 @@ fn quantities(#[case] text: &str, #[case] expected: f64, #[case] dimension: Dime
 #[rstest]
 #[case("3 N*l", 6.0)]
 #[case("3 rad/s*t", 12.0)]
+// A slash without blanks goes on with a unit although `m` and `s` are names of the model, too.
+#[case("5 N/m", 5.0)]
+#[case("9.81 m/s^2", 9.81)]
 #[case("(2 m)*g", 14.0)]
 #[case("8 kg/l", 4.0)]
 #[case("9.81 m/ms^2*pi", 9.81 * 1e6 * PI)]
@@ -265,7 +268,7 @@ fn names_of_dimensions(#[case] dimension: Dimension, #[case] expected: &str) {
 #[case("2 mm²^3", 4..6, Kind::UnitExponent)]
 #[case("5 N*m", 4..5,
     Kind::AmbiguousUnit { name: "m".into(), as_name: "(5 N)*m".into(), as_unit: "5 N m".into() })]
-#[case("9.81 m/s^2", 7..8,
+#[case("9.81 m / s^2", 9..10,
     Kind::AmbiguousUnit { name: "s".into(), as_name: "(9.81 m)/s".into(), as_unit: "9.81 m s^-2".into() })]
 #[case("1 m^127 m", 0..9, Kind::DimensionTooLarge)]
 fn misspelt(#[case] text: &str, #[case] span: std::ops::Range<usize>, #[case] kind: Kind) {
@@ -283,7 +286,7 @@ fn misspelt(#[case] text: &str, #[case] span: std::ops::Range<usize>, #[case] ki
 #[case("1 e3", "an exponent needs digits, and no blank before it, as in `1e3`")]
 #[case("3 mn", "did you mean `mN` or `MN`?")]
 #[case("Pi", "did you mean `pi`?")]
-#[case("5 N/m", "write `(5 N)/m` for the model's `m`, `5 N m^-1` for the unit")]
+#[case("5 N / m", "write `(5 N)/m` for the model's `m`, `5 N m^-1` for the unit")]
 #[case("3*kg", "`kg` is a unit: it must follow a number, as in `1 kg`")]
 fn hints(#[case] text: &str, #[case] hint: &str) {
     assert_eq!(only_fault(text).hint().as_deref(), Some(hint), "{text}");
