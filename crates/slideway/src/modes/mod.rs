@@ -41,6 +41,7 @@
 mod candidate;
 mod degenerate;
 mod enumeration;
+pub mod exhaustive;
 mod findings;
 mod problem;
 mod scaling;
