@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Regenerates every program output that the book includes, by running the program.
+#
+#   cargo build --release && docs/refresh-outputs.sh
+#
+# SLIDEWAY=path runs another binary. Each output begins with the command that made it, so a page cannot show a
+# command beside the output of another. An exit code that is not the expected one stops the script.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+slideway=${SLIDEWAY:-target/release/slideway}
+output=docs/src/output
+examples=docs/src/examples
+
+# show FILE EXIT_CODE ARGUMENTS...: the command line, then all that it prints.
+show() {
+    local file=$1 expected=$2 code=0
+    shift 2
+    {
+        printf '$ slideway'
+        local argument
+        for argument in "$@"; do
+            case $argument in
+                *[!A-Za-z0-9_./=+-]*) printf ' "%s"' "$argument" ;;
+                *) printf ' %s' "$argument" ;;
+            esac
+        done
+        printf '\n'
+        NO_COLOR=1 "$slideway" "$@" 2>&1 || code=$?
+    } >"$output/$file"
+    if [ "$code" -ne "$expected" ]; then
+        echo "$output/$file: exit code $code, expected $expected" >&2
+        cat "$output/$file" >&2
+        exit 1
+    fi
+}
+
+# raw FILE ARGUMENTS...: standard output alone.
+raw() {
+    local file=$1
+    shift
+    "$slideway" "$@" >"$output/$file"
+}
+
+# The paper's example.
+show klepp.txt 0 solve models/klepp-2002.toml
+show klepp-two.txt 0 solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6
+show klepp-jam.txt 1 solve models/klepp-2002.toml --set F_20=0 --set direction=-1
+show klepp-boundary.txt 0 solve models/klepp-2002.toml --set F_20=0 --set direction=-1 --set "mu_1=1/tan(alpha)"
+show klepp-gap.txt 0 solve models/klepp-2002.toml --set F_20=0 --set "F_30=0.5*m*g" --set mu_1=0.24
+raw klepp-two.json solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format json
+raw klepp-two.csv solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format csv
+
+# The gallery.
+show painleve-klein.txt 0 solve models/painleve-klein.toml
+show painleve-klein-none.txt 1 solve models/painleve-klein.toml --set mu=4
+show painleve-klein-two.txt 0 solve models/painleve-klein.toml --set mu=4 --set direction=-1
+show painleve-klein-ray.txt 0 solve models/painleve-klein.toml --set "mu=2/tan(phi)" --set P_2=0
+show drawer.txt 0 solve models/drawer.toml
+show drawer-jam.txt 1 solve models/drawer.toml --set mu=0.7
+show cam-follower.txt 0 solve models/cam-follower.toml
+show cam-follower-jam.txt 1 solve models/cam-follower.toml --set mu=0.9 --set d=0
+show bracket-on-pole.txt 2 solve models/bracket-on-pole.toml
+show slider-crank.txt 0 solve models/slider-crank.toml
+show slider-crank-150.txt 0 solve models/slider-crank.toml --at "phi=150 deg"
+show scotch-yoke.txt 0 solve models/scotch-yoke.toml
+show elliptic-trammel.txt 0 solve models/elliptic-trammel.toml
+show sleeve-on-arm.txt 0 solve models/sleeve-on-arm.toml
+show telescopic-boom.txt 0 solve models/telescopic-boom.toml
+
+# The guide.
+show models.txt 0 models
+show check-klepp.txt 0 check models/klepp-2002.toml
+show my-drawer.txt 0 solve $examples/my-drawer.toml
+show mistakes.txt 2 solve $examples/mistakes.toml
+show setting-mistakes.txt 2 solve models/drawer.toml --set "L=3 kg" --set nu=0.7
+show at-rest.txt 2 solve models/drawer.toml --rate x=0
+show guided-tips.txt 1 solve $examples/guided-tips.toml
+show block-tips.txt 0 solve $examples/block-tips.toml
