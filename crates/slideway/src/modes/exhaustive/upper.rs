@@ -62,12 +62,15 @@ impl Node {
             pattern: self.pattern | (side as u64) << contact,
             irregular: self.irregular,
         };
+        if child.irregular {
+            return child;
+        }
         let at = (0..self.contacts)
             .max_by(|a, b| self.rows[*a][column].abs().total_cmp(&self.rows[*b][column].abs()))
             .unwrap_or_default();
         let pivot_row = &self.rows[at];
         let pivot = pivot_row[column];
-        if child.irregular || pivot.abs() <= 2.0 * self.bound || pivot.abs() == 0.0 {
+        if pivot.abs() <= 2.0 * self.bound || pivot.abs() == 0.0 {
             child.irregular = true;
             return child;
         }
