@@ -239,8 +239,8 @@ fn contact_table(contacts: &[Contact]) -> String {
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
     let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
-    let mut header = vec!["contact", "N in N", "F in N", "sliding in m/s"];
-    header.extend(has_couple.then_some("C in N m"));
+    let mut header = vec!["contact", "normal force in N", "friction in N", "sliding in m/s"];
+    header.extend(has_couple.then_some("couple in N m"));
     header.extend(has_share.then_some("preload share at +"));
     let optional = |value: Option<f64>| value.map_or(String::new(), |value| against(value, scale));
     let row = |contact: &Contact| {
