@@ -20,6 +20,8 @@ pub struct Mechanism {
     pub title: Option<String>,
     /// Acceleration of free fall (m/s^2).
     pub gravity: Vector2<f64>,
+    /// Time of the state (s).
+    pub time: f64,
     /// The moving bodies.
     pub bodies: Vec<Body>,
     /// The joints.
@@ -354,6 +356,7 @@ impl<'m> Evaluation<'m> {
         let mut mechanism = Mechanism {
             title: model.title.clone(),
             gravity: self.gravity(),
+            time: model.time.map_or(0.0, |time| self.value(time)),
             bodies,
             joints,
             contacts,

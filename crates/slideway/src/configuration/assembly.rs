@@ -34,7 +34,7 @@ pub(super) fn assemble(mechanism: &Mechanism) -> Result<Configuration, Faults> {
         poses,
         coordinates: values,
         rates: mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
-        time: 0.0,
+        time: mechanism.time,
     };
     check_position(mechanism, &configuration)?;
     Ok(configuration)

@@ -91,7 +91,7 @@ impl Configuration {
             velocities: vec![Velocity { linear: Vector2::zeros(), angular: 0.0 }; mechanism.bodies.len()],
             coordinates: mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect(),
             rates: vec![0.0; mechanism.coordinates.len()],
-            time: 0.0,
+            time: mechanism.time,
         }
     }
 

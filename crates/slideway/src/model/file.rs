@@ -20,6 +20,8 @@ pub(super) struct ModelFile {
     source: Option<Name>,
     /// Acceleration of free fall: a number (downwards, along -y) or its components [x, y]. Default: none.
     gravity: Option<Gravity>,
+    /// Time of the state, `t` in expressions (s). Default: 0.
+    time: Option<Quantity>,
     /// Named numbers that any expression may use and that `--set name=value` overrides.
     parameters: Option<BTreeMap<String, Quantity>>,
     /// Points in world coordinates [x, y] of the reference drawing.

@@ -59,6 +59,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Acceleration of free fall.
     pub gravity: Gravity,
+    /// Time of the state; nothing means zero.
+    pub time: Option<FormulaId>,
     /// The bodies, in the order of the file.
     pub bodies: Vec<Body>,
     /// The joints, in the order of the file.

@@ -18,6 +18,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 pub(super) struct Sections {
     pub(super) title: Option<Name>,
     pub(super) gravity: Option<Gravity>,
+    pub(super) time: Option<Quantity>,
     pub(super) parameters: Vec<Entry<Quantity>>,
     pub(super) points: Vec<Entry<Components>>,
     pub(super) bodies: Vec<Entry<BodyTable>>,
@@ -65,6 +66,7 @@ pub(super) fn sections(text: &str) -> (Sections, Faults) {
     let sections = Sections {
         title: reader.single(&mut root, "title"),
         gravity: reader.single(&mut root, "gravity"),
+        time: reader.single(&mut root, "time"),
         parameters: reader.section(&mut root, "parameters", deserialize),
         points: reader.section(&mut root, "points", deserialize),
         bodies: reader.section(&mut root, "bodies", deserialize),

@@ -7,6 +7,9 @@ use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
 use crate::ids::FormulaId;
 use std::sync::Arc;
 
+/// The name that a setting of the time bears.
+const TIME: &str = "time";
+
 /// Changes to a model, in the order in which they were given; a later one wins.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Settings {
@@ -40,6 +43,8 @@ pub enum SettingKind {
     Position,
     /// The rate of a coordinate (`--rate`).
     Rate,
+    /// The time of the state (`--time`).
+    Time,
 }
 
 impl Settings {
@@ -59,6 +64,12 @@ impl Settings {
     #[must_use]
     pub fn rate(self, name: &str, value: &str) -> Self {
         self.with(SettingKind::Rate, name, value)
+    }
+
+    /// Sets the time of the state.
+    #[must_use]
+    pub fn time(self, value: &str) -> Self {
+        self.with(SettingKind::Time, TIME, value)
     }
 
     /// Adds a setting written as `name=value`.
@@ -88,7 +99,7 @@ impl Settings {
 }
 
 impl Model {
-    /// The model with parameters, coordinate values and rates replaced.
+    /// The model with parameters, coordinate values, rates or the time replaced.
     ///
     /// # Errors
     /// Every unknown name, expression that cannot be read, dimension that has changed, and circle of
@@ -101,8 +112,8 @@ impl Model {
                 faults.append(fault);
             }
         }
-        let mut model = faults.or(model)?;
-        model.check(true).or(model)
+        faults.append(model.check(true));
+        faults.or(model)
     }
 
     fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {
@@ -119,7 +130,7 @@ impl Model {
                 };
                 let old = self.parameter_dimension(index);
                 let formula = self.setting_formula(setting, source, old)?;
-                self.parameters[index].value = self.add_formula(formula);
+                self.replace_formula(Some(self.parameters[index].value), formula);
             }
             SettingKind::Position | SettingKind::Rate => {
                 let Some(index) = self.coordinates.iter().position(|c| c.name.as_ref() == name) else {
@@ -133,9 +144,15 @@ impl Model {
                 let position = setting.kind == SettingKind::Position;
                 let wanted = dimension_of(&self.coordinates[index], position);
                 let formula = self.setting_formula(setting, source, Some(wanted))?;
-                let id = Some(self.add_formula(formula));
+                let coordinate = &self.coordinates[index];
+                let old = if position { coordinate.value } else { coordinate.rate };
+                let id = Some(self.replace_formula(old, formula));
                 let coordinate = &mut self.coordinates[index];
                 if position { coordinate.value = id } else { coordinate.rate = id }
+            }
+            SettingKind::Time => {
+                let formula = self.setting_formula(setting, source, Some(Dimension::TIME))?;
+                self.time = Some(self.replace_formula(self.time, formula));
             }
         }
         Ok(())
@@ -167,8 +184,13 @@ impl Model {
         })
     }
 
-    fn add_formula(&mut self, formula: Formula) -> FormulaId {
+    /// Puts a formula in the place of an old one, which must not be evaluated any more, or adds it.
+    fn replace_formula(&mut self, old: Option<FormulaId>, formula: Formula) -> FormulaId {
         let formulas = Arc::make_mut(&mut self.formulas);
+        if let Some(old) = old {
+            formulas[old.index()] = formula;
+            return old;
+        }
         formulas.push(formula);
         FormulaId(formulas.len() - 1)
     }

@@ -49,6 +49,8 @@ pub struct Report {
     pub model: ModelSummary,
     /// The state: chosen coordinates and their rates.
     pub state: Vec<CoordinateState>,
+    /// Time of the state (s).
+    pub time: f64,
     /// The outcome of all sign patterns.
     pub patterns: PatternSummary,
     /// The solutions, in the order of their patterns.

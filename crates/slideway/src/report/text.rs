@@ -93,6 +93,9 @@ impl Text<'_> {
                 unit = state.unit
             ));
         }
+        if self.report.time != 0.0 {
+            self.line(&format!("t = {} s", number(self.report.time)));
+        }
         self.line("");
     }
 

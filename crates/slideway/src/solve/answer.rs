@@ -70,6 +70,7 @@ impl<'a> Answer<'a> {
             complete,
             model: self.model(),
             state: self.state(),
+            time: self.configuration.time,
             patterns: pattern_summary(found, rejections),
             solutions,
             preload_gap_states: gaps,

@@ -123,6 +123,8 @@ impl<'t> Reader<'t> {
     fn model(&mut self, sections: Sections) -> Model {
         let parameters = self.parameters(sections.parameters);
         let gravity = self.gravity(sections.gravity.as_ref());
+        let wanted = Wanted::constant("the time", Dimension::TIME);
+        let time = sections.time.as_ref().map(|time| self.formula(time, wanted));
         self.read_points(sections.points);
         let bodies = self.read_bodies(sections.bodies);
         let joints = self.read_joints(sections.joints);
@@ -133,6 +135,7 @@ impl<'t> Reader<'t> {
             title: sections.title.map(|title| title.text),
             parameters,
             gravity,
+            time,
             bodies,
             joints,
             loads,
