@@ -67,9 +67,14 @@ show elliptic-trammel.txt 0 solve models/elliptic-trammel.toml
 show sleeve-on-arm.txt 0 solve models/sleeve-on-arm.toml
 show telescopic-boom.txt 0 solve models/telescopic-boom.toml
 
-# The guide.
-show models.txt 0 models
+# The command line.
+show help.txt 0 --help
+show help-solve.txt 0 solve --help
 show check-klepp.txt 0 check models/klepp-2002.toml
+show check-bracket.txt 2 check models/bracket-on-pole.toml
+show models.txt 0 models
+
+# The guide.
 show my-drawer.txt 0 solve $examples/my-drawer.toml
 show mistakes.txt 2 solve $examples/mistakes.toml
 show setting-mistakes.txt 2 solve models/drawer.toml --set "L=3 kg" --set nu=0.7
