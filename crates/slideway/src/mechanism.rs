@@ -103,6 +103,8 @@ pub struct Slider {
     pub length: f64,
     /// Distance of the rubbing faces (m), negative where the block surrounds the guide.
     pub height: f64,
+    /// Whether the block surrounds the guide, so that the opposite faces press.
+    pub around: bool,
     /// Limits of the displacement (m).
     pub travel: Option<[f64; 2]>,
     /// Its contacts: front and rear of a block slider, else the only one.
@@ -482,6 +484,7 @@ impl<'m> Evaluation<'m> {
             tangent: self.direction(&slider.along),
             length,
             height: if slider.around { -height } else { height },
+            around: slider.around,
             travel: slider.travel.map(|travel| travel.map(|limit| self.value(limit))),
             contacts: (first..contacts.len()).map(ContactId).collect(),
         }

@@ -148,6 +148,11 @@ impl KineticEquations {
         [first, second]
     }
 
+    /// The unknowns with every component set to zero that is below the rounding errors of the solution.
+    pub fn without_noise(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        self.factorization.without_noise(unknowns)
+    }
+
     /// Estimate of how much rounding is amplified: ratio of the greatest to the least pivot.
     pub fn condition(&self) -> f64 {
         self.factorization.condition()

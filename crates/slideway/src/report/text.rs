@@ -102,6 +102,9 @@ impl Text<'_> {
     fn verdict(&mut self) {
         let report = self.report;
         let verdict = match report.status {
+            Status::None if !report.rejected.is_empty() => {
+                "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
+            }
             Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
             Status::One => "One solution.".to_owned(),
             Status::Several => format!("{} solutions, each in its own contact mode.", report.solutions.len()),
@@ -122,7 +125,7 @@ impl Text<'_> {
         let outcomes = [
             (counts.solution, "with a solution"),
             (counts.boundary, "on the boundary of a solution"),
-            (counts.no_solution, "without"),
+            (counts.no_solution, "without a solution"),
             (counts.singular_without_solution, "singular and locked"),
             (counts.singular_with_point, "singular with one solution"),
             (counts.singular_with_continuum, "singular with a continuum"),
@@ -133,10 +136,14 @@ impl Text<'_> {
             .filter(|(count, _)| *count > 0)
             .map(|(count, outcome)| format!("{count} {outcome}"))
             .collect();
-        let mut line = if counts.total == 1 {
-            format!("The only sign pattern was tried: {}.", parts.join(", "))
-        } else {
-            format!("All {} sign patterns were tried: {}.", counts.total, parts.join(", "))
+        let tried = match (counts.total, counts.undecided) {
+            (1, 0) => "The only sign pattern was tried".to_owned(),
+            (total, 0) => format!("All {total} sign patterns were tried"),
+            (total, undecided) => format!("{} of {total} sign patterns were decided", total - undecided),
+        };
+        let mut line = match parts.as_slice() {
+            [_] if counts.no_solution == counts.total => format!("{tried}: none has a solution."),
+            _ => format!("{tried}: {}.", parts.join(", ")),
         };
         if counts.gap_patterns > 0 {
             let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);

@@ -177,6 +177,7 @@ impl<'a> Answer<'a> {
     fn solution(&self, state: &State<'_>, unknowns: &DVector<f64>) -> report::Solution {
         let friction = self.friction(state);
         let residuals = self.residuals(unknowns, &friction);
+        let unknowns = &self.equations.without_noise(unknowns);
         let orientation: f64 = state.pattern.iter().map(|contact| contact.sign()).product();
         report::Solution {
             pattern: pattern(state.pattern),
