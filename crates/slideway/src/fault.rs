@@ -117,10 +117,10 @@ pub enum FaultKind {
     // The text as a whole.
     #[error("the model file is empty")]
     Empty,
-    #[error("the model file is not UTF-8 text: byte {offset} is not part of a character")]
-    NotUtf8 { offset: usize },
-    #[error("the model file has {size} bytes; at most {limit} are read")]
-    TooLarge { size: u64, limit: u64 },
+    #[error("the model file is not UTF-8 text: the byte 0x{byte:02X} is no part of a character here")]
+    NotUtf8 { byte: u8 },
+    #[error("the model file is larger than {} MiB, too large for a model", limit >> 20)]
+    TooLarge { limit: u64 },
     #[error("not valid TOML: {message}")]
     Syntax { message: String },
 

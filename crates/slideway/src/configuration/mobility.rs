@@ -5,9 +5,9 @@ use super::joint_equations::JointEquations;
 use super::{Configuration, Pose};
 use crate::fault::FaultKind;
 use crate::ids::JointId;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{JointKind, Mechanism, rot90};
 use crate::model::SliderKind;
-use nalgebra::{DMatrix, DVector, SVD};
+use nalgebra::{DMatrix, DVector, SVD, Vector2};
 
 /// Singular values below this multiple of the greatest count as zero.
 const RANK_TOLERANCE: f64 = 1e-9;
@@ -102,6 +102,51 @@ pub(crate) fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
         .map(|index| v_t.row(index).transpose())
         .collect();
     if null.is_empty() { DMatrix::zeros(columns, 0) } else { DMatrix::from_columns(&null) }
+}
+
+/// The motions that the joints leave, one in each column: (x, y, angle) of every body in m and rad.
+pub(crate) fn free_motions(mechanism: &Mechanism, configuration: &Configuration) -> DMatrix<f64> {
+    let mut motions = null_space(&JointEquations::of_joints(mechanism, &configuration.poses).jacobian);
+    for (row, mut motion) in motions.row_iter_mut().enumerate() {
+        if row % 3 != 2 {
+            motion *= mechanism.size;
+        }
+    }
+    motions
+}
+
+/// A motion of the bodies, (x, y, angle) of each: "rod rotates about (0.1, 0.2), block moves along (1, 0)".
+pub(crate) fn motion_in_words(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    motion: &DVector<f64>,
+) -> String {
+    let size = mechanism.size;
+    let scale = (0..mechanism.bodies.len())
+        .map(|b| motion[3 * b].hypot(motion[3 * b + 1]).max(size * motion[3 * b + 2].abs()))
+        .fold(0.0, f64::max);
+    let mut parts = Vec::new();
+    for (index, body) in mechanism.bodies.iter().enumerate() {
+        let velocity = Vector2::new(motion[3 * index], motion[3 * index + 1]);
+        let angular = motion[3 * index + 2];
+        if angular.abs() * size > 1e-6 * scale {
+            // The pole: the point that stays at rest, c + rot90(v)/omega.
+            let pole = configuration.poses[index].position + rot90(velocity) / angular;
+            parts.push(format!("{} rotates about {}", body.name, components(pole, size)));
+        } else if velocity.norm() > 1e-6 * scale {
+            parts.push(format!("{} moves along {}", body.name, components(velocity.normalize(), 1.0)));
+        }
+    }
+    parts.join(", ")
+}
+
+/// "(0.1, 0.2)", with rounding errors against `scale` as 0.
+fn components(vector: Vector2<f64>, scale: f64) -> String {
+    let rounded = |value: f64| {
+        let text = format!("{:.4}", if value.abs() < 1e-9 * scale { 0.0 } else { value });
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    format!("({}, {})", rounded(vector.x), rounded(vector.y))
 }
 
 /// The joints that take part in a state of self-stress: in a combination of rows that vanishes.

@@ -8,7 +8,7 @@ mod assembly;
 mod joint_equations;
 mod mobility;
 
-pub(crate) use mobility::null_space;
+pub(crate) use mobility::{free_motions, motion_in_words, null_space};
 pub use mobility::{Mobility, Redundancy};
 
 use crate::fault::Faults;
