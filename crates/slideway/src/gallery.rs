@@ -45,7 +45,15 @@ impl GalleryModel {
             .skip_while(|line| !line.starts_with("What it shows:"))
             .take_while(|line| !line.is_empty() && !line.starts_with("slideway "))
             .collect();
-        paragraph.join(" ").trim_start_matches("What it shows: ").to_owned()
+        let text = paragraph.join(" ");
+        let text = text.trim_start_matches("What it shows: ");
+        // A sentence that announces the commands below it ends in a colon.
+        let whole = match text.strip_suffix(':') {
+            Some(announcing) => announcing.rfind(". ").map_or("", |end| &announcing[..=end]),
+            None => text,
+        };
+        let mut characters = whole.chars();
+        characters.next().map_or_else(String::new, |first| first.to_uppercase().chain(characters).collect())
     }
 }
 

@@ -42,9 +42,11 @@ fn list() -> String {
     let width = MODELS.iter().map(|model| model.name.len()).max().unwrap_or(0);
     let mut text = String::new();
     for model in MODELS {
-        let _ = writeln!(text, "{:width$}  {}", model.name, model.summary());
-        for line in wrapped(&model.shows(), WIDTH - width - 2) {
-            let _ = writeln!(text, "{:width$}  {line}", "");
+        let summary = wrapped(model.summary(), WIDTH - width - 2);
+        let shows = wrapped(&model.shows(), WIDTH - width - 4).into_iter().map(|line| format!("  {line}"));
+        for (index, line) in summary.into_iter().chain(shows).enumerate() {
+            let name = if index == 0 { model.name } else { "" };
+            let _ = writeln!(text, "{name:width$}  {line}");
         }
         text.push('\n');
     }

@@ -180,11 +180,8 @@ pub struct CoordinateSummary {
 pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mechanism = Mechanism::new(model)?;
     let mut faults = Faults::default();
-    let mut keep = |result: Result<(), Faults>| {
-        result.map_err(|found| faults.append(found)).is_ok();
-    };
-    let too_large = check_size(&mechanism, &Limits::default());
-    keep(too_large.clone());
+    let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
+    keep(check_size(&mechanism, &Limits::default()));
     let drawing = Configuration::drawing(&mechanism);
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));

@@ -102,7 +102,7 @@ impl Text<'_> {
             }
         }
         if let Some(condition) = report.condition {
-            self.line(&format!("Condition of the kinetic equations: {condition:.0e}."));
+            self.line(&format!("Condition of the kinetic equations: {condition:.1e}."));
         }
         if !report.assembled {
             self.line("What follows is told of the drawing: the state could not be reached.");

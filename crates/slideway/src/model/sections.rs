@@ -86,8 +86,8 @@ struct SectionReader<'t, 's> {
 
 impl SectionReader<'_, '_> {
     fn single<T: DeserializeOwned>(&mut self, root: &mut DeTable<'_>, key: &str) -> Option<T> {
-        let value = root.remove(key)?;
-        if !self.check.is_sound(key) {
+        let mut value = root.remove(key)?;
+        if !self.check.mend(&[key], &mut value) {
             return None;
         }
         self.keep(deserialize(value))
@@ -104,10 +104,10 @@ impl SectionReader<'_, '_> {
         let DeValue::Table(table) = section.into_inner() else { return Vec::new() };
         let mut entries: Vec<Entry<T>> = table
             .into_iter()
-            .map(|(name, value)| {
-                let sound = self.check.is_sound(&format!("{key}.{}", name.get_ref()));
+            .map(|(name, mut value)| {
+                let readable = self.check.mend(&[key, name.get_ref()], &mut value);
                 let span = within(self.text, name.span());
-                let contents = if sound { self.keep(contents(value)) } else { None };
+                let contents = if readable { self.keep(contents(value)) } else { None };
                 Entry { name: name.into_inner().into_owned(), span, contents }
             })
             .collect();

@@ -101,8 +101,8 @@ impl Model {
                 faults.append(fault);
             }
         }
-        let mut model = faults.or(model)?;
-        model.check(true).or(model)
+        faults.append(model.check(true));
+        faults.or(model)
     }
 
     fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {

@@ -33,7 +33,10 @@ pub(crate) fn velocity_signs(
         let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
         let joint = mechanism.contacts[first].joint;
         let place = mechanism.joints[joint.index()].place.clone();
-        return Err(Fault::new(FaultKind::ZeroSlidingVelocity { contacts }, place).into());
+        let at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
+        let coordinates = mechanism.coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
+        let kind = FaultKind::ZeroSlidingVelocity { contacts, coordinates, at_rest };
+        return Err(Fault::new(kind, place).into());
     }
     let sign = |velocity: &f64| if at_rest(*velocity) { 0.0 } else { velocity.signum() };
     Ok(DVector::from_iterator(sliding.len(), sliding.iter().map(sign)))
@@ -93,8 +96,8 @@ fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<
     preload
 }
 
-fn overflow(error: &ModeProblemError) -> Fault {
-    Fault::general(FaultKind::Overflow { quantity: error.to_string() })
+fn overflow(_: &ModeProblemError) -> Fault {
+    Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() })
 }
 
 /// More contacts than can be enumerated are refused before any matrix is built: those would be large, too.
