@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Friction can lock a sliding mechanism, or leave it several ways to move. slideway tries every contact mode and
 /// lists all solutions: forces, accelerations, and on which side each slider touches its guide.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "slideway", version, max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,

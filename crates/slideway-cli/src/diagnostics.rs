@@ -31,9 +31,11 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
     let renderer = Renderer::styled();
     let mut parts: Vec<String> =
         sorted.iter().take(SHOWN).map(|fault| renderer.render(&[texts.group(fault)])).collect();
-    parts.push(renderer.render(&[Group::with_title(
-        Level::ERROR.primary_title(closing_line(&sorted, &texts.model_name)),
-    )]));
+    parts.push(
+        renderer.render(&[Group::with_title(
+            Level::ERROR.primary_title(closing_line(&sorted, &texts.model_name)),
+        )]),
+    );
     parts.join("\n\n")
 }
 
@@ -74,9 +76,7 @@ impl Texts {
                     }
                 };
                 let span = within(text, &(place.span.start + offset..place.span.end + offset));
-                group.element(
-                    Snippet::source(text).path(path).annotation(AnnotationKind::Primary.span(span)),
-                )
+                group.element(Snippet::source(text).path(path).annotation(AnnotationKind::Primary.span(span)))
             }
             None if on_command_line(fault) => group,
             None => group.element(Origin::path(self.model_name.as_str())),

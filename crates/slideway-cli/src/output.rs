@@ -101,8 +101,7 @@ impl OutputFile {
         }
         let mut file = builder.tempfile_in(directory).map_err(failure)?;
         file.write_all(text.as_bytes()).and_then(|()| file.as_file().sync_all()).map_err(failure)?;
-        let written =
-            if self.overwrite { file.persist(&target) } else { file.persist_noclobber(&target) };
+        let written = if self.overwrite { file.persist(&target) } else { file.persist_noclobber(&target) };
         match written {
             Ok(_) => Ok(()),
             Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {

@@ -70,6 +70,40 @@ impl Faults {
         self.list.iter().any(|fault| matches!(fault.kind, FaultKind::Syntax { .. }))
     }
 
+    /// The sections of the file whose entries are not known, because their heading is misspelt or faulty.
+    fn unknown_sections(&self) -> Vec<String> {
+        let section = |fault: &Fault| match &fault.kind {
+            FaultKind::UnknownKey { nearest: Some(nearest), table, .. } if table.is_empty() => {
+                Some(nearest.clone())
+            }
+            FaultKind::NoHeading { section } => Some(section.clone()),
+            _ => None,
+        };
+        self.list.iter().filter_map(section).collect()
+    }
+
+    /// Leaves out the unknown names of entries whose section is not known.
+    #[must_use]
+    pub(crate) fn without_names_of_unknown_sections(mut self) -> Self {
+        let sections = self.unknown_sections();
+        let unknown = |section: &str| sections.iter().any(|unknown| unknown == section);
+        self.list.retain(|fault| match &fault.kind {
+            FaultKind::UnknownName { what, .. } => !match *what {
+                "point" => unknown("points"),
+                "coordinate" => unknown("coordinates"),
+                "body" | "moving body" => unknown("bodies"),
+                _ => unknown("joints"),
+            },
+            FaultKind::MissingKey { key, table } => !(table.is_empty() && unknown(key)),
+            FaultKind::NotOwned { .. } => !unknown("bodies"),
+            FaultKind::Expression(
+                ExpressionFaultKind::UnknownName { .. } | ExpressionFaultKind::UnknownUnit { .. },
+            ) => !unknown("parameters") && !unknown("coordinates"),
+            _ => true,
+        });
+        self
+    }
+
     /// Leaves out what may only follow from text that could not be read: whatever seems to be absent.
     #[must_use]
     pub(crate) fn without_absences(mut self) -> Self {
@@ -151,6 +185,8 @@ pub enum FaultKind {
     MissingKey { key: String, table: String },
     #[error("`{table}` has no `type`")]
     MissingType { table: String, known: Vec<String> },
+    #[error("`{section}` holds tables, each with a name in its heading")]
+    NoHeading { section: String },
     #[error("`{place}` cannot be \"{word}\"")]
     UnknownWord { place: String, word: String, nearest: Option<String>, known: Vec<String> },
     #[error("`{place}` must be {wanted}, not {found}")]
@@ -250,7 +286,10 @@ pub enum FaultKind {
     DriveCannotMove { drives: Vec<String>, motion: String },
     #[error("the kinetic equations are too ill-conditioned to be solved (condition {condition:.1e})")]
     IllConditioned { condition: f64 },
-    #[error("the sliding velocity of {} is zero, so the direction of friction is undefined", listed(contacts))]
+    #[error(
+        "the sliding velocity of {} is zero, so the direction of friction is undefined",
+        listed(contacts)
+    )]
     ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
 
     // Enumeration of the modes.
@@ -295,6 +334,7 @@ impl FaultKind {
                 choose(nearest.as_deref(), known)
             }
             Self::UnknownWord { nearest, known, .. } => choose(nearest.as_deref(), known),
+            Self::NoHeading { section } => Some(format!("write `[{section}.NAME]` above these lines")),
             Self::MissingType { known, .. } => Some(format!("possible types: {}", known.join(", "))),
             Self::NotOwned { body, point, owners } => Some(ownership_hint(body, point, owners)),
             Self::CoordinateCount { undetermined, degrees_of_freedom, chosen } => {
@@ -450,12 +490,16 @@ fn opening(joint: &str, loop_joints: &[String]) -> String {
 
 fn velocity_hint(coordinates: &[String]) -> String {
     let rates: Vec<String> = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1")).collect();
-    format!("give the mechanism a velocity, for instance with `{}`; friction at rest is not analysed", rates.join(" "))
+    format!(
+        "give the mechanism a velocity, for instance with `{}`; friction at rest is not analysed",
+        rates.join(" ")
+    )
 }
 
 fn expression_hint(kind: &ExpressionFaultKind) -> Option<String> {
-    matches!(kind, ExpressionFaultKind::UnknownName { .. })
-        .then(|| "expressions may use the names in [parameters] and, in loads and drives, [coordinates]".to_owned())
+    matches!(kind, ExpressionFaultKind::UnknownName { .. }).then(|| {
+        "expressions may use the names in [parameters] and, in loads and drives, [coordinates]".to_owned()
+    })
 }
 
 fn are(bodies: &[String]) -> String {

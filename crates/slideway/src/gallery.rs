@@ -139,8 +139,7 @@ fn slide(stage: usize) -> String {
 
 /// The cylinder that pushes a tube out of the one before it.
 fn cylinder(stage: usize) -> String {
-    let reaction =
-        if stage == 1 { String::new() } else { format!("reaction = \"stage_{}\"\n", stage - 1) };
+    let reaction = if stage == 1 { String::new() } else { format!("reaction = \"stage_{}\"\n", stage - 1) };
     format!(
         "\n[loads.cylinder_{stage}]\ntype = \"force\"\nat = \"stage_{stage}.tail_{stage}\"\nmagnitude = \"F\"\n\
          direction = \"beta\"\n{reaction}"
@@ -148,9 +147,7 @@ fn cylinder(stage: usize) -> String {
 }
 
 fn load(stages: usize) -> String {
-    format!(
-        "\n[loads.W]\ntype = \"force\"\nat = \"stage_{stages}.tip_{stages}\"\ncomponents = [0, \"-W\"]\n"
-    )
+    format!("\n[loads.W]\ntype = \"force\"\nat = \"stage_{stages}.tip_{stages}\"\ncomponents = [0, \"-W\"]\n")
 }
 
 fn coordinate(stage: usize) -> String {

@@ -29,11 +29,10 @@ fn model(name: &str, stages: Option<usize>) -> Result<String, Failure> {
     };
     match stages {
         None => Ok(model.text.to_owned()),
-        Some(_) if model.name != gallery::TELESCOPIC_BOOM => {
-            Err(Failure::NoStages { name: name.to_owned() })
+        Some(_) if model.name != gallery::TELESCOPIC_BOOM => Err(Failure::NoStages { name: name.to_owned() }),
+        Some(stages) => {
+            gallery::telescopic_boom(stages).ok_or(Failure::StageCount { stages, most: GREATEST_STAGES })
         }
-        Some(stages) => gallery::telescopic_boom(stages)
-            .ok_or(Failure::StageCount { stages, most: GREATEST_STAGES }),
     }
 }
 

@@ -111,9 +111,10 @@ impl Text<'_> {
 
     fn tables(&mut self) {
         let report = self.report;
-        let bodies = report.bodies.iter().map(|body| {
-            vec![body.name.clone(), number(body.mass), number(body.moment_of_inertia)]
-        });
+        let bodies = report
+            .bodies
+            .iter()
+            .map(|body| vec![body.name.clone(), number(body.mass), number(body.moment_of_inertia)]);
         self.table(&["body", "mass in kg", "moment of inertia in kg m^2"], bodies.collect(), 1);
         let optional = |value: Option<f64>| value.map_or(String::new(), number);
         let joints = report.joints.iter().map(|joint| {

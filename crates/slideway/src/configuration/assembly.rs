@@ -202,8 +202,11 @@ fn is_slider(mechanism: &Mechanism, joint: JointId) -> bool {
 /// Coordinate values in words.
 fn state(mechanism: &Mechanism, values: &[f64]) -> String {
     let one = |(coordinate, value): (&crate::mechanism::Coordinate, &f64)| {
-        let degrees =
-            if coordinate.kind.is_angle() { format!(" ({:.2} deg)", value.to_degrees()) } else { String::new() };
+        let degrees = if coordinate.kind.is_angle() {
+            format!(" ({:.2} deg)", value.to_degrees())
+        } else {
+            String::new()
+        };
         format!("{} = {value:.5} {}{degrees}", coordinate.name, unit(&coordinate.kind))
     };
     let list: Vec<String> = mechanism.coordinates.iter().zip(values).map(one).collect();

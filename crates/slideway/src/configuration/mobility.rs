@@ -187,10 +187,12 @@ fn suggestion(
     joints: &[JointId],
     independent: usize,
 ) -> Option<String> {
-    let turns = |joint: &JointId| mechanism.slider(*joint).is_some_and(|slider| slider.kind != SliderKind::Pin);
+    let turns =
+        |joint: &JointId| mechanism.slider(*joint).is_some_and(|slider| slider.kind != SliderKind::Pin);
     let to_pin: Vec<Change> = joints.iter().copied().filter(turns).map(Change::ToPin).collect();
     let remove: Vec<Change> = joints.iter().copied().map(Change::Remove).collect();
-    let single = |changes: &[Change]| -> Vec<Vec<Change>> { changes.iter().map(|change| vec![*change]).collect() };
+    let single =
+        |changes: &[Change]| -> Vec<Vec<Change>> { changes.iter().map(|change| vec![*change]).collect() };
     let pairs = |first: &[Change], second: &[Change]| -> Vec<Vec<Change>> {
         first.iter().flat_map(|a| second.iter().map(|b| vec![*a, *b])).collect()
     };
@@ -202,7 +204,8 @@ fn suggestion(
         pairs(&to_pin, &remove),
         pairs(&remove, &remove),
     ];
-    let mut distinct = all.into_iter().flatten().filter(|changes| !matches!(changes[..], [a, b] if a.joint() == b.joint()));
+    let mut distinct =
+        all.into_iter().flatten().filter(|changes| !matches!(changes[..], [a, b] if a.joint() == b.joint()));
     let changes = distinct.by_ref().take(CHANGES_TRIED).find(|changes| {
         let left = rows_left(equations, changes);
         left.nrows() == independent && rank(&left, RANK_TOLERANCE) == independent

@@ -64,6 +64,16 @@ impl<'s> StructureCheck<'s> {
         })
     }
 
+    /// Whether a section consists of entries, as it should.
+    pub(super) fn has_entries(&self, section: &str) -> bool {
+        !self.mends.iter().any(|mend| mend.path == [section])
+    }
+
+    /// Whether a place lies in what could not be read.
+    pub(super) fn is_broken(&self, place: usize) -> bool {
+        self.broken_lines.iter().any(|line| line.start <= place && place < line.end)
+    }
+
     /// Records a fault, and how the value at the present path is to be mended.
     fn push(&mut self, kind: FaultKind, span: Span, with: StandIn) {
         self.mends.push(Mend { path: self.path.clone(), with });
@@ -71,8 +81,7 @@ impl<'s> StructureCheck<'s> {
     }
 
     fn record(&mut self, kind: FaultKind, span: Span) {
-        let broken = |line: &Span| line.start <= span.start && span.start < line.end;
-        if !self.broken_lines.iter().any(broken) {
+        if !self.is_broken(span.start) {
             self.faults.push(Fault::new(kind, Place::model(span)));
         }
     }
@@ -122,6 +131,9 @@ impl<'s> StructureCheck<'s> {
     /// Checks the keys of a table; `span` is that of its heading.
     fn table(&mut self, table: &DeTable<'_>, span: &Span, schema: &'s Schema, place: &str) {
         let schema = self.resolve(schema);
+        if self.path.len() == 1 && self.lacks_headings(table, span, schema, place) {
+            return;
+        }
         let properties = schema.get("properties").and_then(Schema::as_object);
         let mut misspelt = Vec::new();
         for (key, value) in table {
@@ -160,6 +172,23 @@ impl<'s> StructureCheck<'s> {
         }
     }
 
+    /// Whether a section of named tables holds values of its own, as if the name were missing in its heading.
+    fn lacks_headings(&mut self, table: &DeTable<'_>, span: &Span, schema: &'s Schema, place: &str) -> bool {
+        let of_entry = schema.get("additionalProperties").filter(|s| s.is_object());
+        let is_table = |schema| {
+            let resolved = self.resolve(schema);
+            let tagged = resolved.get("oneOf").and_then(Schema::as_array).and_then(|all| tagged(all));
+            tagged.is_some() || self.kinds(schema) == ["table"]
+        };
+        let values = table.values().any(|value| value.get_ref().as_table().is_none());
+        let lacking = values && of_entry.is_some_and(is_table);
+        if lacking {
+            let kind = FaultKind::NoHeading { section: place.to_owned() };
+            self.push(kind, span.clone(), StandIn::Impossible);
+        }
+        lacking
+    }
+
     /// What can take the place of a value of this schema.
     fn stand_in(&self, schema: &'s Schema) -> StandIn {
         let schema = self.resolve(schema);
@@ -172,7 +201,8 @@ impl<'s> StructureCheck<'s> {
             return all.reduce(StandIn::simpler).unwrap_or(StandIn::Impossible);
         }
         if schema.get("oneOf").is_some() {
-            let words = schema["oneOf"].as_array().is_some_and(|all| all.iter().all(|a| a["const"].is_string()));
+            let words =
+                schema["oneOf"].as_array().is_some_and(|all| all.iter().all(|a| a["const"].is_string()));
             return if words { StandIn::Removed } else { StandIn::Impossible };
         }
         let kinds = self.kinds(schema);
@@ -213,10 +243,14 @@ impl<'s> StructureCheck<'s> {
             self.push(kind, span.clone(), self.stand_in(schema));
             return;
         }
-        let Some(schema) = schema.get("items") else { return };
+        let Some(of_item) = schema.get("items") else { return };
+        let before = self.mends.len();
         for item in items {
-            self.value(item, schema, place);
+            self.value(item, of_item, place);
         }
+        // A stand-in takes the place of the whole list.
+        let with = self.stand_in(schema);
+        self.mends[before..].iter_mut().for_each(|mend| mend.with = with);
     }
 
     fn tagged(&mut self, value: &Spanned<DeValue<'_>>, tags: &[(&'s str, &'s Schema)], place: &str) {

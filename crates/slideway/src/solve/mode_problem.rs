@@ -34,7 +34,8 @@ pub(crate) fn velocity_signs(
         let joint = mechanism.contacts[first].joint;
         let place = mechanism.joints[joint.index()].place.clone();
         let at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
-        let coordinates = mechanism.coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
+        let coordinates =
+            mechanism.coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
         let kind = FaultKind::ZeroSlidingVelocity { contacts, coordinates, at_rest };
         return Err(Fault::new(kind, place).into());
     }

@@ -92,11 +92,12 @@ impl Reader<'_> {
             carried_by: None,
         };
         let both = self.friction(both, name);
-        let contacts = [("front", table.front.as_ref()), ("rear", table.rear.as_ref())].map(|(end, table)| {
-            let contact = format!("{name}.{end}");
-            let friction = self.friction(WrittenFriction::at_end(table), &contact).or(both);
-            self.contact(friction, contact, name, span)
-        });
+        let contacts =
+            [("front", table.front.as_ref()), ("rear", table.rear.as_ref())].map(|(end, table)| {
+                let contact = format!("{name}.{end}");
+                let friction = self.friction(WrittenFriction::at_end(table), &contact).or(both);
+                self.contact(friction, contact, name, span)
+            });
         let contacts = Vec::from(contacts);
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         JointKind::Slider(Box::new(Slider {

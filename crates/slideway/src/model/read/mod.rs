@@ -31,7 +31,7 @@ pub(super) fn read(text: &str) -> Result<Model, Faults> {
     if unreadable {
         faults = faults.without_absences();
     }
-    faults.or(model)
+    faults.without_names_of_unknown_sections().or(model)
 }
 
 /// Whether an entry is a sliding joint; one that could not be read may be one.
