@@ -15,6 +15,7 @@
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`].
 
+pub mod check;
 pub mod configuration;
 pub mod expression;
 pub mod fault;

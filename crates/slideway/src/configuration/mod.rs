@@ -8,8 +8,8 @@ mod assembly;
 mod joint_equations;
 mod mobility;
 
-pub(crate) use mobility::null_space;
 pub use mobility::{Mobility, Redundancy};
+pub(crate) use mobility::{free_motions, motion_in_words, null_space};
 
 use crate::fault::Faults;
 use crate::ids::{ContactId, Frame};

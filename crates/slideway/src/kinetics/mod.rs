@@ -18,7 +18,7 @@ mod system;
 pub use loads::Wrench;
 pub(crate) use loads::unit_effort as effort_forces;
 
-use crate::configuration::{Configuration, ContactState};
+use crate::configuration::{Configuration, ContactState, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::mechanism::{JointKind, Mechanism, rot90};
@@ -270,7 +270,7 @@ impl Builder<'_> {
         else {
             return Fault::general(FaultKind::IllConditioned { condition: *condition });
         };
-        let motion = self.motion_in_words(&accelerations);
+        let motion = motion_in_words(self.mechanism, self.configuration, &accelerations);
         Fault::new(FaultKind::MotionWithoutInertia { motion }, self.mechanism.bodies[first].place.clone())
     }
 
@@ -284,28 +284,6 @@ impl Builder<'_> {
             })
             .collect();
         names.join(", ")
-    }
-
-    /// "rod rotates about (0.1, 0.2), block moves along (1, 0)"
-    fn motion_in_words(&self, motion: &DVector<f64>) -> String {
-        let size = self.mechanism.size;
-        let scale = (0..self.mechanism.bodies.len())
-            .map(|b| motion[3 * b].hypot(motion[3 * b + 1]).max(size * motion[3 * b + 2].abs()))
-            .fold(0.0, f64::max);
-        let mut parts = Vec::new();
-        for (index, body) in self.mechanism.bodies.iter().enumerate() {
-            let velocity = Vector2::new(motion[3 * index], motion[3 * index + 1]);
-            let angular = motion[3 * index + 2];
-            if angular.abs() * size > 1e-6 * scale {
-                // The pole: the point that stays at rest, c + rot90(v)/omega.
-                let pole = self.configuration.poses[index].position + rot90(velocity) / angular;
-                parts.push(format!("{} rotates about ({:.4}, {:.4})", body.name, pole.x, pole.y));
-            } else if velocity.norm() > 1e-6 * scale {
-                let direction = velocity.normalize();
-                parts.push(format!("{} moves along ({:.4}, {:.4})", body.name, direction.x, direction.y));
-            }
-        }
-        parts.join(", ")
     }
 }
 

@@ -20,7 +20,7 @@ impl Model {
         let values = self.allowed_values(&mut faults);
         self.check_relations(&values, &mut faults);
         if complete {
-            self.check_connections(&mut faults);
+            self.check_connections(&values, &mut faults);
         }
         faults
     }
@@ -219,6 +219,7 @@ impl Model {
         value: &dyn Fn(FormulaId) -> Option<f64>,
         faults: &mut Faults,
     ) {
+        let mut reported: Vec<Place> = Vec::new();
         for contact in &slider.contacts {
             for side in 0..2 {
                 let (Some(mu), Some(mu_static)) = (value(contact.mu[side]), value(contact.mu_static[side]))
@@ -228,15 +229,19 @@ impl Model {
                 if mu_static < mu {
                     let kind =
                         FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
-                    faults.push(Fault::new(kind, self.formula(contact.mu_static[side]).origin.place()));
-                    break;
+                    let place = self.formula(contact.mu_static[side]).origin.place();
+                    if reported.contains(&place) {
+                        continue;
+                    }
+                    faults.push(Fault::new(kind, place.clone()));
+                    reported.push(place);
                 }
             }
         }
     }
 
     /// Joints of a body with itself, doubled joints, bodies without a way to ground.
-    fn check_connections(&self, faults: &mut Faults) {
+    fn check_connections(&self, values: &[Option<f64>], faults: &mut Faults) {
         let mut group: Vec<usize> = (0..=self.bodies.len()).collect();
         for (index, joint) in self.joints.iter().enumerate() {
             let [first, second] = joined(&joint.kind);
@@ -244,8 +249,14 @@ impl Model {
                 let kind =
                     FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
                 faults.push(Fault::new(kind, joint.place.clone()));
+                // It was meant to connect the body with something.
+                let from = group[node(first)];
+                let to = group[0];
+                group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
+                continue;
             }
-            if let Some(other) = self.joints[..index].iter().find(|other| doubles(&joint.kind, &other.kind)) {
+            let mut before = self.joints[..index].iter();
+            if let Some(other) = before.find(|other| doubles(&joint.kind, &other.kind, values)) {
                 let kind =
                     FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
                 faults.push(Fault::new(kind, joint.place.clone()));
@@ -293,15 +304,36 @@ fn joined(joint: &JointKind) -> [Frame; 2] {
     }
 }
 
-/// Whether two hinges join the same bodies at the same point.
-fn doubles(joint: &JointKind, other: &JointKind) -> bool {
-    let (JointKind::Hinge(a), JointKind::Hinge(b)) = (joint, other) else { return false };
-    let pair = |hinge: &[super::Attachment; 2]| {
-        let mut ends = hinge.each_ref().map(|end| (end.frame, end.name.clone()));
-        ends.sort();
-        ends
-    };
-    pair(a) == pair(b)
+/// Whether two joints do the same: hinges of the same bodies at the same place, or sliding joints of the
+/// same block on the same guide at the same place in the same direction.
+fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool {
+    let place = |at: [FormulaId; 2]| Some([values[at[0].index()]?, values[at[1].index()]?]);
+    match (joint, other) {
+        (JointKind::Hinge(a), JointKind::Hinge(b)) => {
+            let mut frames = [a, b].map(|hinge| [hinge[0].frame, hinge[1].frame]);
+            for pair in &mut frames {
+                pair.sort();
+            }
+            let at = |hinge: &[super::Attachment; 2]| place(hinge[0].position);
+            frames[0] == frames[1] && at(a).is_some() && at(a) == at(b)
+        }
+        (JointKind::Slider(a), JointKind::Slider(b)) => {
+            let direction = |along: &Along| match along {
+                Along::Angle(angle) => values[angle.index()],
+                Along::Points(points) => {
+                    let [from, to] = [place(points[0].position)?, place(points[1].position)?];
+                    Some((to[1] - from[1]).atan2(to[0] - from[0]))
+                }
+            };
+            a.kind == b.kind
+                && (a.block, a.guide) == (b.block, b.guide)
+                && place(a.at).is_some()
+                && place(a.at) == place(b.at)
+                && direction(&a.along).is_some()
+                && direction(&a.along) == direction(&b.along)
+        }
+        _ => false,
+    }
 }
 
 /// Ground is node 0, body k node k + 1.

@@ -407,7 +407,7 @@ impl Model {
     /// Every fault of the text, each with its place: syntax, keys, names, expressions, dimensions.
     pub fn parse(text: &str) -> Result<Self, Faults> {
         if text.len() as u64 > SIZE_LIMIT {
-            let kind = FaultKind::TooLarge { size: text.len() as u64, limit: SIZE_LIMIT };
+            let kind = FaultKind::TooLarge { limit: SIZE_LIMIT };
             return Err(Fault::general(kind).into());
         }
         if text.trim().is_empty() {
@@ -425,7 +425,8 @@ impl Model {
             Ok(text) => Self::parse(text),
             Err(error) => {
                 let offset = error.valid_up_to();
-                Err(Fault::general(FaultKind::NotUtf8 { offset }).into())
+                let kind = FaultKind::NotUtf8 { byte: bytes[offset] };
+                Err(Fault::new(kind, Place::model(offset..offset + 1)).into())
             }
         }
     }

@@ -5,12 +5,13 @@
 
 mod csv;
 mod json;
-mod number;
-mod table;
+pub(crate) mod number;
+pub(crate) mod table;
 mod text;
 
 pub use csv::to_csv;
 pub use json::to_json;
+pub(crate) use text::count;
 pub use text::{Style, to_text};
 
 use serde::Serialize;

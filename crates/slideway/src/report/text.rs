@@ -17,14 +17,14 @@ pub enum Style {
 }
 
 impl Style {
-    fn paint(self, ansi: Ansi, text: &str) -> String {
+    pub(crate) fn paint(self, ansi: Ansi, text: &str) -> String {
         match self {
             Self::Plain => text.to_owned(),
             Self::Colour => format!("{ansi}{text}{ansi:#}"),
         }
     }
 
-    fn heading(self, text: &str) -> String {
+    pub(crate) fn heading(self, text: &str) -> String {
         self.paint(Ansi::new().bold(), text)
     }
 
@@ -321,7 +321,7 @@ fn about_to_change(contacts: &[Contact]) -> String {
     }
 }
 
-fn count(number: usize, one: &str, several: &str) -> String {
+pub(crate) fn count(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
 }
 

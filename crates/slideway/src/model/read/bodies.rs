@@ -26,7 +26,7 @@ impl Reader<'_> {
 
     pub(super) fn read_bodies(&mut self, entries: Vec<Entry<BodyTable>>) -> Vec<Body> {
         if entries.is_empty() && self.faults.is_empty() {
-            self.fault(FaultKind::NoBodies, &(0..0));
+            self.faults.push(crate::fault::Fault::general(FaultKind::NoBodies));
         }
         let mut bodies = Vec::new();
         for (index, entry) in entries.into_iter().enumerate() {
@@ -36,6 +36,8 @@ impl Reader<'_> {
             if let Some(table) = &entry.contents {
                 points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
                 inertia = self.inertia(table, &entry.name, &entry.span);
+            } else {
+                self.unread_bodies.push(BodyId(index));
             }
             let place = FaultPlace::model(entry.span);
             bodies.push(Body { name: Arc::from(entry.name), place, inertia, points });
@@ -85,9 +87,9 @@ impl Reader<'_> {
     fn moment(&mut self, table: &BodyTable, name: &str, span: &Span) -> Moment {
         let owner = format!("the body {name}");
         match (&table.moment_of_inertia, &table.shape) {
-            (Some(_), Some(_)) => {
+            (Some(_), Some(shape)) => {
                 self.fault(FaultKind::Both { owner, first: "moment_of_inertia", second: "shape" }, span);
-                Moment::Given(self.zero)
+                self.shape(shape, name, span)
             }
             (None, None) => {
                 self.fault(FaultKind::NoneOf { owner, one_of: vec!["moment_of_inertia", "shape"] }, span);
@@ -139,6 +141,7 @@ impl Reader<'_> {
         let owners = self.owners.get(point).cloned().unwrap_or_default();
         if let (Frame::Body(body), true) = (frame, known)
             && !owners.contains(&body)
+            && !self.unread_bodies.contains(&body)
         {
             let kind = FaultKind::NotOwned {
                 body: self.bodies[body.index()].clone(),
