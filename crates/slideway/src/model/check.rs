@@ -3,7 +3,7 @@
 
 use super::{Along, JointKind, LoadKind, Model, NamedPoint, Slider};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
-use crate::fault::{Fault, FaultKind, Faults, Place};
+use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -116,8 +116,13 @@ impl Model {
         let mut inferred = vec![Inferred::Any; self.parameters.len()];
         for &index in &self.evaluation_order {
             let of = |symbol| self.inferred(symbol, &inferred);
-            let found = self.formula(self.parameters[index].value).expression.dimension(&of);
-            inferred[index] = match found {
+            let formula = self.formula(self.parameters[index].value);
+            // A setting keeps the dimension of what it replaces: if it has another one, that is its fault alone.
+            if let Some(wanted) = formula.wanted {
+                inferred[index] = Inferred::Known(wanted);
+                continue;
+            }
+            inferred[index] = match formula.expression.dimension(&of) {
                 Ok(Inferred::Known(dimension)) => Inferred::Known(dimension),
                 _ => Inferred::Any,
             };
@@ -181,10 +186,20 @@ impl Model {
             match formula.constant(&parameters) {
                 Ok(value) => values[index] = Some(value),
                 Err(_) if is_parameter.contains(&id) => {}
-                Err(fault) => faults.push(fault),
+                Err(fault) => faults.push(self.blame_setting(id, fault)),
             }
         }
         values
+    }
+
+    /// A value that is not allowed because of a parameter from a setting is a fault of the setting.
+    fn blame_setting(&self, formula: FormulaId, fault: Fault) -> Fault {
+        let mut used =
+            self.used_parameters(formula).map(|index| &self.formula(self.parameters[index].value).origin);
+        match used.find(|origin| matches!(origin.source, Source::Setting(_))) {
+            Some(origin) => Fault::new(fault.kind, origin.place()),
+            None => fault,
+        }
     }
 
     /// Relations between values: static and kinetic friction, travel limits, points that give a direction.

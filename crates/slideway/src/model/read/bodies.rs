@@ -48,6 +48,15 @@ impl Reader<'_> {
     fn body_points(&mut self, names: &[Name], body: BodyId) -> Vec<NamedPoint> {
         let mut points = Vec::new();
         for name in names {
+            if name.text.contains('.') {
+                let kind = FaultKind::InvalidName {
+                    what: "point of a body",
+                    name: name.text.clone(),
+                    reason: "a body lists its points without the name of a body in front",
+                };
+                self.fault(kind, &name.span);
+                continue;
+            }
             points.push(self.point(name));
             self.owners.entry(name.text.clone()).or_default().push(body);
         }
@@ -59,10 +68,18 @@ impl Reader<'_> {
         let massless = table.massless == Some(true);
         let Some(mass) = &table.mass else {
             if !massless {
-                self.fault(FaultKind::NoneOf { owner, one_of: vec!["mass", "massless"] }, span);
-            } else if table.moment_of_inertia.is_some() {
-                let kind = FaultKind::Both { owner, first: "massless", second: "moment_of_inertia" };
-                self.fault(kind, span);
+                self.fault(
+                    FaultKind::NoneOf { owner: owner.clone(), one_of: vec!["mass", "massless"] },
+                    span,
+                );
+            }
+            let beside = [
+                ("moment_of_inertia", table.moment_of_inertia.is_some()),
+                ("shape", table.shape.is_some()),
+                ("centre_of_mass", table.centre_of_mass.is_some()),
+            ];
+            for (second, _) in beside.into_iter().filter(|(_, given)| massless && *given) {
+                self.fault(FaultKind::Both { owner: owner.clone(), first: "massless", second }, span);
             }
             return Inertia::Massless;
         };

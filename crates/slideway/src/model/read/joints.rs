@@ -125,7 +125,7 @@ impl Reader<'_> {
         };
         let friction = self.friction(friction, name);
         let contacts = vec![self.contact(friction, name.to_owned(), name, span)];
-        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).not_negative();
+        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         JointKind::Slider(Box::new(Slider {
             kind: SliderKind::Guided,
             block: self.frame(&table.block),
