@@ -378,7 +378,7 @@ impl FaultKind {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
             Self::OverlapVanished { .. } => {
-                Some("the block has left its guide; use --at with a smaller displacement")
+                Some("the block has left its guide; choose --at nearer to the drawing")
             }
             Self::MotionWithoutInertia { .. } => {
                 Some("give the bodies that move a mass, or prescribe the motion with a drive")
@@ -394,9 +394,8 @@ impl FaultKind {
             Self::MissingKey { key, .. } if key == "bodies" || key == "joints" => {
                 Some("start from a model of the gallery: `slideway models` lists it")
             }
-            Self::Both { .. } => Some("remove one of them"),
+            Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
-            Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::TooManyPatterns { .. } => Some("preload_line = \"centre\" makes no gaps to be tried"),
             Self::TooManyContacts { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
@@ -467,9 +466,7 @@ fn none_of(keys: &[&str]) -> String {
 /// "a, b and c"
 fn listed(names: &[String]) -> String {
     match names {
-        [names @ .., before, last] => {
-            names.iter().map(|name| format!("{name}, ")).collect::<String>() + before + " and " + last
-        }
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
         names => names.concat(),
     }
 }

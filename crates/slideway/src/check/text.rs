@@ -102,10 +102,10 @@ impl Text<'_> {
             }
         }
         if let Some(condition) = report.condition {
-            self.line(&format!("Condition of the kinetic equations: {condition:.1e}."));
+            self.line(&format!("Condition of the kinetic equations: {}.", number(condition)));
         }
         if !report.assembled {
-            self.line("What follows is told of the drawing: the state could not be reached.");
+            self.line("What is told here holds for the drawing, not for the state.");
         }
     }
 
@@ -115,7 +115,7 @@ impl Text<'_> {
             .bodies
             .iter()
             .map(|body| vec![body.name.clone(), number(body.mass), number(body.moment_of_inertia)]);
-        self.table(&["body", "mass in kg", "moment of inertia in kg m^2"], bodies.collect(), 1);
+        self.table(&["body", "mass in kg", "moment of inertia in kg m^2"], &bodies.collect::<Vec<_>>(), 1);
         let optional = |value: Option<f64>| value.map_or(String::new(), number);
         let joints = report.joints.iter().map(|joint| {
             vec![
@@ -127,10 +127,10 @@ impl Text<'_> {
             ]
         });
         let header = ["joint", "kind", "joins", "constraints", "overlap in m"];
-        self.table(&header, joints.collect(), 3);
+        self.table(&header, &joints.collect::<Vec<_>>(), 3);
         let contacts = report.contacts.iter().map(contact_row);
         let header = ["contact", "mu", "mu_static", "preload in N", "sliding in m/s"];
-        self.table(&header, contacts.collect(), 1);
+        self.table(&header, &contacts.collect::<Vec<_>>(), 1);
         let coordinates = report.coordinates.iter().map(|coordinate| {
             vec![
                 coordinate.name.clone(),
@@ -140,13 +140,13 @@ impl Text<'_> {
                 format!("{} {}/s", number(coordinate.rate), coordinate.unit),
             ]
         });
-        self.table(&["coordinate", "kind", "drive", "value", "rate"], coordinates.collect(), 3);
+        self.table(&["coordinate", "kind", "drive", "value", "rate"], &coordinates.collect::<Vec<_>>(), 3);
     }
 
-    fn table(&mut self, header: &[&str], rows: Vec<Vec<String>>, words: usize) {
+    fn table(&mut self, header: &[&str], rows: &[Vec<String>], words: usize) {
         if !rows.is_empty() {
             self.line("");
-            self.out.push_str(&table(header, &rows, words));
+            self.out.push_str(&table(header, rows, words));
         }
     }
 }

@@ -116,9 +116,12 @@ impl Model {
         let mut inferred = vec![Inferred::Any; self.parameters.len()];
         for &index in &self.evaluation_order {
             let of = |symbol| self.inferred(symbol, &inferred);
-            let found = self.formula(self.parameters[index].value).expression.dimension(&of);
-            inferred[index] = match found {
-                Ok(Inferred::Known(dimension)) => Inferred::Known(dimension),
+            let formula = self.formula(self.parameters[index].value);
+            inferred[index] = match formula.expression.dimension(&of) {
+                // A setting of the wrong dimension is one fault, wherever its parameter is used.
+                Ok(Inferred::Known(dimension)) if formula.wanted.is_none_or(|wanted| wanted == dimension) => {
+                    Inferred::Known(dimension)
+                }
                 _ => Inferred::Any,
             };
         }
@@ -193,7 +196,7 @@ impl Model {
         for joint in &self.joints {
             let JointKind::Slider(slider) = &joint.kind else { continue };
             self.check_static_friction(slider, &value, faults);
-            self.check_direction(&slider.along, &joint.place, &value, faults);
+            check_direction(&slider.along, &joint.place, &value, faults);
             if let Some([Some(least), Some(greatest)]) = slider.travel.map(|travel| travel.map(value))
                 && least >= greatest
             {
@@ -203,12 +206,12 @@ impl Model {
         }
         for load in &self.loads {
             if let LoadKind::Force { force: super::ForceValue::Along(_, along), .. } = &load.kind {
-                self.check_direction(along, &load.place, &value, faults);
+                check_direction(along, &load.place, &value, faults);
             }
         }
         for drive in &self.drives {
             if let super::Effort::Force { direction, .. } = &drive.effort {
-                self.check_direction(direction, &drive.place, &value, faults);
+                check_direction(direction, &drive.place, &value, faults);
             }
         }
     }
@@ -240,30 +243,11 @@ impl Model {
         }
     }
 
-    fn check_direction(
-        &self,
-        along: &Along,
-        place: &Place,
-        value: &dyn Fn(FormulaId) -> Option<f64>,
-        faults: &mut Faults,
-    ) {
-        let Along::Points(points) = along else { return };
-        let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
-        let [from, to] = points.as_ref();
-        if let (Some(a), Some(b)) = (at(from), at(to))
-            && a == b
-        {
-            let kind =
-                FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
-            faults.push(Fault::new(kind, place.clone()));
-        }
-    }
-
     /// Joints of a body with itself, doubled joints, bodies without a way to ground.
     fn check_connections(&self, values: &[Option<f64>], faults: &mut Faults) {
         let mut group: Vec<usize> = (0..=self.bodies.len()).collect();
         for (index, joint) in self.joints.iter().enumerate() {
-            let [first, second] = self.joined(&joint.kind);
+            let [first, second] = joined(&joint.kind);
             if first == second {
                 let kind =
                     FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
@@ -275,7 +259,7 @@ impl Model {
                 continue;
             }
             let mut before = self.joints[..index].iter();
-            if let Some(other) = before.find(|other| self.doubles(&joint.kind, &other.kind, values)) {
+            if let Some(other) = before.find(|other| doubles(&joint.kind, &other.kind, values)) {
                 let kind =
                     FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
                 faults.push(Fault::new(kind, joint.place.clone()));
@@ -291,47 +275,66 @@ impl Model {
         }
     }
 
-    /// The two frames that a joint joins.
-    pub(crate) fn joined(&self, joint: &JointKind) -> [Frame; 2] {
-        match joint {
-            JointKind::Hinge([first, second]) => [first.frame, second.frame],
-            JointKind::Slider(slider) => [slider.block, slider.guide],
-        }
-    }
-
-    /// Whether two joints do the same: hinges of the same bodies at the same place, or sliding joints of the
-    /// same block on the same guide at the same place in the same direction.
-    fn doubles(&self, joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool {
-        let place = |at: [FormulaId; 2]| Some([values[at[0].index()]?, values[at[1].index()]?]);
-        match (joint, other) {
-            (JointKind::Hinge(a), JointKind::Hinge(b)) => {
-                let mut frames = [a, b].map(|hinge| [hinge[0].frame, hinge[1].frame]);
-                frames.iter_mut().for_each(|pair| pair.sort());
-                let at = |hinge: &[super::Attachment; 2]| place(hinge[0].position);
-                frames[0] == frames[1] && at(a).is_some() && at(a) == at(b)
-            }
-            (JointKind::Slider(a), JointKind::Slider(b)) => {
-                let direction = |along: &Along| match along {
-                    Along::Angle(angle) => values[angle.index()],
-                    Along::Points(points) => {
-                        let [from, to] = [place(points[0].position)?, place(points[1].position)?];
-                        Some((to[1] - from[1]).atan2(to[0] - from[0]))
-                    }
-                };
-                a.kind == b.kind
-                    && (a.block, a.guide) == (b.block, b.guide)
-                    && place(a.at).is_some()
-                    && place(a.at) == place(b.at)
-                    && direction(&a.along).is_some()
-                    && direction(&a.along) == direction(&b.along)
-            }
-            _ => false,
-        }
-    }
-
     /// Name of a frame, for messages.
     pub fn frame_name(&self, frame: Frame) -> String {
         frame.body().map_or("ground".to_owned(), |body| self.bodies[body.index()].name.to_string())
+    }
+}
+
+/// The two frames that a joint joins.
+fn joined(joint: &JointKind) -> [Frame; 2] {
+    match joint {
+        JointKind::Hinge([first, second]) => [first.frame, second.frame],
+        JointKind::Slider(slider) => [slider.block, slider.guide],
+    }
+}
+
+/// Whether two joints do the same: hinges of the same bodies at the same place, or sliding joints of the
+/// same block on the same guide at the same place in the same direction.
+fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool {
+    let place = |at: [FormulaId; 2]| Some([values[at[0].index()]?, values[at[1].index()]?]);
+    match (joint, other) {
+        (JointKind::Hinge(a), JointKind::Hinge(b)) => {
+            let mut frames = [a, b].map(|hinge| [hinge[0].frame, hinge[1].frame]);
+            for pair in &mut frames {
+                pair.sort();
+            }
+            let at = |hinge: &[super::Attachment; 2]| place(hinge[0].position);
+            frames[0] == frames[1] && at(a).is_some() && at(a) == at(b)
+        }
+        (JointKind::Slider(a), JointKind::Slider(b)) => {
+            let direction = |along: &Along| match along {
+                Along::Angle(angle) => values[angle.index()],
+                Along::Points(points) => {
+                    let [from, to] = [place(points[0].position)?, place(points[1].position)?];
+                    Some((to[1] - from[1]).atan2(to[0] - from[0]))
+                }
+            };
+            a.kind == b.kind
+                && (a.block, a.guide) == (b.block, b.guide)
+                && place(a.at).is_some()
+                && place(a.at) == place(b.at)
+                && direction(&a.along).is_some()
+                && direction(&a.along) == direction(&b.along)
+        }
+        _ => false,
+    }
+}
+
+fn check_direction(
+    along: &Along,
+    place: &Place,
+    value: &dyn Fn(FormulaId) -> Option<f64>,
+    faults: &mut Faults,
+) {
+    let Along::Points(points) = along else { return };
+    let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
+    let [from, to] = points.as_ref();
+    if let (Some(a), Some(b)) = (at(from), at(to))
+        && a == b
+    {
+        let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
+        faults.push(Fault::new(kind, place.clone()));
     }
 }
 
@@ -360,13 +363,12 @@ impl Search<'_> {
         let mut path: Vec<(usize, Vec<usize>)> = Vec::new();
         self.enter(start, &mut path);
         while let Some((index, pending)) = path.last_mut() {
-            match pending.pop() {
-                Some(used) => self.enter(used, &mut path),
-                None => {
-                    self.state[*index] = State::Done;
-                    self.order.push(*index);
-                    path.pop();
-                }
+            if let Some(used) = pending.pop() {
+                self.enter(used, &mut path);
+            } else {
+                self.state[*index] = State::Done;
+                self.order.push(*index);
+                path.pop();
             }
         }
     }

@@ -70,6 +70,7 @@ pub(super) struct ShapeTable {
 #[derive(JsonSchema)]
 #[schemars(tag = "type", rename_all = "snake_case")]
 #[expect(dead_code, reason = "only its schema is used: the reader picks the variant by its type key")]
+#[expect(clippy::large_enum_variant, reason = "there are no values of it")]
 pub(super) enum JointTable {
     /// A frictionless hinge.
     Hinge(HingeTable),
@@ -99,7 +100,7 @@ pub(super) struct BlockSliderTable {
     pub(super) guide: Option<Name>,
     /// Middle of the block on the guide's centre line, in the drawing: a point's name or [x, y].
     pub(super) at: Place,
-    /// Direction of positive sliding: an angle from the x axis, or two points ["from", "to"].
+    /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Direction,
     /// Distance of the two contacts in the drawing.
     pub(super) length: Quantity,
@@ -153,7 +154,7 @@ pub(super) struct GuidedSliderTable {
     pub(super) guide: Option<Name>,
     /// Middle of the block on the guide's centre line, in the drawing: a point's name or [x, y].
     pub(super) at: Place,
-    /// Direction of positive sliding: an angle from the x axis, or two points ["from", "to"].
+    /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Direction,
     /// Length of the pressed face; the couple is at most normal force times half of it.
     pub(super) length: Quantity,
@@ -185,7 +186,7 @@ pub(super) struct PinInSlotTable {
     pub(super) guide: Option<Name>,
     /// The pin in the drawing: a point's name or [x, y].
     pub(super) at: Place,
-    /// Direction of positive sliding: an angle from the x axis, or two points ["from", "to"].
+    /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Direction,
     /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
     pub(super) mu: Option<PerSide>,
@@ -258,7 +259,7 @@ pub(super) struct ForceTable {
     pub(super) components: Option<Components>,
     /// Magnitude along `direction` (N).
     pub(super) magnitude: Option<Quantity>,
-    /// Direction of the force: an angle from the x axis, or two points ["from", "to"] of the drawing.
+    /// Direction of the force: an angle from the x axis, or two points `["from", "to"]` of the drawing.
     pub(super) direction: Option<Direction>,
     /// "world": the direction is fixed in space (default); "body": it turns with the body.
     pub(super) frame: Option<ForceFrame>,
@@ -352,7 +353,7 @@ pub(super) struct DriveTable {
 pub(super) struct DriveForceTable {
     /// Where the force acts, as "body.point".
     pub(super) at: Name,
-    /// Its direction: an angle from the x axis, or two points ["from", "to"] of the drawing.
+    /// Its direction: an angle from the x axis, or two points `["from", "to"]` of the drawing.
     pub(super) direction: Direction,
     /// "world": the direction is fixed in space (default); "body": it turns with the body.
     pub(super) frame: Option<ForceFrame>,

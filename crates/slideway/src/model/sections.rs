@@ -28,6 +28,7 @@ pub(super) struct Sections {
 }
 
 /// The contents of a joint's table, by its `type`.
+#[expect(clippy::large_enum_variant, reason = "few, short-lived, and moved only once")]
 pub(super) enum JointContents {
     Hinge(HingeTable),
     Block(BlockSliderTable),
@@ -178,7 +179,7 @@ fn deserialize<T: DeserializeOwned>(value: Spanned<DeValue<'_>>) -> Result<T, to
 }
 
 /// Takes the `type` out of a table that the structure check has passed.
-fn type_of<'i>(value: Spanned<DeValue<'i>>) -> (String, Spanned<DeValue<'i>>) {
+fn type_of(value: Spanned<DeValue<'_>>) -> (String, Spanned<DeValue<'_>>) {
     let span = value.span();
     match value.into_inner() {
         DeValue::Table(mut table) => {

@@ -152,7 +152,9 @@ impl Model {
             Origin { source, span: start..start + setting.value.len(), expression_start: Some(start) };
         let expression = parse(&setting.value, &self.names()).map_err(|list| {
             let mut faults = Faults::default();
-            list.into_iter().for_each(|fault| faults.push(origin.fault(fault)));
+            for fault in list {
+                faults.push(origin.fault(fault));
+            }
             faults
         })?;
         let what = Arc::from(format!("the value of {}", setting.name));

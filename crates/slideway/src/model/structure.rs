@@ -104,13 +104,11 @@ impl<'s> StructureCheck<'s> {
             let present: Vec<_> = alternatives.iter().filter(|a| a["type"] != "null").collect();
             let kind = kind(value.get_ref());
             let fitting = present.iter().find(|a| self.kinds(a).contains(&kind));
-            return match fitting {
-                Some(fitting) => self.value(value, fitting, place),
-                None => {
-                    let wanted = alternatives.iter().flat_map(|a| self.kinds(a)).collect();
-                    self.wrong_type(value, wanted, place, self.stand_in(schema));
-                }
-            };
+            if let Some(fitting) = fitting {
+                return self.value(value, fitting, place);
+            }
+            let wanted = alternatives.iter().flat_map(|a| self.kinds(a)).collect();
+            return self.wrong_type(value, wanted, place, self.stand_in(schema));
         }
         let kinds = self.kinds(schema);
         let found = kind(value.get_ref());

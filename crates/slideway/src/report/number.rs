@@ -13,8 +13,9 @@ pub(crate) fn number(value: f64) -> String {
         return format!("{value:.4e}");
     }
     // At least five digits, all of an integer part.
-    let decimals = (4.0 - magnitude).clamp(0.0, 9.0);
-    let text = format!("{value:.*}", decimals as usize);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is from 0 to 9")]
+    let decimals = (4.0 - magnitude).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 

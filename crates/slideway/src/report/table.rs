@@ -17,5 +17,7 @@ pub(crate) fn table(header: &[&str], rows: &[Vec<String>], words: usize) -> Stri
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    table.to_string().lines().map(|line| format!("  {}\n", line.trim_end())).collect()
+    let lines: Vec<String> =
+        table.to_string().lines().map(|line| format!("  {}\n", line.trim_end())).collect();
+    lines.concat()
 }

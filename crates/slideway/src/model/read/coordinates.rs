@@ -138,7 +138,7 @@ impl Reader<'_> {
         let owner = format!("the drive {name}");
         match (&table.force, &table.torque) {
             (Some(_), Some(_)) => {
-                self.fault(FaultKind::Both { owner, first: "force", second: "torque" }, span)
+                self.fault(FaultKind::Both { owner, first: "force", second: "torque" }, span);
             }
             (None, None) => self.fault(FaultKind::NoneOf { owner, one_of: vec!["force", "torque"] }, span),
             _ => {}

@@ -237,7 +237,9 @@ impl<'t> Reader<'t> {
             Written::Text(text) => match parse(text, &self.names) {
                 Ok(expression) => Some(expression),
                 Err(faults) => {
-                    faults.into_iter().for_each(|fault| self.faults.push(origin.fault(fault)));
+                    for fault in faults {
+                        self.faults.push(origin.fault(fault));
+                    }
                     None
                 }
             },
@@ -293,14 +295,12 @@ impl<'t> Reader<'t> {
         if name.text == "ground" {
             return Frame::Ground;
         }
-        match self.bodies.iter().position(|body| *body == name.text) {
-            Some(index) => Frame::Body(BodyId(index)),
-            None => {
-                let known: Vec<String> = self.bodies.iter().cloned().chain(["ground".to_owned()]).collect();
-                self.unknown_name("body", name, known.iter().map(String::as_str));
-                Frame::Ground
-            }
+        if let Some(index) = self.bodies.iter().position(|body| *body == name.text) {
+            return Frame::Body(BodyId(index));
         }
+        let known: Vec<String> = self.bodies.iter().cloned().chain(["ground".to_owned()]).collect();
+        self.unknown_name("body", name, known.iter().map(String::as_str));
+        Frame::Ground
     }
 
     fn frame_or_ground(&mut self, name: Option<&Name>) -> Frame {
