@@ -235,6 +235,8 @@ pub enum FaultKind {
     // Topology.
     #[error("the model has no bodies")]
     NoBodies,
+    #[error("the model has {bodies} bodies; at most {limit} are taken")]
+    TooManyBodies { bodies: usize, limit: usize },
     #[error("{joint} joins {body} to itself")]
     SelfJoint { joint: String, body: String },
     #[error("{joint} doubles {other}: the same joint of the same bodies")]
