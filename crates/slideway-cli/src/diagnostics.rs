@@ -1,7 +1,7 @@
 //! Faults as a person reads them: the message, the place with the text underlined, and the hint.
 
 use crate::input::FaultyInput;
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use slideway::fault::{Fault, FaultKind, Source};
 use slideway::model::SettingKind;
 use std::ops::Range;
@@ -78,13 +78,22 @@ impl Texts {
                     }
                 };
                 let span = within(text, &(place.span.start + offset..place.span.end + offset));
-                group.element(Snippet::source(text).path(path).annotation(AnnotationKind::Primary.span(span)))
+                group.element(snippet(text, span).path(path))
             }
             None if on_command_line(fault) => group,
             None => group.element(Origin::path(self.model_name.as_str())),
         };
         group.elements(fault.kind.hint().map(|hint| Level::HELP.message(hint)))
     }
+}
+
+/// The lines around a span, which is underlined; only these, since a file may be long and have many faults.
+fn snippet(text: &str, span: Range<usize>) -> Snippet<'_, Annotation<'_>> {
+    let start = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+    let end = text[span.end..].find('\n').map_or(text.len(), |length| span.end + length);
+    let line = text[..start].matches('\n').count() + 1;
+    let underlined = AnnotationKind::Primary.span(span.start - start..span.end - start);
+    Snippet::source(&text[start..end]).line_start(line).annotation(underlined)
 }
 
 /// `span` widened to whole characters of `text`.

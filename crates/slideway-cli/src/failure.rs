@@ -4,7 +4,7 @@ use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
 use std::fmt;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Why a command could not do what it was asked to do.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl Failure {
             Self::NotFound { gallery_name: Some(name), .. } => Some(format!(
                 "`{name}` is a model of the gallery: `slideway models {name} > {name}.toml` writes it to a file"
             )),
-            Self::NotFound { path, gallery_name: None } if Path::new("-") != path => {
+            Self::NotFound { gallery_name: None, .. } => {
                 Some("`slideway models` lists models to start from".to_owned())
             }
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),

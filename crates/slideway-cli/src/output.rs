@@ -59,17 +59,13 @@ impl Output {
     /// # Errors
     /// If it cannot be written.
     pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
-        match &self.file {
-            Some(file) => file.write(text),
-            None => {
-                let mut stream = AutoStream::new(io::stdout(), self.color).lock();
-                match stream.write_all(text.as_bytes()).and_then(|()| stream.flush()) {
-                    Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-                        Err(Failure::StandardOutput { error })
-                    }
-                    _ => Ok(()),
-                }
-            }
+        if let Some(file) = &self.file {
+            return file.write(text);
+        }
+        let mut stream = AutoStream::new(io::stdout(), self.color).lock();
+        match stream.write_all(text.as_bytes()).and_then(|()| stream.flush()) {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput { error }),
+            _ => Ok(()),
         }
     }
 }

@@ -90,6 +90,23 @@ fn too_many_contacts_are_refused_at_once() {
 }
 
 #[test]
+fn too_many_bodies_are_refused_at_once() {
+    use std::fmt::Write;
+    let mut model = "[points]\nA = [0, 0]\n".to_owned();
+    for body in 0..1001 {
+        write!(
+            model,
+            "[bodies.b{body}]\npoints = [\"A\"]\nmassless = true\n\
+             [joints.j{body}]\ntype = \"hinge\"\nbetween = [\"b{body}.A\", \"ground.A\"]\n"
+        )
+        .unwrap();
+    }
+    let run = slideway_reading(&["solve", "-"], model.as_bytes());
+    assert_eq!(run.code, 2);
+    insta::assert_snapshot!(run.stderr);
+}
+
+#[test]
 fn a_huge_file_is_not_read_whole() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("huge.toml");

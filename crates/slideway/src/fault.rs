@@ -240,6 +240,8 @@ pub enum FaultKind {
     // Topology.
     #[error("the model has no bodies")]
     NoBodies,
+    #[error("the model has {bodies} bodies; at most {limit} are taken")]
+    TooManyBodies { bodies: usize, limit: usize },
     #[error("{joint} joins {body} to itself")]
     SelfJoint { joint: String, body: String },
     #[error("{joint} doubles {other}: the same joint of the same bodies")]
@@ -383,7 +385,7 @@ impl FaultKind {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
             Self::OverlapVanished { .. } => {
-                Some("the block has left its guide; use --at with a smaller displacement")
+                Some("the block has left its guide; choose --at nearer to the drawing")
             }
             Self::MotionWithoutInertia { .. } => {
                 Some("give the bodies that move a mass, or prescribe the motion with a drive")

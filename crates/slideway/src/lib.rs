@@ -12,6 +12,8 @@
 //! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> Report
 //! ```
 //!
+//! [`check::check`] stands beside it and says what a model consists of and what would keep it from being solved.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`].
 

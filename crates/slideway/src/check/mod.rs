@@ -20,11 +20,12 @@ pub use text::to_text;
 use crate::configuration::{Configuration, Mobility, free_motions, motion_in_words, unit};
 use crate::fault::{FaultKind, Faults};
 use crate::ids::ContactId;
+use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Model, SliderKind};
 use crate::modes::Limits;
-use crate::solve::{check_size, velocity_signs};
+use crate::solve::{check_size, mode_problem, velocity_signs};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -41,7 +42,8 @@ pub struct CheckReport {
     pub schema: &'static str,
     /// The model's title.
     pub title: Option<String>,
-    /// Whether [`crate::solve::solve`] accepts the model in this state: there are no findings.
+    /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings. (What
+    /// only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
     pub sound: bool,
     /// Everything for which it would be refused.
     pub findings: Vec<Finding>,
@@ -181,7 +183,9 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mechanism = Mechanism::new(model)?;
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
-    keep(check_size(&mechanism, &Limits::default()));
+    let size = check_size(&mechanism, &Limits::default());
+    let small = size.is_ok();
+    keep(size);
     let drawing = Configuration::drawing(&mechanism);
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));
@@ -190,11 +194,17 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mobility = Mobility::of(&mechanism, &configuration);
     let mut condition = None;
     if assembled {
+        let signs = velocity_signs(&mechanism, &configuration);
         match KineticEquations::new(&mechanism, &configuration) {
-            Ok(equations) => condition = Some(equations.condition()),
+            Ok(equations) => {
+                condition = Some(equations.condition());
+                if let (Ok(signs), true) = (&signs, small) {
+                    keep(mode_problem(&mechanism, &Influence::new(&equations), signs).map(|_| ()));
+                }
+            }
             Err(found) => keep(Err(found)),
         }
-        keep(velocity_signs(&mechanism, &configuration).map(|_| ()));
+        keep(signs.map(|_| ()));
     }
     let inertia = inertia(&mechanism, &configuration);
     Ok(CheckReport {

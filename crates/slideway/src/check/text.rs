@@ -102,10 +102,10 @@ impl Text<'_> {
             }
         }
         if let Some(condition) = report.condition {
-            self.line(&format!("Condition of the kinetic equations: {condition:.1e}."));
+            self.line(&format!("Condition of the kinetic equations: {}.", number(condition)));
         }
         if !report.assembled {
-            self.line("What follows is told of the drawing: the state could not be reached.");
+            self.line("What is told here holds for the drawing, not for the state.");
         }
     }
 

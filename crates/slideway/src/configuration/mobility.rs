@@ -211,7 +211,7 @@ fn suggestion(
         left.nrows() == independent && rank(&left, RANK_TOLERANCE) == independent
     })?;
     let words: Vec<String> = changes.iter().map(|change| change.in_words(mechanism)).collect();
-    Some(format!("for instance {}", words.join(" and ")))
+    Some(format!("for instance {}", words.join(", and ")))
 }
 
 impl Change {

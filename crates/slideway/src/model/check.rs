@@ -1,7 +1,7 @@
 //! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
 //! relations between values, and how its parts are connected.
 
-use super::{Along, JointKind, LoadKind, Model, NamedPoint, Slider};
+use super::{Along, BODY_LIMIT, JointKind, LoadKind, Model, NamedPoint, Slider};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
@@ -15,6 +15,10 @@ impl Model {
     /// further fault for lacking it.
     pub(super) fn check(&mut self, complete: bool) -> Faults {
         let mut faults = Faults::default();
+        if self.bodies.len() > BODY_LIMIT {
+            let kind = FaultKind::TooManyBodies { bodies: self.bodies.len(), limit: BODY_LIMIT };
+            faults.push(Fault::new(kind, self.bodies[BODY_LIMIT].place.clone()));
+        }
         self.order_parameters(&mut faults);
         self.check_dimensions(&mut faults);
         let values = self.allowed_values(&mut faults);

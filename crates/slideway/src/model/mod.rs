@@ -50,6 +50,9 @@ use std::sync::Arc;
 /// Largest model file that is read, in bytes.
 pub const SIZE_LIMIT: u64 = 4 << 20;
 
+/// Greatest number of bodies: the matrices are dense, and their cost grows with its third power.
+pub const BODY_LIMIT: usize = 1000;
+
 /// A checked model: what a model file says, with every reference resolved.
 #[derive(Debug, Clone)]
 pub struct Model {
