@@ -170,9 +170,9 @@ impl Text<'_> {
         self.out.push_str(&motion);
         self.line("");
         self.line(&format!(
-            "  determinant {}, equilibrium residual {:.0e}",
+            "  determinant {}, equilibrium of every body to within {}",
             number(solution.determinant),
-            solution.residual
+            power_of_ten_above(solution.residual)
         ));
     }
 
@@ -323,6 +323,12 @@ fn about_to_change(contacts: &[Contact]) -> String {
 
 pub(crate) fn count(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
+}
+
+/// A power of ten above a residual, with room for the rounding of other machines: "1e-15".
+fn power_of_ten_above(residual: f64) -> String {
+    let exponent = residual.max(1e-16).log10().ceil();
+    format!("1e{}", exponent.max(-15.0))
 }
 
 /// "+-+" as "+ - +".
