@@ -174,6 +174,17 @@ fn colours_are_for_terminals_unless_forced() {
     assert!(!String::from_utf8(refused.stdout).unwrap().contains(escape));
 }
 
+/// A rod of 1 mm in a mechanism of 1 km is no singular position; nor is a state close to one.
+#[test]
+fn short_bodies_and_near_positions_are_not_singular() {
+    let short =
+        ["check", "models/slider-crank.toml", "--format", "json", "--set", "l=1 km", "--set", "r=1 mm"];
+    let (code, report) = json(&short);
+    assert_eq!((code, &report["findings"]), (0, &Value::Array(vec![])));
+    let near = ["solve", "models/elliptic-trammel.toml", "--at", "theta=90.001 deg", "--format", "json"];
+    assert_eq!(json(&near).0, 0);
+}
+
 #[test]
 fn schema_and_completions_are_printed() {
     let schema: Value = serde_json::from_str(&slideway(&["schema"]).stdout).unwrap();

@@ -1,7 +1,9 @@
 //! Newton's method on the joint equations, led from the drawing to the wanted coordinates in small steps.
 
 use super::joint_equations::JointEquations;
-use super::mobility::{Mobility, advance, least_squares, null_space_within, rank};
+use super::mobility::{
+    Mobility, RANK_TOLERANCE, advance, least_squares, null_space_within, rank, regularity,
+};
 use super::{Configuration, Pose, Velocity, drawing_poses, unit};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{Frame, JointId};
@@ -10,9 +12,13 @@ use nalgebra::{DVector, Vector2};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
 const CLOSED: f64 = 1e-12;
-/// Where two solutions meet Newton's method finds the place only to the root of its tolerance. States whose joint
-/// equations, coordinates included, have a singular value below this multiple of the greatest count as singular.
+/// Where two solutions meet Newton's method finds the place only to the root of its tolerance. A state counts as
+/// singular if its joint equations, coordinates included, have a singular value below this multiple of the
+/// greatest...
 const SINGULAR_STATE: f64 = 5e-6;
+/// ... and if that multiple is below this part of what it is in the drawing. (It is small everywhere where a short
+/// body turns in a large mechanism.)
+const SINGULAR_LOSS: f64 = 1e-3;
 /// Newton steps after which a stage of the way counts as failed; quadratic convergence needs far fewer.
 const NEWTON_STEPS: usize = 25;
 /// Largest change of a coordinate in one stage, in sizes of the mechanism or rad.
@@ -219,7 +225,13 @@ fn velocities(mechanism: &Mechanism, poses: &[Pose]) -> Result<Vec<Velocity>, Fa
     let equations = JointEquations::with_coordinates(mechanism, poses, &values);
     let rows = equations.joints.len();
     let joint_rows = rows - mechanism.coordinates.len();
-    if rank(&equations.jacobian, SINGULAR_STATE) < rows {
+    let singular = rank(&equations.jacobian, SINGULAR_STATE) < rows && {
+        let drawn: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect();
+        let drawing = JointEquations::with_coordinates(mechanism, &drawing_poses(mechanism), &drawn);
+        let (here, there) = (regularity(&equations.jacobian), regularity(&drawing.jacobian));
+        here <= RANK_TOLERANCE || here < SINGULAR_LOSS * there
+    };
+    if singular {
         return Err(singular_coordinates(mechanism, poses, &equations).into());
     }
     let mut rates = DVector::zeros(rows);

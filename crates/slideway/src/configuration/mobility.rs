@@ -10,7 +10,7 @@ use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, SVD, Vector2};
 
 /// Singular values below this multiple of the greatest count as zero.
-const RANK_TOLERANCE: f64 = 1e-9;
+pub(super) const RANK_TOLERANCE: f64 = 1e-9;
 /// Length of the step, in sizes of the mechanism, that tells a singular position from a redundant structure.
 const PROBE: f64 = 1e-2;
 
@@ -90,6 +90,12 @@ pub(super) fn rank(matrix: &DMatrix<f64>, tolerance: f64) -> usize {
     let values = matrix.clone().singular_values();
     let threshold = values.max() * tolerance;
     values.iter().filter(|value| **value > threshold).count()
+}
+
+/// The least singular value as a part of the greatest.
+pub(super) fn regularity(matrix: &DMatrix<f64>) -> f64 {
+    let values = matrix.clone().singular_values();
+    values.min() / values.max()
 }
 
 /// An orthonormal basis of the vectors that `matrix` maps to zero, one in each column.

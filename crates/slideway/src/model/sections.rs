@@ -8,6 +8,7 @@ use super::file::{
 };
 use super::quantity::{Components, Gravity, Name, Quantity};
 use super::structure::StructureCheck;
+use crate::expression::ExpressionFaultKind;
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use serde::de::DeserializeOwned;
 use std::sync::OnceLock;
@@ -168,7 +169,11 @@ impl SectionReader<'_, '_> {
                 if self.check.is_broken(span.start) {
                     return;
                 }
-                let kind = FaultKind::Syntax { message: error.message().to_owned() };
+                let kind = if error.message().contains("overflow") {
+                    FaultKind::Expression(ExpressionFaultKind::NumberTooLarge)
+                } else {
+                    FaultKind::Syntax { message: error.message().to_owned() }
+                };
                 self.faults.push(Fault::new(kind, Place::model(within(self.text, span))));
             })
             .ok()
