@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
 mod answers;
+mod brute_force;
 mod drawing;
 mod random_mechanisms;
 
