@@ -97,7 +97,8 @@ fn patterns(drawing: &Drawing, report: &Report) -> Vec<Pattern> {
     let frictionless = DVector::from_row_slice(&report.influence.normal_forces);
     let mut patterns = Vec::new();
     for number in 0..1_usize << r {
-        let signs: Vec<f64> = (0..r).map(|k| if number >> (r - 1 - k) & 1 == 0 { 1.0 } else { -1.0 }).collect();
+        let signs: Vec<f64> =
+            (0..r).map(|k| if number >> (r - 1 - k) & 1 == 0 { 1.0 } else { -1.0 }).collect();
         let mut columns = DMatrix::zeros(r, r);
         let mut load = frictionless.clone();
         for (k, (_, slider, contact)) in contacts.iter().enumerate() {
@@ -118,7 +119,7 @@ fn patterns(drawing: &Drawing, report: &Report) -> Vec<Pattern> {
         let ill_conditioned = values.min() < 1e-5 * values.max();
         let determinant = columns.determinant();
         let y = columns.lu().solve(&load).unwrap_or_else(|| DVector::from_element(r, f64::NAN));
-        let delicate = ill_conditioned || y.iter().any(|value| !(value.abs() > 1e-6 * y.amax()));
+        let delicate = ill_conditioned || !y.iter().all(|value| value.abs() > 1e-6 * y.amax());
         patterns.push(Pattern { signs, y, determinant, delicate });
     }
     patterns

@@ -35,7 +35,8 @@ fn slider_crank_over_two_full_turns() {
     let slider_crank = model("slider-crank");
     for step in -24..=48 {
         let phi = f64::from(step) * 15.0_f64.to_radians() + 0.01;
-        let settings = Settings::default().position("phi", &format!("{phi}")).rate("phi", &format!("{omega}"));
+        let settings =
+            Settings::default().position("phi", &format!("{phi}")).rate("phi", &format!("{omega}"));
         let (mechanism, configuration) = configured(&slider_crank, &settings).unwrap();
         let (sin, cos) = phi.sin_cos();
         let height = r * sin;
@@ -72,8 +73,9 @@ fn velocities_are_the_derivatives_of_positions() {
         let step = 1e-5;
         let at_time = |time: f64| {
             let value = at + rate * time;
-            let settings =
-                Settings::default().position(coordinate, &format!("{value}")).rate(coordinate, &format!("{rate}"));
+            let settings = Settings::default()
+                .position(coordinate, &format!("{value}"))
+                .rate(coordinate, &format!("{rate}"));
             configured(&model(name), &settings).unwrap().1
         };
         let (before, now, after) = (at_time(-step), at_time(0.0), at_time(step));
@@ -180,7 +182,8 @@ fn travel_limits() {
     }
     for (outside, place) in [("-0.10001", -0.10001), ("0.30001", 0.30001)] {
         let faults = at(outside).unwrap_err();
-        let FaultKind::TravelExceeded { joint, displacement, least, greatest } = &faults.sorted()[0].kind else {
+        let FaultKind::TravelExceeded { joint, displacement, least, greatest } = &faults.sorted()[0].kind
+        else {
             panic!("{faults}")
         };
         assert_eq!((joint.as_str(), *least, *greatest), ("rail", -0.1, 0.3));
@@ -247,7 +250,7 @@ fn four_bar_keeps_the_branch_of_its_drawing(#[values(1.0, -1.0)] side: f64) {
         let rocker = configuration.poses[body(&mechanism, "rocker")].position;
         let pin = rocker_pin(phi, side);
         // The rocker's centre of mass is half-way between B and C.
-        assert_vector(rocker, [(pin[0] + 0.3) / 2.0, pin[1] / 2.0], 1.0);
+        assert_vector(rocker, [f64::midpoint(pin[0], 0.3), pin[1] / 2.0], 1.0);
     }
 }
 
@@ -275,7 +278,13 @@ fn a_drawing_that_closes_only_roughly_is_closed_by_newton() {
     assert_eq!(configuration.coordinates, [50.0_f64.to_radians()]);
     let length = (exact[0] + 0.004 - 0.3).hypot(exact[1] - 0.003);
     assert_close((rocker - Vector2::new(0.3, 0.0)).norm(), length, 1.0, 1e-12);
-    assert_close((coupler - place("coupler", [0.1 * 50_f64.to_radians().cos(), 0.1 * 50_f64.to_radians().sin()])).norm(), 0.28, 1.0, 1e-12);
+    assert_close(
+        (coupler - place("coupler", [0.1 * 50_f64.to_radians().cos(), 0.1 * 50_f64.to_radians().sin()]))
+            .norm(),
+        0.28,
+        1.0,
+        1e-12,
+    );
 }
 
 #[test]

@@ -208,13 +208,21 @@ impl Writer<'_> {
         if slider.kind == SliderKind::Block {
             for (end, contact) in ["front", "rear"].iter().zip(&slider.contacts) {
                 let carried_by = if contact.carried_by_guide { "guide" } else { "block" };
-                writeln!(self.text, "{end} = {{ carried_by = \"{carried_by}\", {} }}", friction(contact, ", "))
-                    .unwrap();
+                writeln!(
+                    self.text,
+                    "{end} = {{ carried_by = \"{carried_by}\", {} }}",
+                    friction(contact, ", ")
+                )
+                .unwrap();
             }
         } else {
             let mut contact = friction(&slider.contacts[0], "\n");
             if slider.kind == SliderKind::Pin {
-                contact = contact.lines().filter(|line| !line.starts_with("preload_line")).collect::<Vec<_>>().join("\n");
+                contact = contact
+                    .lines()
+                    .filter(|line| !line.starts_with("preload_line"))
+                    .collect::<Vec<_>>()
+                    .join("\n");
             }
             writeln!(self.text, "{contact}").unwrap();
         }
@@ -227,18 +235,24 @@ impl Writer<'_> {
                 Load::Force { body, at, force, turns, reaction } => {
                     let at = self.point(Some(*body), *at);
                     let frame = if *turns { "body" } else { "world" };
-                    let reaction = reaction.map(|body| format!("\nreaction = \"{}\"", self.drawing.name(Some(body))));
+                    let reaction =
+                        reaction.map(|body| format!("\nreaction = \"{}\"", self.drawing.name(Some(body))));
                     format!(
                         "type = \"force\"\nat = \"{at}\"\ncomponents = {force:?}\nframe = \"{frame}\"{}",
                         reaction.unwrap_or_default()
                     )
                 }
                 Load::Torque { body, moment } => {
-                    format!("type = \"torque\"\nbody = \"{}\"\nmoment = {moment:?}", self.drawing.name(Some(*body)))
+                    format!(
+                        "type = \"torque\"\nbody = \"{}\"\nmoment = {moment:?}",
+                        self.drawing.name(Some(*body))
+                    )
                 }
                 Load::Spring { between, at, stiffness, free_length } => {
                     let ends = [0, 1].map(|end| self.point(between[end], at[end]));
-                    format!("type = \"spring\"\nbetween = {ends:?}\nstiffness = {stiffness:?}\nfree_length = {free_length:?}")
+                    format!(
+                        "type = \"spring\"\nbetween = {ends:?}\nstiffness = {stiffness:?}\nfree_length = {free_length:?}"
+                    )
                 }
                 Load::Damper { between, at, damping } => {
                     let ends = [0, 1].map(|end| self.point(between[end], at[end]));
@@ -369,13 +383,17 @@ impl Drawing {
     pub(crate) fn scaled(&self, units: Units) -> Self {
         let Units { length, mass, time } = units;
         let scale = |factor: f64| move |[x, y]: Vector| [factor * x, factor * y];
-        let mut scaled = self.map(scale(length), |vector| vector, |slider| {
-            slider.length *= length;
-            slider.height *= length;
-            for contact in &mut slider.contacts {
-                contact.preload = scale(units.force())(contact.preload);
-            }
-        });
+        let mut scaled = self.map(
+            scale(length),
+            |vector| vector,
+            |slider| {
+                slider.length *= length;
+                slider.height *= length;
+                for contact in &mut slider.contacts {
+                    contact.preload = scale(units.force())(contact.preload);
+                }
+            },
+        );
         scaled.gravity = scale(units.acceleration())(scaled.gravity);
         for body in &mut scaled.bodies {
             body.inertia = body.inertia.map(|[m, moment]| [m * mass, moment * mass * length * length]);

@@ -8,7 +8,7 @@ use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::gallery::{self, MODELS};
 use slideway::model::{Model, SettingKind, Settings};
-use slideway::report::{Report, Status};
+use slideway::report::Status;
 use slideway::solve::solve;
 use std::collections::BTreeSet;
 
@@ -125,7 +125,8 @@ fn drawer_jams_beyond_its_limit_whatever_its_height() {
     }
     // The supported length grows as the drawer goes in: the limit is (L + x)/(2 a).
     let drawer = model("drawer");
-    for (x, mu, status) in [("0.1", "0.833", Status::One), ("0.1", "0.834", Status::None), ("-0.1", "0.501", Status::None)]
+    for (x, mu, status) in
+        [("0.1", "0.833", Status::One), ("0.1", "0.834", Status::None), ("-0.1", "0.501", Status::None)]
     {
         let settings = parameters(&[("mu", mu)]).position("x", x);
         assert_eq!(report_with(&drawer, &settings).status, status);
@@ -157,7 +158,8 @@ fn modes_over_a_turn(name: &str, list: &[(&str, &str)], coordinate: &str, joint:
     let model = model(name).with(&parameters(list)).unwrap();
     let mut modes = BTreeSet::new();
     for step in 0..72 {
-        let settings = Settings::default().position(coordinate, &format!("{} deg", 5.0 * f64::from(step) + 1.0));
+        let settings =
+            Settings::default().position(coordinate, &format!("{} deg", 5.0 * f64::from(step) + 1.0));
         let report = report_with(&model, &settings);
         modes.extend(report.solutions.iter().map(|solution| mode(solution, joint).to_owned()));
     }
@@ -165,31 +167,36 @@ fn modes_over_a_turn(name: &str, list: &[(&str, &str)], coordinate: &str, joint:
 }
 
 #[test]
-fn the_piston_tips_or_lies_flat() {
-    let modes = modes_over_a_turn("slider-crank", &[], "phi", "cylinder");
-    assert!(modes.contains("flat on the lower guide") && modes.contains("flat on the upper guide"), "{modes:?}");
-    assert!(modes.iter().any(|mode| mode.starts_with("tipped")), "{modes:?}");
-    let report = report_with(&model("slider-crank"), &Settings::default().position("phi", "150 deg"));
-    assert_eq!(report.status, Status::One);
+fn the_piston_lies_flat_or_tips() {
+    // The rod is hinged to the middle of the piston, so flat on one side (N_f - N_r) L/2 = mu (N_f + N_r) h/2 up to
+    // sign: both ends press the same side for mu < L/h (skirt/bore = 0.75), opposite ones beyond.
+    let modes = |mu| modes_over_a_turn("slider-crank", &[("mu", mu)], "phi", "cylinder");
+    for mu in ["0.1", "0.749"] {
+        assert_eq!(Vec::from_iter(modes(mu)), ["flat on the lower guide", "flat on the upper guide"]);
+    }
+    let tipped = ["tipped: lower right, upper left", "tipped: upper right, lower left"];
+    assert_eq!(Vec::from_iter(modes("0.751")), tipped);
 }
 
 #[test]
 fn the_pins_friction_tips_the_yoke() {
-    // The yoke hangs on its guide with its weight beside it, so it is tipped even without friction; the pin's
-    // friction changes the forces at both ends.
-    let rough = report("scotch-yoke", &[]);
-    let smooth = report("scotch-yoke", &[("mu_pin", "0")]);
-    assert!(mode(only(&rough), "yoke").starts_with("tipped"), "{}", mode(only(&rough), "yoke"));
-    let ends = |report: &Report| [contact(only(report), "yoke.front").normal_force, contact(only(report), "yoke.rear").normal_force];
-    assert!((ends(&rough)[0] - ends(&smooth)[0]).abs() > 0.1);
-    assert!(!modes_over_a_turn("scotch-yoke", &[], "phi", "yoke").is_empty());
+    // Somewhere in the turn the yoke lies flat with a smooth pin and tips with the rough one.
+    let tipped_by_friction = (0..360).filter(|degrees| {
+        let at = |mu: &str| {
+            let settings = parameters(&[("mu_pin", mu)]).position("phi", &format!("{degrees}.5 deg"));
+            let report = report_with(&model("scotch-yoke"), &settings);
+            mode(only(&report), "yoke").to_owned()
+        };
+        at("0") == "flat on the lower guide" && at("0.1").starts_with("tipped")
+    });
+    assert!(tipped_by_friction.count() > 0);
 }
 
 #[test]
 fn trammel_contacts_load_each_other() {
     let report = report("elliptic-trammel", &[]);
     let eta = &report.influence.eta_positive;
-    assert!(eta[0][1].abs() > 0.1 && eta[1][0].abs() > 0.1);
+    assert!(eta[0][1].abs() > 1e-3 && eta[1][0].abs() > 1e-3);
     only(&report);
 }
 

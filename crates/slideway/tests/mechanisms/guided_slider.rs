@@ -180,8 +180,7 @@ proptest! {
                 assert_close(contact.normal_force, *by_hand, by_hand.abs().max(1.0), 1e-9);
             }
         }
-        match &guided.rejected[..] {
-            [rejection] => {
+        if let [rejection] = &guided.rejected[..] {
                 prop_assert!(rejection.couple.abs() > rejection.limit);
                 prop_assert_eq!(guided.status, Status::None);
                 prop_assert_eq!(flat(&block), 0);
@@ -190,8 +189,7 @@ proptest! {
                 if sledge.has_short_levers() {
                     prop_assert!(tipped(&block) > 0, "{:?}", block.status);
                 }
-            }
-            _ => {
+        } else {
                 // Flat as a block as well, with the same resultant and motion.
                 let solution = only(&guided);
                 prop_assert_eq!(flat(&block), 1);
@@ -204,7 +202,6 @@ proptest! {
                 for (one, other) in acceleration(solution, "sledge").iter().zip(acceleration(same, "sledge")) {
                     assert_close(*one, other, 9.81, 1e-10);
                 }
-            }
         }
     }
 }

@@ -92,7 +92,9 @@ fn spring_force_is_the_gradient_of_its_energy() {
         (energy(0.3 + step, -0.2) - energy(0.3 - step, -0.2)) / (2.0 * step),
         (energy(0.3, -0.2 + step) - energy(0.3, -0.2 - step)) / (2.0 * step),
     ];
-    let report = plate("[loads.s]\ntype = \"spring\"\nbetween = [\"ground.W\", \"plate.E\"]\nstiffness = \"k\"\nfree_length = 0.25");
+    let report = plate(
+        "[loads.s]\ntype = \"spring\"\nbetween = [\"ground.W\", \"plate.E\"]\nstiffness = \"k\"\nfree_length = 0.25",
+    );
     let found = acceleration(only(&report), "plate").map(|component| MASS * component);
     for axis in 0..2 {
         assert_close(found[axis], -gradient[axis], 1.0, 1e-8);
@@ -101,7 +103,8 @@ fn spring_force_is_the_gradient_of_its_energy() {
 
 #[test]
 fn spring_of_no_free_length_pulls_in_every_position() {
-    let text = "[loads.s]\ntype = \"spring\"\nbetween = [\"plate.S\", \"ground.W\"]\nstiffness = 7\nfree_length = 0";
+    let text =
+        "[loads.s]\ntype = \"spring\"\nbetween = [\"plate.S\", \"ground.W\"]\nstiffness = 7\nfree_length = 0";
     let [x, y] = from_wall([0.0, 0.0]);
     assert_force(text, [-7.0 * x, -7.0 * y]);
 }

@@ -1,7 +1,7 @@
 //! Properties of the answer for random mechanisms, states and loads.
 
 use crate::answers::{assert_close, normal_forces};
-use crate::brute_force::{Solved, velocity_signs};
+use crate::brute_force::{Pattern, Solved, velocity_signs};
 use crate::drawing::{Drawing, Load, SliderKind};
 use crate::random_mechanisms::{cases, mechanisms};
 use nalgebra::{DMatrix, DVector};
@@ -15,7 +15,7 @@ use slideway::modes::{Limits, ModeProblem, Side, enumerate};
 use slideway::solve::mode_problem;
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(cases(300))]
 
     /// Force and moment balance of every body in every state that is reported.
     #[test]
@@ -78,7 +78,7 @@ proptest! {
         let Solved { report, patterns, .. } = &solved;
         prop_assert!(report.complete);
         prop_assert_eq!(report.patterns.total, patterns.len() as u64);
-        let mut expected: Vec<String> = patterns.iter().filter(|p| p.is_solution()).map(|p| p.name()).collect();
+        let mut expected: Vec<String> = patterns.iter().filter(|p| p.is_solution()).map(Pattern::name).collect();
         let rejected = report.rejected.iter().map(|rejection| rejection.pattern.clone());
         let mut found: Vec<String> = report
             .solutions
@@ -122,6 +122,11 @@ proptest! {
         let Some(solution) = solution else { return Err(TestCaseError::fail("the planted solution is missing")) };
         prop_assert!((&solution.y - &y).amax() < 1e-8 * y.amax());
     }
+
+}
+
+proptest! {
+    #![proptest_config(cases(150))]
 
     /// Forces and torques added to the bodies so that given normal forces result: the whole way from the file.
     #[test]

@@ -19,14 +19,7 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
 
 /// Any of the families.
 pub(crate) fn mechanisms() -> impl Strategy<Value = Drawing> {
-    prop_oneof![
-        chain(false),
-        chain(true),
-        hinged_sliders(),
-        slider_crank(),
-        scotch_yoke(),
-        sleeve_on_arm(),
-    ]
+    prop_oneof![chain(false), chain(true), hinged_sliders(), slider_crank(), scotch_yoke(), sleeve_on_arm(),]
 }
 
 /// Numbers of one mechanism, drawn from plain ranges; they shrink towards zero.
@@ -118,9 +111,12 @@ impl Source {
             let at = near(properties.centre);
             loads.push(match choice {
                 choice if choice < -2.0 => Load::Torque { body, moment: size },
-                choice if choice < -1.0 => {
-                    Load::Spring { between: [GROUND, Some(body)], at, stiffness: 3.0 * size, free_length: 0.4 }
-                }
+                choice if choice < -1.0 => Load::Spring {
+                    between: [GROUND, Some(body)],
+                    at,
+                    stiffness: 3.0 * size,
+                    free_length: 0.4,
+                },
                 choice if choice < 0.0 => Load::Damper { between: [GROUND, Some(body)], at, damping: size },
                 choice if choice < 1.0 => Load::TorsionalSpring { body, stiffness: size },
                 choice if choice < 2.0 => Load::TorsionalDamper { body, damping: 0.3 * size },
@@ -193,8 +189,7 @@ fn hinged_sliders() -> impl Strategy<Value = Drawing> {
         let lower_kind = source.block_or_guided();
         let mut lower = source.slider(lower_kind, Some(1), GROUND, ends[0]);
         lower.along *= 0.1;
-        let mut joints =
-            vec![slider("lower", lower), hinge("A", [Some(0), Some(1)], ends[0])];
+        let mut joints = vec![slider("lower", lower), hinge("A", [Some(0), Some(1)], ends[0])];
         if second_block {
             bodies.push(source.body("upper", ends[1]));
             let upper_kind = source.block_or_guided();
@@ -210,8 +205,7 @@ fn hinged_sliders() -> impl Strategy<Value = Drawing> {
         if massless {
             bodies.iter_mut().skip(1).for_each(|body| body.inertia = None);
         }
-        let coordinates =
-            vec![coordinate("q", Measured::Slide(0), source.any(0.05), source.rate())];
+        let coordinates = vec![coordinate("q", Measured::Slide(0), source.any(0.05), source.rate())];
         let gravity = source.gravity();
         Drawing { gravity, loads: source.loads(&bodies), bodies, joints, coordinates }
     })
@@ -263,11 +257,8 @@ fn scotch_yoke() -> impl Strategy<Value = Drawing> {
         let kind = source.block_or_guided();
         let mut guide = source.slider(kind, Some(1), GROUND, [0.8, 0.1]);
         guide.along *= 0.1;
-        let joints = vec![
-            slider("guide", guide),
-            slider("pin", slot),
-            hinge("O", [GROUND, Some(0)], [0.0, 0.0]),
-        ];
+        let joints =
+            vec![slider("guide", guide), slider("pin", slot), hinge("O", [GROUND, Some(0)], [0.0, 0.0])];
         let coordinates = vec![coordinate("phi", Measured::Rotation(0), source.any(0.4), source.rate())];
         let gravity = source.gravity();
         Drawing { gravity, loads: source.loads(&bodies), bodies, joints, coordinates }

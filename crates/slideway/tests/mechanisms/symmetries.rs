@@ -7,19 +7,22 @@ use crate::random_mechanisms::{cases, mechanisms};
 use proptest::prelude::*;
 use slideway::report::{Report, Solution};
 
+/// What a name or a text becomes.
+type OfText<T> = Box<dyn Fn(&str) -> T>;
+
 /// How quantities of the image follow from those of the original.
 struct Image {
     /// Name of a contact in the image and the factor of the sign of its normal force.
-    contact: Box<dyn Fn(&str) -> (String, i8)>,
+    contact: OfText<(String, i8)>,
     /// Factor of the sign of its friction force.
-    friction: Box<dyn Fn(&str) -> f64>,
+    friction: OfText<f64>,
     force: f64,
     acceleration: Box<dyn Fn(Vector) -> Vector>,
     angular_acceleration: f64,
     /// Force of a hinge on the same body, by the vectors that are accelerations above.
     hinge: Box<dyn Fn(Vector) -> Vector>,
     /// The mode of a joint in words, if it can be said.
-    mode: Box<dyn Fn(&str) -> Option<String>>,
+    mode: OfText<Option<String>>,
 }
 
 impl Image {
@@ -94,8 +97,8 @@ impl Image {
             let expected = (self.acceleration)(body.acceleration);
             let [x, y] = (self.acceleration)([1.0, 1.0]);
             let unit = x.abs().max(y.abs());
-            for axis in 0..2 {
-                assert_close(seen.acceleration[axis], expected[axis], unit * greatest(one), 1e-8);
+            for (seen, expected) in seen.acceleration.iter().zip(expected) {
+                assert_close(*seen, expected, unit * greatest(one), 1e-8);
             }
             let angular = self.angular_acceleration;
             let expected = angular * body.angular_acceleration;
@@ -107,8 +110,8 @@ impl Image {
             if seen.on != hinge.on {
                 expected = expected.map(|component| -component);
             }
-            for axis in 0..2 {
-                assert_close(seen.force[axis], expected[axis], scale, 1e-7);
+            for (seen, expected) in seen.force.iter().zip(expected) {
+                assert_close(*seen, expected, scale, 1e-7);
             }
         }
         for joint in &one.joints {

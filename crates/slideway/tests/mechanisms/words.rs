@@ -116,11 +116,8 @@ fn corners_are_named_by_where_they_lie() {
                     let middle = touching_place(angle, 0.0, sign, end);
                     let across = place - middle;
                     // Along the guide one coordinate tells the end, across it the other tells the face.
-                    let (end_place, face_place) = if vertical {
-                        (middle.y, across.x)
-                    } else {
-                        (middle.x, across.y)
-                    };
+                    let (end_place, face_place) =
+                        if vertical { (middle.y, across.x) } else { (middle.x, across.y) };
                     let (low, high) = if vertical { ("lower", "upper") } else { ("left", "right") };
                     assert!(corner.contains(if end_place > 0.0 { high } else { low }), "{angle}: {text}");
                     let (low, high) = if vertical { ("left", "right") } else { ("lower", "upper") };
