@@ -16,6 +16,7 @@ pub(crate) struct Drawing {
     pub(crate) joints: Vec<Joint>,
     pub(crate) loads: Vec<Load>,
     pub(crate) coordinates: Vec<Coordinate>,
+    pub(crate) drives: Vec<Drive>,
 }
 
 #[derive(Debug, Clone)]
@@ -87,6 +88,29 @@ pub(crate) struct Coordinate {
     pub(crate) rate: f64,
 }
 
+/// A prescribed acceleration and what produces it.
+#[derive(Debug, Clone)]
+pub(crate) struct Drive {
+    /// Number of the coordinate.
+    pub(crate) coordinate: usize,
+    pub(crate) acceleration: f64,
+    pub(crate) body: usize,
+    pub(crate) reaction: Option<usize>,
+    pub(crate) effort: Effort,
+}
+
+/// What a drive's unknown is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Effort {
+    /// A force at a place in a direction (rad).
+    Force {
+        at: Vector,
+        direction: f64,
+        turns: bool,
+    },
+    Torque,
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Measured {
     /// Displacement of this joint.
@@ -143,6 +167,7 @@ impl Writer<'_> {
         self.joints();
         self.loads();
         self.coordinates();
+        self.drives();
         let mut head = format!("gravity = {:?}\n[points]\n", self.drawing.gravity);
         for (index, (_, place)) in self.points.iter().enumerate() {
             writeln!(head, "p{index} = {place:?}").unwrap();
@@ -283,6 +308,35 @@ impl Writer<'_> {
     }
 }
 
+impl Writer<'_> {
+    fn drives(&mut self) {
+        for (index, drive) in self.drawing.drives.iter().enumerate() {
+            let coordinate = &self.drawing.coordinates[drive.coordinate].name;
+            let reaction =
+                drive.reaction.map(|body| format!(", reaction = \"{}\"", self.drawing.name(Some(body))));
+            let reaction = reaction.unwrap_or_default();
+            let effort = match drive.effort {
+                Effort::Force { at, direction, turns } => {
+                    let at = self.point(Some(drive.body), at);
+                    let frame = if turns { "body" } else { "world" };
+                    format!(
+                        "force = {{ at = \"{at}\", direction = {direction:?}, frame = \"{frame}\"{reaction} }}"
+                    )
+                }
+                Effort::Torque => {
+                    format!("torque = {{ body = \"{}\"{reaction} }}", self.drawing.name(Some(drive.body)))
+                }
+            };
+            let acceleration = drive.acceleration;
+            writeln!(
+                self.text,
+                "[drives.drive_{index}]\ncoordinate = \"{coordinate}\"\nacceleration = {acceleration:?}\n{effort}"
+            )
+            .unwrap();
+        }
+    }
+}
+
 fn friction(contact: &Contact, separator: &str) -> String {
     let line = if contact.centred_preload { "centre" } else { "pressed" };
     [
@@ -346,7 +400,22 @@ impl Drawing {
                 Load::Torque { .. } | Load::TorsionalSpring { .. } | Load::TorsionalDamper { .. } => {}
             }
         }
+        for drive in &mut drawing.drives {
+            if let Effort::Force { at, direction, .. } = &mut drive.effort {
+                let [x, y] = vector([direction.cos(), direction.sin()]);
+                (*at, *direction) = (place(*at), y.atan2(x));
+            }
+        }
         drawing
+    }
+
+    /// Turns the sign of the drives of some coordinates.
+    fn turn_drives(&mut self, turned: impl Fn(&Measured) -> bool) {
+        for drive in &mut self.drives {
+            if turned(&self.coordinates[drive.coordinate].what) {
+                drive.acceleration = -drive.acceleration;
+            }
+        }
     }
 
     /// The whole drawing turned about the origin, then shifted.
@@ -376,6 +445,7 @@ impl Drawing {
                 coordinate.rate = -coordinate.rate;
             }
         }
+        mirrored.turn_drives(|what| matches!(what, Measured::Rotation(_)));
         mirrored
     }
 
@@ -416,6 +486,10 @@ impl Drawing {
             coordinate.value *= unit;
             coordinate.rate *= unit / time;
         }
+        for drive in &mut scaled.drives {
+            let slides = matches!(scaled.coordinates[drive.coordinate].what, Measured::Slide(_));
+            drive.acceleration *= if slides { units.acceleration() } else { time.powi(-2) };
+        }
         scaled
     }
 
@@ -454,6 +528,12 @@ impl Drawing {
                 Measured::Rotation(on) => Measured::Rotation(body(on)),
             };
         }
+        let last_coordinate = self.coordinates.len() - 1;
+        for drive in &mut reversed.drives {
+            drive.coordinate = last_coordinate - drive.coordinate;
+            (drive.body, drive.reaction) = (body(drive.body), frame(drive.reaction));
+        }
+        reversed.drives.reverse();
         reversed.bodies.reverse();
         reversed.joints.reverse();
         reversed.loads.reverse();
@@ -483,7 +563,12 @@ impl Drawing {
                 }
             }
         }
+        exchanged.turn_drives(|what| matches!(what, Measured::Slide(joint) if self.is_block_slider(*joint)));
         exchanged
+    }
+
+    fn is_block_slider(&self, joint: usize) -> bool {
+        matches!(&self.joints[joint].kind, Kind::Slider(slider) if slider.kind == SliderKind::Block)
     }
 
     /// Every guide counted in the opposite direction: u and n turn, front and rear change places.
@@ -501,6 +586,7 @@ impl Drawing {
                 }
             }
         }
+        reversed.turn_drives(|what| matches!(what, Measured::Slide(_)));
         reversed
     }
 }

@@ -31,6 +31,34 @@ proptest! {
         }
     }
 
+    /// The accelerations of the bodies are the second derivatives of their positions as the coordinates move with
+    /// theirs; those of driven coordinates are as prescribed.
+    #[test]
+    fn accelerations_are_second_derivatives_of_positions(drawing in mechanisms()) {
+        let Some(Solved { drawing, report, .. }) = Solved::new(drawing) else {
+            return Err(TestCaseError::reject("state"))
+        };
+        let Some(solution) = report.solutions.first() else { return Err(TestCaseError::reject("no solution")) };
+        let accelerations: Vec<f64> = solution.coordinates.iter().map(|c| c.acceleration).collect();
+        for (index, drive) in drawing.drives.iter().enumerate() {
+            assert_close(accelerations[drive.coordinate], drive.acceleration, 1.0, 1e-9);
+            prop_assert_eq!(&solution.drives[index].name, &format!("drive_{index}"));
+        }
+        let greatest = accelerations.iter().fold(1.0, |a: f64, other| a.max(other.abs()));
+        let step = 4e-3 / greatest.sqrt();
+        let coarse = second_differences(&drawing, &accelerations, step);
+        let fine = second_differences(&drawing, &accelerations, step / 2.0);
+        let (Some(coarse), Some(fine)) = (coarse, fine) else { return Err(TestCaseError::reject("a limit is near")) };
+        for (body, (coarse, fine)) in solution.bodies.iter().zip(coarse.iter().zip(&fine)) {
+            let found = [body.acceleration[0], body.acceleration[1], body.angular_acceleration];
+            for axis in 0..3 {
+                // Richardson's extrapolation of the differences.
+                let expected = (4.0 * fine[axis] - coarse[axis]) / 3.0;
+                assert_close(found[axis], expected, 10.0 * greatest, 1e-5);
+            }
+        }
+    }
+
     /// The laws of the contacts: eq. (2), the sides, the limit of a guided slider's couple.
     #[test]
     fn every_contact_obeys_its_law(drawing in mechanisms()) {
@@ -166,6 +194,24 @@ proptest! {
             assert_close(found[k], sides[k].sign() * y[k], y.amax(), 1e-8);
         }
     }
+}
+
+/// Second differences of the poses of all bodies while every coordinate moves evenly accelerated.
+fn second_differences(drawing: &Drawing, accelerations: &[f64], step: f64) -> Option<Vec<[f64; 3]>> {
+    let poses_at = |time: f64| -> Option<Vec<[f64; 3]>> {
+        let mut drawing = drawing.clone();
+        for (coordinate, acceleration) in drawing.coordinates.iter_mut().zip(accelerations) {
+            coordinate.value += coordinate.rate * time + acceleration * time * time / 2.0;
+        }
+        let mechanism = Mechanism::new(&Model::parse(&drawing.text()).unwrap()).unwrap();
+        let poses = Configuration::new(&mechanism).ok()?.poses;
+        Some(poses.iter().map(|pose| [pose.position.x, pose.position.y, pose.angle]).collect())
+    };
+    let [before, now, after] = [poses_at(-step)?, poses_at(0.0)?, poses_at(step)?];
+    let difference = |body: usize| {
+        [0, 1, 2].map(|axis| (after[body][axis] - 2.0 * now[body][axis] + before[body][axis]) / (step * step))
+    };
+    Some((0..now.len()).map(difference).collect())
 }
 
 /// The stages up to the influence coefficients.

@@ -1,7 +1,8 @@
 //! Random determinate mechanisms of several families, in random states and under random loads.
 
 use crate::drawing::{
-    Body, Contact, Coordinate, Drawing, GROUND, Joint, Kind, Load, Measured, Slider, SliderKind, Vector,
+    Body, Contact, Coordinate, Drawing, Drive, Effort, GROUND, Joint, Kind, Load, Measured, Slider,
+    SliderKind, Vector,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -126,6 +127,31 @@ impl Source {
         loads
     }
 
+    /// Drives the first coordinate of some of the mechanisms.
+    fn driven(&mut self, mut drawing: Drawing) -> Drawing {
+        let acceleration = self.any(5.0);
+        let (lean, turns, at) = (self.any(0.5), self.yes(), self.vector(1.0));
+        if self.any(1.0) < 0.3 {
+            return drawing;
+        }
+        let drive =
+            |body: usize, reaction, effort| Drive { coordinate: 0, acceleration, body, reaction, effort };
+        drawing.drives.push(match drawing.coordinates[0].what {
+            Measured::Rotation(body) => drive(body, GROUND, Effort::Torque),
+            Measured::Slide(joint) => {
+                let Kind::Slider(slider) = &drawing.joints[joint].kind else {
+                    panic!("a slide has a slider")
+                };
+                let effort = Effort::Force { at, direction: slider.along + lean, turns };
+                match (slider.block, slider.guide) {
+                    (Some(block), guide) => drive(block, guide, effort),
+                    (None, guide) => drive(guide.expect("block or guide moves"), GROUND, effort),
+                }
+            }
+        });
+        drawing
+    }
+
     fn gravity(&mut self) -> Vector {
         self.vector(9.81)
     }
@@ -153,6 +179,7 @@ fn chain(with_pin: bool) -> impl Strategy<Value = Drawing> {
             joints: Vec::new(),
             loads: Vec::new(),
             coordinates: Vec::new(),
+            drives: Vec::new(),
         };
         for stage in 0..stages {
             let centre = source.vector(1.0);
@@ -173,7 +200,7 @@ fn chain(with_pin: bool) -> impl Strategy<Value = Drawing> {
             }
         }
         drawing.loads = source.loads(&drawing.bodies);
-        drawing
+        source.driven(drawing)
     })
 }
 
@@ -207,7 +234,8 @@ fn hinged_sliders() -> impl Strategy<Value = Drawing> {
         }
         let coordinates = vec![coordinate("q", Measured::Slide(0), source.any(0.05), source.rate())];
         let gravity = source.gravity();
-        Drawing { gravity, loads: source.loads(&bodies), bodies, joints, coordinates }
+        let loads = source.loads(&bodies);
+        source.driven(Drawing { gravity, bodies, joints, loads, coordinates, drives: Vec::new() })
     })
 }
 
@@ -241,7 +269,8 @@ fn slider_crank() -> impl Strategy<Value = Drawing> {
         ];
         let coordinates = vec![coordinate("phi", Measured::Rotation(0), source.any(0.4), source.rate())];
         let gravity = source.gravity();
-        Drawing { gravity, loads: source.loads(&bodies), bodies, joints, coordinates }
+        let loads = source.loads(&bodies);
+        source.driven(Drawing { gravity, bodies, joints, loads, coordinates, drives: Vec::new() })
     })
 }
 
@@ -261,7 +290,8 @@ fn scotch_yoke() -> impl Strategy<Value = Drawing> {
             vec![slider("guide", guide), slider("pin", slot), hinge("O", [GROUND, Some(0)], [0.0, 0.0])];
         let coordinates = vec![coordinate("phi", Measured::Rotation(0), source.any(0.4), source.rate())];
         let gravity = source.gravity();
-        Drawing { gravity, loads: source.loads(&bodies), bodies, joints, coordinates }
+        let loads = source.loads(&bodies);
+        source.driven(Drawing { gravity, bodies, joints, loads, coordinates, drives: Vec::new() })
     })
 }
 
@@ -286,6 +316,7 @@ fn sleeve_on_arm() -> impl Strategy<Value = Drawing> {
             coordinate("s", Measured::Slide(1), source.any(0.1), source.rate()),
         ];
         let gravity = source.gravity();
-        Drawing { gravity, loads: source.loads(&bodies), bodies, joints, coordinates }
+        let loads = source.loads(&bodies);
+        source.driven(Drawing { gravity, bodies, joints, loads, coordinates, drives: Vec::new() })
     })
 }

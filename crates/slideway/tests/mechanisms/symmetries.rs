@@ -19,6 +19,7 @@ struct Image {
     force: f64,
     acceleration: Box<dyn Fn(Vector) -> Vector>,
     angular_acceleration: f64,
+    torque: f64,
     /// Force of a hinge on the same body, by the vectors that are accelerations above.
     hinge: Box<dyn Fn(Vector) -> Vector>,
     /// The mode of a joint in words, if it can be said.
@@ -34,6 +35,7 @@ impl Image {
             force: 1.0,
             acceleration: Box::new(|vector| vector),
             angular_acceleration: 1.0,
+            torque: 1.0,
             hinge: Box::new(|vector| vector),
             mode: Box::new(|mode| Some(mode.to_owned())),
         }
@@ -114,6 +116,10 @@ impl Image {
                 assert_close(*seen, expected, scale, 1e-7);
             }
         }
+        for (drive, seen) in one.drives.iter().zip(&other.drives) {
+            let factor = if drive.unit == "N" { self.force } else { self.torque };
+            assert_close(seen.effort, factor * drive.effort, factor.abs() * greatest(one), 1e-7);
+        }
         for joint in &one.joints {
             let seen = other.joints.iter().find(|other| other.name == joint.name).expect("the joint");
             if let Some(expected) = (self.mode)(&joint.mode) {
@@ -154,6 +160,7 @@ proptest! {
             acceleration: Box::new(flip),
             hinge: Box::new(flip),
             angular_acceleration: -1.0,
+            torque: -1.0,
             mode: Box::new(|mode| Some(exchanged(mode, "left", "right"))),
             ..Image::identity()
         };
@@ -201,6 +208,7 @@ proptest! {
             acceleration: Box::new(move |vector| vector.map(|component| acceleration * component)),
             hinge: Box::new(move |vector| vector.map(|component| force * component)),
             angular_acceleration: time.powi(-2),
+            torque: force * length,
             ..Image::identity()
         };
         image.check(&original, &original.drawing.scaled(units))?;
