@@ -308,3 +308,104 @@ fn prescribed_acceleration_of_a_drive() {
     assert_close(acceleration(solution, "block")[0], 4.0, 0.0, 1e-12);
     assert_close(solution.drives[0].effort, 4.0 * (4.0 + 0.25 * 9.81), 0.0, 1e-12);
 }
+
+#[test]
+fn a_drive_between_two_bodies_leaves_their_momentum_alone() {
+    // Two bodies on frictionless guides, driven apart by 3 m/s^2: m_1 a_1 + m_2 a_2 = 0, force m_2 a_2.
+    let report = report_on(
+        r#"
+        [points]
+        S = [0, 0]
+        [bodies.carriage]
+        points = ["S"]
+        mass = 5
+        moment_of_inertia = 1
+        centre_of_mass = "S"
+        [bodies.slide]
+        points = ["S"]
+        mass = 2
+        moment_of_inertia = 1
+        centre_of_mass = "S"
+        [joints]
+        rail = { type = "block_slider", block = "carriage", at = "S", along = "0 deg", length = 1, mu = 0 }
+        way = { type = "block_slider", block = "slide", guide = "carriage", at = "S", along = "0 deg", length = 1, mu = 0 }
+        [coordinates]
+        x = { slide = "rail", rate = 1 }
+        y = { slide = "way", rate = 1 }
+        [drives.apart]
+        coordinate = "y"
+        acceleration = 3
+        force = { at = "slide.S", direction = "0 deg", reaction = "carriage" }
+        "#,
+    );
+    let solution = only(&report);
+    let (carriage, slide) = (acceleration(solution, "carriage")[0], acceleration(solution, "slide")[0]);
+    assert_close(slide - carriage, 3.0, 0.0, 1e-12);
+    assert_close(5.0 * carriage, -2.0 * slide, 0.0, 1e-12);
+    assert_close(solution.drives[0].effort, 2.0 * slide, 0.0, 1e-12);
+}
+
+/// The effort that turns the arm with 4 rad/s^2.
+fn arm_effort(effort: &str) -> f64 {
+    let drive = format!("[drives.turn]\ncoordinate = \"phi\"\nacceleration = 4\n{effort}");
+    only(&arm(&drive)).drives[0].effort
+}
+
+#[test]
+fn efforts_of_drives_on_an_arm() {
+    let torque = INERTIA * 4.0;
+    assert_close(arm_effort("torque = { body = \"arm\" }"), torque, 0.0, 1e-8);
+    assert_close(arm_effort("torque = { body = \"wheel\", reaction = \"arm\" }"), -torque, 0.0, 1e-8);
+    // Across the arm in the drawing, at its tip: turned with the arm its lever is 1 m, fixed in space cos(0.6) m.
+    let force = |frame: &str| {
+        arm_effort(&format!("force = {{ at = \"arm.tip\", direction = \"90 deg\", frame = \"{frame}\" }}"))
+    };
+    assert_close(force("body"), torque, 0.0, 1e-8);
+    assert_close(force("world"), torque / 0.6_f64.cos(), 0.0, 1e-8);
+}
+
+#[test]
+fn rotation_counted_against_another_body() {
+    // The wheel turns with 5 rad/s, the arm with 2 rad/s: torsional loads and coordinates see the difference.
+    let relative = r#"
+        [bodies.arm]
+        mass = 1
+        moment_of_inertia = 1
+        centre_of_mass = [0, 0]
+        [bodies.wheel]
+        mass = 1
+        moment_of_inertia = 0.4
+        centre_of_mass = [0, 0]
+        [points]
+        O = [0, 0]
+        [joints]
+        O = { type = "hinge", between = ["arm.O", "ground.O"] }
+        C = { type = "hinge", between = ["wheel.O", "arm.O"] }
+        [coordinates]
+        phi = { rotation = "arm", value = 0.2, rate = 2 }
+        theta = { rotation = "wheel", relative_to = "arm", value = -0.5, rate = 3 }
+        [loads.T]
+        type = "torque"
+        body = "wheel"
+        moment = "2 N m + 1 N m*theta - 0.5 N m s*rate(theta)"
+        [loads.spring]
+        type = "torsional_spring"
+        between = ["wheel", "ground"]
+        stiffness = 10
+    "#
+    .replace("[bodies.arm]", "[bodies.arm]\n        points = [\"O\"]")
+    .replace("[bodies.wheel]", "[bodies.wheel]\n        points = [\"O\"]");
+    let report = report_on(&relative);
+    let solution = only(&report);
+    // Wheel: 0.4 alpha = 2 - 0.5 - 1.5 - 10 * (0.2 - 0.5); the arm is left alone, so theta'' = alpha.
+    assert_close(solution.bodies[1].angular_acceleration, 3.0 / 0.4, 0.0, 1e-12);
+    assert_close(solution.bodies[0].angular_acceleration, 0.0, 1.0, 1e-12);
+    assert_close(solution.coordinates[1].acceleration, 3.0 / 0.4, 0.0, 1e-12);
+    let spring = relative.replace("[\"wheel\", \"ground\"]", "[\"arm\", \"wheel\"]");
+    let report = report_on(&spring);
+    // Between arm and wheel the rotation is +0.5 rad: -5 N m on the arm, +5 N m on the wheel.
+    let solution = only(&report);
+    assert_close(solution.bodies[0].angular_acceleration, -5.0, 0.0, 1e-12);
+    assert_close(solution.bodies[1].angular_acceleration, 5.0 / 0.4, 0.0, 1e-12);
+    assert_close(solution.coordinates[1].acceleration, 5.0 / 0.4 + 5.0, 0.0, 1e-12);
+}

@@ -1,8 +1,8 @@
 //! States without a pattern: a contact between its faces, where only the preload acts (theory, section 3).
 
-use crate::answers::{assert_close, model, only, parameters, report, report_with};
+use crate::answers::{acceleration, assert_close, model, only, parameters, report, report_on, report_with};
 use slideway::model::Model;
-use slideway::report::Status;
+use slideway::report::{Report, Status};
 
 const CASE: [(&str, &str); 4] = [("mu_1", "0.24"), ("F_20", "0"), ("F_30", "0.5*m*g"), ("direction", "1")];
 
@@ -93,4 +93,56 @@ fn a_gap_beside_solutions_does_not_change_the_status() {
     assert_eq!(report.preload_gap_states.len(), 1);
     assert_eq!(report.preload_gap_states[0].signs, [1, 0, -1]);
     assert!(report.preload_gap_states[0].residual < 1e-12);
+}
+
+/// A sledge without weight, preloaded at both ends, with a torque.
+fn preloaded_sledge(moment: f64, front: f64, rear: f64) -> Report {
+    report_on(&format!(
+        r#"
+        [bodies.sledge]
+        mass = 2
+        centre_of_mass = [0, 0]
+        moment_of_inertia = 0.05
+        [joints.base]
+        type = "block_slider"
+        block = "sledge"
+        at = [0, 0]
+        along = "0 deg"
+        length = 0.5
+        height = 0.2
+        mu = 0.1
+        front = {{ preload = {front} }}
+        rear = {{ preload = {rear} }}
+        [loads.T]
+        type = "torque"
+        body = "sledge"
+        moment = {moment}
+        [coordinates.s]
+        slide = "base"
+        rate = 1
+        "#
+    ))
+}
+
+#[test]
+fn both_ends_between_their_faces() {
+    // N = 0 at both ends while the preloads balance the torque across the height: m a = -(F_f0 + F_r0), and
+    // (2 lambda_f - 1) F_f0 h/2 + (2 lambda_r - 1) F_r0 h/2 = T. One share remains free; the ends of its range
+    // are what is listed.
+    for (moment, front, rear) in [(0.3, 10.0, 10.0), (0.3, 10.0, 4.0), (0.0, 10.0, 4.0), (1.5, 10.0, 10.0)] {
+        let report = preloaded_sledge(moment, front, rear);
+        assert!(!report.preload_gap_states.is_empty());
+        for state in &report.preload_gap_states {
+            assert_eq!(state.signs, [0, 0]);
+            assert_close(acceleration(state, "sledge")[0], -(front + rear) / 2.0, 0.0, 1e-12);
+            let face = |end: usize| match state.contacts[end].preload_share {
+                Some(share) => 2.0 * share - 1.0,
+                None if state.pattern.as_bytes()[end] == b'+' => 1.0,
+                None => -1.0,
+            };
+            assert_close((face(0) * front + face(1) * rear) * 0.1, moment, 1.0, 1e-12);
+        }
+    }
+    // A torque beyond (F_f0 + F_r0) h/2 cannot be balanced in this way.
+    assert!(preloaded_sledge(2.5, 10.0, 10.0).preload_gap_states.is_empty());
 }

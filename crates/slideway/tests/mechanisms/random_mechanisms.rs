@@ -127,16 +127,17 @@ impl Source {
         loads
     }
 
-    /// Drives the first coordinate of some of the mechanisms.
+    /// Drives the last coordinate of some of the mechanisms.
     fn driven(&mut self, mut drawing: Drawing) -> Drawing {
         let acceleration = self.any(5.0);
         let (lean, turns, at) = (self.any(0.5), self.yes(), self.vector(1.0));
         if self.any(1.0) < 0.3 {
             return drawing;
         }
+        let last = drawing.coordinates.len() - 1;
         let drive =
-            |body: usize, reaction, effort| Drive { coordinate: 0, acceleration, body, reaction, effort };
-        drawing.drives.push(match drawing.coordinates[0].what {
+            |body: usize, reaction, effort| Drive { coordinate: last, acceleration, body, reaction, effort };
+        drawing.drives.push(match drawing.coordinates[last].what {
             Measured::Rotation(body) => drive(body, GROUND, Effort::Torque),
             Measured::Slide(joint) => {
                 let Kind::Slider(slider) = &drawing.joints[joint].kind else {
