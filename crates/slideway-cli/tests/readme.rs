@@ -31,7 +31,7 @@ fn console_blocks_are_what_the_program_prints() {
             .output()
             .unwrap();
         let printed = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
-        present.push_str(&format!("```console\n{command}\n{}\n```{rest}", printed.trim_end()));
+        present += &["```console\n", command, "\n", printed.trim_end(), "\n```", rest].concat();
         blocks += 1;
     }
     assert!(blocks >= 2, "the README shows the paper's example and a jam");

@@ -17,6 +17,7 @@ fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
         tangent: Vector2::x(),
         length: 1.0,
         height,
+        around: height < 0.0,
         travel: None,
         contacts: Vec::new(),
     };
