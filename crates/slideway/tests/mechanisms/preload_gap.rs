@@ -146,3 +146,42 @@ fn both_ends_between_their_faces() {
     // A torque beyond (F_f0 + F_r0) h/2 cannot be balanced in this way.
     assert!(preloaded_sledge(2.5, 10.0, 10.0).preload_gap_states.is_empty());
 }
+
+#[test]
+fn friction_without_influence_makes_no_gap() {
+    // The friction of a pin in a straight slot has no influence on its own normal force, so that preloads that
+    // differ from side to side make no jump, whatever rounding says at odd angles.
+    for along in [-0.158_145, 0.3, 1.234_567, 2.881_733] {
+        let report = report_on(&format!(
+            r#"
+            [bodies.plate]
+            mass = 1.75
+            moment_of_inertia = 0.26
+            centre_of_mass = [-0.15466, 0]
+            points = ["S"]
+            [points]
+            S = [0.2, 0.1]
+            [joints.slot]
+            type = "pin_in_slot"
+            block = "ground"
+            guide = "plate"
+            at = [0, 0]
+            along = {along}
+            mu = 0.3
+            preload = {{ plus = 0, minus = 8.8365 }}
+            [coordinates]
+            s = {{ slide = "slot", rate = 0.3 }}
+            phi = {{ rotation = "plate", rate = 0.3, value = -0.27823 }}
+            [loads.P]
+            type = "force"
+            at = "plate.S"
+            components = [3, -7]
+            [drives.turn]
+            coordinate = "phi"
+            torque = {{ body = "plate" }}
+            "#
+        ));
+        only(&report);
+        assert_eq!(report.patterns.gap_patterns, 0, "along {along}");
+    }
+}
