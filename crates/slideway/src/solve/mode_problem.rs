@@ -13,6 +13,8 @@ use nalgebra::{DMatrix, DVector};
 const AT_REST: f64 = 1e-12;
 /// Versions of an influence column that differ by less than this multiple of it are the same.
 const SAME: f64 = 1e-12;
+/// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
+const NO_INFLUENCE: f64 = 1e-13;
 
 /// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
 pub(crate) fn velocity_signs(
@@ -69,11 +71,12 @@ pub fn mode_problem(
     ModeProblem::from_influence(&coefficients).map_err(|error| overflow(&error).into())
 }
 
-/// Both versions of eta; equal where the theory says so, which rounding would hide: for guided sliders, whose
+/// Both versions of eta, without the rounding that would stand where friction has no influence; equal where the theory says so, which rounding would hide: for guided sliders, whose
 /// couple takes up the moment of friction, and wherever the moment of friction has no influence.
 fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
-    let positive = influence.eta(0);
-    let mut negative = influence.eta(1);
+    let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
+    let positive = influence.eta(0).map(without_rounding);
+    let mut negative = influence.eta(1).map(without_rounding);
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
         let difference = (positive.column(k) - negative.column(k)).amax();

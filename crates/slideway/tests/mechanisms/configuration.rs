@@ -318,3 +318,32 @@ fn trammel_points_run_on_ellipses() {
         }
     }
 }
+
+#[test]
+fn relative_rotations_add_up() {
+    let text = r#"
+        [points]
+        O = [0, 0]
+        A = [1, 0]
+        [bodies.arm]
+        points = ["O", "A"]
+        mass = 1
+        shape = { bar = ["O", "A"] }
+        [bodies.wheel]
+        points = ["A"]
+        mass = 1
+        centre_of_mass = "A"
+        shape = { disc = 0.1 }
+        [joints]
+        O = { type = "hinge", between = ["arm.O", "ground.O"] }
+        A = { type = "hinge", between = ["wheel.A", "arm.A"] }
+        [coordinates]
+        phi = { rotation = "arm", value = 0.5, rate = 2 }
+        theta = { rotation = "wheel", relative_to = "arm", drawn_at = 0.1, value = 1.4, rate = 3 }
+    "#;
+    let (_, configuration) = of_text(text, &Settings::default()).unwrap();
+    assert_close(configuration.poses[1].angle, 0.5 + 1.4 - 0.1, 1.0, 1e-12);
+    assert_close(configuration.velocities[1].angular, 2.0 + 3.0, 1.0, 1e-12);
+    assert_vector(configuration.poses[1].position, [0.5_f64.cos(), 0.5_f64.sin()], 1.0);
+    assert_vector(configuration.velocities[1].linear, [-2.0 * 0.5_f64.sin(), 2.0 * 0.5_f64.cos()], 1.0);
+}

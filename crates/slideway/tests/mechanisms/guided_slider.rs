@@ -205,3 +205,36 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_line_of_the_preload_shows_in_the_couple() {
+    // Preload friction of 6 N on a level sledge whose centre of mass is on the centre line: at the pressed face,
+    // h/2 below, it needs the couple 6 N h/2; on the centre line it needs none.
+    for (line, couple) in [("pressed", 0.6), ("centre", 0.0)] {
+        let report = report_on(&format!(
+            r#"
+            gravity = 9.81
+            [bodies.sledge]
+            mass = 2
+            centre_of_mass = [0, 0]
+            moment_of_inertia = 0.05
+            [joints.base]
+            type = "guided_slider"
+            block = "sledge"
+            at = [0, 0]
+            along = "0 deg"
+            length = 0.4
+            height = 0.2
+            mu = 0
+            preload = 6
+            preload_line = "{line}"
+            [coordinates.s]
+            slide = "base"
+            rate = 1
+            "#
+        ));
+        let solution = only(&report);
+        assert_close(solution.contacts[0].couple.unwrap(), couple, 1.0, 1e-12);
+        assert_close(acceleration(solution, "sledge")[0], -3.0, 0.0, 1e-12);
+    }
+}

@@ -146,3 +146,67 @@ fn both_ends_between_their_faces() {
     // A torque beyond (F_f0 + F_r0) h/2 cannot be balanced in this way.
     assert!(preloaded_sledge(2.5, 10.0, 10.0).preload_gap_states.is_empty());
 }
+
+#[test]
+fn friction_without_influence_makes_no_gap() {
+    // The friction of a pin in a straight slot has no influence on its own normal force, so that preloads that
+    // differ from side to side make no jump, whatever rounding says at odd angles.
+    for along in [-0.158_145, 0.3, 1.234_567, 2.881_733] {
+        let report = report_on(&format!(
+            r#"
+            [bodies.plate]
+            mass = 1.75
+            moment_of_inertia = 0.26
+            centre_of_mass = [-0.15466, 0]
+            points = ["S"]
+            [points]
+            S = [0.2, 0.1]
+            [joints.slot]
+            type = "pin_in_slot"
+            block = "ground"
+            guide = "plate"
+            at = [0, 0]
+            along = {along}
+            mu = 0.3
+            preload = {{ plus = 0, minus = 8.8365 }}
+            [coordinates]
+            s = {{ slide = "slot", rate = 0.3 }}
+            phi = {{ rotation = "plate", rate = 0.3, value = -0.27823 }}
+            [loads.P]
+            type = "force"
+            at = "plate.S"
+            components = [3, -7]
+            [drives.turn]
+            coordinate = "phi"
+            torque = {{ body = "plate" }}
+            "#
+        ));
+        only(&report);
+        assert_eq!(report.patterns.gap_patterns, 0, "along {along}");
+    }
+}
+
+#[test]
+fn a_preload_at_the_centre_line_is_a_pair_of_forces_there() {
+    // Friction F_0 of both ends on the centre line of a sleeve, whatever its sides: the same as a force 2 F_0
+    // against its motion, with its reaction on the arm.
+    let text = slideway::gallery::find("sleeve-on-arm").unwrap().text;
+    let preloaded =
+        text.replace("fit = \"around\"\n", "fit = \"around\"\npreload = 7\npreload_line = \"centre\"\n");
+    assert_ne!(text, preloaded);
+    let pair = "\n[loads.pair]\ntype = \"force\"\nat = \"sleeve.C\"\nmagnitude = -14\ndirection = [\"O\", \"tip\"]\nframe = \"body\"\nreaction = \"arm\"\n";
+    let wide = parameters(&[("d", "90 mm"), ("mu", "0.3")]);
+    let [one, other] =
+        [preloaded, format!("{text}{pair}")].map(|text| report_with(&Model::parse(&text).unwrap(), &wide));
+    let (one, other) = (only(&one), only(&other));
+    for (one, other) in one.contacts.iter().zip(&other.contacts) {
+        assert_close(one.normal_force, other.normal_force, 1.0, 1e-12);
+        assert_close(one.friction_force, other.friction_force + 7.0, 1.0, 1e-12);
+    }
+    for (one, other) in one.bodies.iter().zip(&other.bodies) {
+        assert_close(one.angular_acceleration, other.angular_acceleration, 1.0, 1e-12);
+        assert_close(one.acceleration[0], other.acceleration[0], 1.0, 1e-12);
+        assert_close(one.acceleration[1], other.acceleration[1], 1.0, 1e-12);
+    }
+    assert_close(one.hinges[0].force[0], other.hinges[0].force[0], 1.0, 1e-12);
+}

@@ -15,7 +15,7 @@ use slideway::modes::{Limits, ModeProblem, Side, enumerate};
 use slideway::solve::mode_problem;
 
 proptest! {
-    #![proptest_config(cases(300))]
+    #![proptest_config(cases(250))]
 
     /// Force and moment balance of every body in every state that is reported.
     #[test]
@@ -154,7 +154,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(150))]
+    #![proptest_config(cases(100))]
 
     /// Forces and torques added to the bodies so that given normal forces result: the whole way from the file.
     #[test]

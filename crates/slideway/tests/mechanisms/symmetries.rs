@@ -149,7 +149,7 @@ fn solved(drawing: Drawing) -> Result<Solved, TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(cases(250))]
+    #![proptest_config(cases(200))]
 
     #[test]
     fn mirror_image(drawing in mechanisms()) {
