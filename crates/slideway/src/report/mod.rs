@@ -244,6 +244,8 @@ pub struct Continuum {
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.
     pub directions: Vec<Vec<f64>>,
+    /// The guided sliders that would tip in a part of it.
+    pub tipping: Vec<String>,
 }
 
 /// A mode with a vanishing determinant and no solution.

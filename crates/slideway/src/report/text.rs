@@ -106,6 +106,9 @@ impl Text<'_> {
                 "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
             }
             Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
+            Status::One if !report.complete => {
+                "One solution found; not every pattern could be decided.".to_owned()
+            }
             Status::One => "One solution.".to_owned(),
             Status::Several => format!("{} solutions, each in its own contact mode.", report.solutions.len()),
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
@@ -194,6 +197,9 @@ impl Text<'_> {
             }
             for direction in &continuum.directions {
                 self.line(&format!("  along {}", vector(direction, "")));
+            }
+            if !continuum.tipping.is_empty() {
+                self.line(&format!("  In a part of it {} would tip.", continuum.tipping.join(", ")));
             }
         }
     }

@@ -1,6 +1,8 @@
 //! From the solutions of the mode problem back to the mechanism: every force and acceleration of each solution.
 
+use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
+use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
 use crate::configuration::{Configuration, unit};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -9,9 +11,7 @@ use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Slider};
 use crate::model::{PreloadLine, SliderKind};
-use crate::modes::{
-    ClosestMode, ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet, Solutions,
-};
+use crate::modes::{ClosestMode, ContactState, SingularMode, SolutionSet, Solutions};
 use crate::report::{self, Report, Status};
 use nalgebra::DVector;
 
@@ -25,18 +25,6 @@ pub(super) struct Answer<'a> {
     pub(super) equations: &'a KineticEquations,
     pub(super) influence: &'a Influence,
     pub(super) velocity_signs: &'a DVector<f64>,
-}
-
-/// A state of all contacts: a solution of the mode problem, or a vertex of a continuum.
-struct State<'s> {
-    pattern: &'s [ContactState],
-    patterns: Vec<String>,
-    normal_force: &'s DVector<f64>,
-    /// For each contact in its gap, the share of the positive face.
-    shares: Vec<Option<f64>>,
-    signs: Vec<i8>,
-    on_boundary: bool,
-    determinant: f64,
 }
 
 impl<'a> Answer<'a> {
@@ -62,7 +50,9 @@ impl<'a> Answer<'a> {
             .collect();
         solutions.extend(found.singular.iter().filter_map(|mode| keep(&point(mode)?)));
         let gaps: Vec<_> = found.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
-        let continua: Vec<_> = found.singular.iter().filter_map(continuum).collect();
+        let solutions = distinct(solutions, &[]);
+        let gaps = distinct(gaps, &solutions);
+        let continua: Vec<_> = found.singular.iter().filter_map(|mode| self.continuum(mode)).collect();
         let complete = found.is_complete();
         let report = Report {
             schema: report::SCHEMA,
@@ -176,7 +166,7 @@ impl<'a> Answer<'a> {
 
     fn solution(&self, state: &State<'_>, unknowns: &DVector<f64>) -> report::Solution {
         let friction = self.friction(state);
-        let residuals = self.residuals(unknowns, &friction);
+        let residuals = self.residuals(state, unknowns, &friction);
         let unknowns = &self.equations.without_noise(unknowns);
         let orientation: f64 = state.pattern.iter().map(|contact| contact.sign()).product();
         report::Solution {
@@ -196,7 +186,12 @@ impl<'a> Answer<'a> {
         }
     }
 
-    fn residuals(&self, unknowns: &DVector<f64>, friction: &[ContactFriction]) -> Vec<Residual> {
+    fn residuals(
+        &self,
+        state: &State<'_>,
+        unknowns: &DVector<f64>,
+        friction: &[ContactFriction],
+    ) -> Vec<Residual> {
         let balance = Balance {
             mechanism: self.mechanism,
             configuration: self.configuration,
@@ -204,6 +199,7 @@ impl<'a> Answer<'a> {
             applied: &self.equations.applied,
             layout: self.influence.layout(),
             unknowns,
+            normal_force: state.normal_force,
             friction,
         };
         balance.residuals()
@@ -220,8 +216,9 @@ impl<'a> Answer<'a> {
             report::Contact {
                 name: contact.name.to_string(),
                 side: state.signs[k],
-                normal_force: state.normal_force[k],
-                friction_force: friction[k].total(),
+                // Adding zero turns -0 into 0.
+                normal_force: state.normal_force[k] + 0.0,
+                friction_force: friction[k].total() + 0.0,
                 sliding_velocity: self.equations.contacts[k].sliding_velocity,
                 couple: self.couple(contact.joint, unknowns),
                 preload_share: state.shares[k],
@@ -309,6 +306,46 @@ impl<'a> Answer<'a> {
             .collect()
     }
 
+    fn continuum(&self, mode: &SingularMode) -> Option<report::Continuum> {
+        let list = |vectors: Vec<&DVector<f64>>| {
+            vectors.into_iter().map(|vector| vector.iter().copied().collect()).collect()
+        };
+        mode.set.is_continuum().then(|| report::Continuum {
+            pattern: pattern(&mode.pattern),
+            vertices: list(mode.set.vertices()),
+            directions: list(mode.set.directions()),
+            tipping: self.tipping_in(mode),
+        })
+    }
+
+    /// The guided sliders that would tip at some vertex of a continuum. The couple and its limit are affine there,
+    /// so that where no vertex and no direction exceeds the limit, no point does.
+    fn tipping_in(&self, mode: &SingularMode) -> Vec<String> {
+        let vertices = mode.set.vertices();
+        let far = mode.set.directions().into_iter().flat_map(|direction| {
+            let reach = 1e6 * vertices.iter().map(|vertex| vertex.amax()).fold(1.0, f64::max);
+            vertices.iter().map(move |vertex| *vertex + direction * reach)
+        });
+        let points: Vec<DVector<f64>> = vertices.iter().map(|vertex| (*vertex).clone()).chain(far).collect();
+        let mut tipping: Vec<String> = Vec::new();
+        for point in &points {
+            let state = State {
+                pattern: &mode.pattern,
+                patterns: Vec::new(),
+                normal_force: point,
+                shares: vec![None; mode.pattern.len()],
+                signs: signs(&mode.pattern),
+                on_boundary: false,
+                determinant: 0.0,
+            };
+            let unknowns = self.influence.unknowns(&self.friction(&state));
+            tipping.extend(self.tipping(&state, &unknowns).map(|rejection| rejection.joint));
+        }
+        tipping.sort_unstable();
+        tipping.dedup();
+        tipping
+    }
+
     fn closest_mode(&self, mode: &ClosestMode) -> report::ClosestMode {
         let pressed = pressed(&mode.pattern);
         report::ClosestMode {
@@ -332,95 +369,6 @@ impl<'a> Answer<'a> {
             eta_negative: rows(1),
         }
     }
-}
-
-fn pressed(pattern: &[Side]) -> Vec<ContactState> {
-    pattern.iter().map(|side| ContactState::from(*side)).collect()
-}
-
-fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState]) -> State<'s> {
-    State {
-        pattern,
-        patterns: solution.patterns.iter().map(|sides| self::pattern(&pressed(sides))).collect(),
-        normal_force: &solution.normal_force,
-        shares: vec![None; pattern.len()],
-        signs: solution.signs.clone(),
-        on_boundary: !solution.on_boundary.is_empty(),
-        determinant: solution.determinant,
-    }
-}
-
-fn in_gap(gap: &GapState) -> State<'_> {
-    let mut shares = vec![None; gap.pattern.len()];
-    for share in &gap.shares {
-        shares[share.contact] = Some(share.lambda);
-    }
-    State {
-        pattern: &gap.pattern,
-        patterns: gap.patterns.iter().map(|states| pattern(states)).collect(),
-        normal_force: &gap.normal_force,
-        shares,
-        signs: gap.signs.clone(),
-        on_boundary: !gap.on_boundary.is_empty(),
-        determinant: gap.determinant,
-    }
-}
-
-/// The single solution that a singular mode admits, unless a regular mode shares it.
-fn point(mode: &SingularMode) -> Option<State<'_>> {
-    let SolutionSet::Point(normal_force) = &mode.set else { return None };
-    let has_gap = mode.pattern.contains(&ContactState::Gap);
-    (mode.contains.is_empty() && !has_gap).then(|| State {
-        pattern: &mode.pattern,
-        patterns: mode.patterns.iter().map(|states| pattern(states)).collect(),
-        normal_force,
-        shares: vec![None; mode.pattern.len()],
-        signs: normal_force
-            .iter()
-            .map(|n| {
-                if *n == 0.0 {
-                    0
-                } else if *n > 0.0 {
-                    1
-                } else {
-                    -1
-                }
-            })
-            .collect(),
-        on_boundary: true,
-        determinant: 0.0,
-    })
-}
-
-fn continuum(mode: &SingularMode) -> Option<report::Continuum> {
-    let list = |vectors: Vec<&DVector<f64>>| {
-        vectors.into_iter().map(|vector| vector.iter().copied().collect()).collect()
-    };
-    mode.set.is_continuum().then(|| report::Continuum {
-        pattern: pattern(&mode.pattern),
-        vertices: list(mode.set.vertices()),
-        directions: list(mode.set.directions()),
-    })
-}
-
-fn signs(pattern: &[ContactState]) -> Vec<i8> {
-    pattern
-        .iter()
-        .map(|state| match state {
-            ContactState::Positive => 1,
-            ContactState::Negative => -1,
-            ContactState::Gap => 0,
-        })
-        .collect()
-}
-
-fn pattern(states: &[ContactState]) -> String {
-    let sign = |state: &ContactState| match state {
-        ContactState::Positive => '+',
-        ContactState::Negative => '-',
-        ContactState::Gap => '0',
-    };
-    states.iter().map(sign).collect()
 }
 
 fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Status {

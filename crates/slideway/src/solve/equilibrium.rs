@@ -29,6 +29,8 @@ pub(super) struct Balance<'a> {
     pub(super) applied: &'a [Wrench],
     pub(super) layout: &'a Layout,
     pub(super) unknowns: &'a DVector<f64>,
+    /// The normal forces as the mode problem gives them, so that the balance tests them, too.
+    pub(super) normal_force: &'a DVector<f64>,
     pub(super) friction: &'a [ContactFriction],
 }
 
@@ -74,7 +76,7 @@ impl Balance<'_> {
             Reaction::Normal(contact) => {
                 let state = &self.contacts[contact.index()];
                 let joint = self.mechanism.contacts[contact.index()].joint;
-                self.on_slider(joint, state.point, value * state.normal, 0.0)
+                self.on_slider(joint, state.point, self.normal_force[contact.index()] * state.normal, 0.0)
             }
             Reaction::Couple(joint) => self.on_slider(joint, Vector2::zeros(), Vector2::zeros(), value),
         }

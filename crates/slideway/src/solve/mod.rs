@@ -18,8 +18,10 @@
 //! ```
 
 mod answer;
+mod distinct;
 mod equilibrium;
 mod mode_problem;
+mod state;
 mod words;
 
 pub use mode_problem::mode_problem;

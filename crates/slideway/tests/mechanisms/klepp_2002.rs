@@ -425,7 +425,7 @@ fn at_rest_the_direction_of_friction_is_undefined() {
     let at_rest = model("klepp-2002").with(&Settings::default().rate("q", "0")).unwrap();
     let faults = slideway::solve::solve(&at_rest).unwrap_err();
     let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
-    let slideway::fault::FaultKind::ZeroSlidingVelocity { contacts } = &fault.kind else {
+    let slideway::fault::FaultKind::ZeroSlidingVelocity { contacts, .. } = &fault.kind else {
         panic!("{faults}")
     };
     assert_eq!(*contacts, ["upper", "lower.front", "lower.rear"]);
