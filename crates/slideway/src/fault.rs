@@ -2,7 +2,7 @@
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
-use crate::expression::{Dimension, ExpressionFaultKind};
+use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
 use std::fmt;
 use std::ops::Range;
 
@@ -412,17 +412,9 @@ impl FaultKind {
     }
 }
 
-/// The known name nearest to `name`, if one is near enough to be meant.
-///
-/// Similarity is Jaro-Winkler's, with 0.75 as the least; letter case does not count.
+/// The known name most like `name`, if one is like it at all: as for the names in expressions.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let name = name.to_lowercase();
-    known
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(&name, &candidate.to_lowercase()), candidate))
-        .filter(|(similarity, _)| *similarity > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate.to_owned())
+    nearest_names(name, known.into_iter()).first().map(|nearest| (*nearest).to_owned())
 }
 
 fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {
