@@ -270,6 +270,8 @@ pub enum FaultKind {
     // Assembly of the state.
     #[error("the mechanism cannot be assembled in this state: {} by {gap}", opening(joint, loop_joints))]
     NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
+    #[error("{state} is too far from the drawing")]
+    TooFar { state: String, limit: f64 },
     #[error(
         "the overlap of {joint} has shrunk to {} m at a displacement of {} m",
         rounded(*overlap),
@@ -308,7 +310,7 @@ pub enum FaultKind {
     TooManyPatterns { contacts: usize, with_jump: usize, limit: u64 },
     #[error("more than {limit} sign patterns give a solution")]
     TooManySolutions { limit: usize },
-    #[error("{quantity} is beyond the range of floating-point numbers")]
+    #[error("{quantity} is too large or too small to compute with")]
     Overflow { quantity: String },
 }
 
@@ -380,6 +382,9 @@ impl FaultKind {
             Self::SingularPosition { .. } => {
                 Some("move it a little with --at to leave the singular position")
             }
+            Self::TooFar { .. } => Some(
+                "draw the mechanism nearer to this state: it is followed through at most 300 of its sizes, or 300 rad",
+            ),
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")

@@ -183,9 +183,8 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mechanism = Mechanism::new(model)?;
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
-    let size = check_size(&mechanism, &Limits::default());
-    let small = size.is_ok();
-    keep(size);
+    // What is too large to be solved is too large to be analysed further.
+    check_size(&mechanism, &Limits::default())?;
     let drawing = Configuration::drawing(&mechanism);
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));
@@ -198,7 +197,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         match KineticEquations::new(&mechanism, &configuration) {
             Ok(equations) => {
                 condition = Some(equations.condition());
-                if let (Ok(signs), true) = (&signs, small) {
+                if let Ok(signs) = &signs {
                     keep(mode_problem(&mechanism, &Influence::new(&equations), signs).map(|_| ()));
                 }
             }

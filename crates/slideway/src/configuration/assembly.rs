@@ -23,6 +23,8 @@ const SINGULAR_LOSS: f64 = 1e-3;
 const NEWTON_STEPS: usize = 25;
 /// Largest change of a coordinate in one stage, in sizes of the mechanism or rad.
 const STAGE: f64 = 0.15;
+/// Longest way that is followed from the drawing, in sizes of the mechanism or rad.
+const LONGEST_WAY: f64 = 300.0;
 /// Least fraction of the whole way that is tried before the state counts as out of reach.
 const LEAST_STAGE: f64 = 1e-4;
 
@@ -98,7 +100,15 @@ fn reach(mechanism: &Mechanism, values: &[f64]) -> Result<Vec<Pose>, Faults> {
     let mut poses = newton(mechanism, drawing_poses(mechanism), &drawn)
         .map_err(|poses| not_assembled(mechanism, &poses, &drawn, None))?;
     let mut done = 0.0;
-    let mut stage = (STAGE / longest_way(mechanism, values)).min(1.0);
+    let way = longest_way(mechanism, values);
+    if way > LONGEST_WAY {
+        return Err(Fault::general(FaultKind::TooFar {
+            state: state(mechanism, values),
+            limit: LONGEST_WAY,
+        })
+        .into());
+    }
+    let mut stage = (STAGE / way).min(1.0);
     while done < 1.0 {
         let next = if done + 1.01 * stage >= 1.0 { 1.0 } else { done + stage };
         let wanted = if next == 1.0 { values.to_vec() } else { at(next) };

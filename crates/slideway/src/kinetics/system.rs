@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
 /// Pivots below this multiple of the greatest count as zero; the equations are then singular.
 const SINGULAR: f64 = 1e-13;
 /// Components of an equilibrated solution that are this many roundoffs below its greatest one are noise.
-const NOISE: f64 = 4.0;
+const NOISE: f64 = 16.0;
 
 /// The factored matrix of the kinetic equations.
 #[derive(Debug, Clone)]
@@ -33,6 +33,14 @@ pub(super) struct Singular {
 impl Factorization {
     /// Factors a square matrix.
     pub(super) fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
+        if !matrix.iter().all(|entry| entry.is_finite()) {
+            let nothing = DVector::zeros(matrix.ncols());
+            return Err(Singular {
+                null_vector: nothing.clone(),
+                weights: nothing,
+                condition: f64::INFINITY,
+            });
+        }
         let (row_scale, column_scale) = equilibration(&matrix);
         let scaled = scaled(&matrix, &row_scale, &column_scale);
         let factors = scaled.clone().full_piv_lu();

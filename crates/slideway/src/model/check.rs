@@ -308,7 +308,7 @@ fn check_direction(
     let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
     let [from, to] = points.as_ref();
     if let (Some(a), Some(b)) = (at(from), at(to))
-        && a == b
+        && (b[0] - a[0]).hypot(b[1] - a[1]) <= 1e-12 * a[0].hypot(a[1]).max(b[0].hypot(b[1]))
     {
         let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
         faults.push(Fault::new(kind, place.clone()));

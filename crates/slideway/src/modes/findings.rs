@@ -40,7 +40,6 @@ pub(super) struct Findings<'a> {
     gap_counts: PatternCounts,
     found: Vec<Found>,
     shared: HashMap<SharedPattern, usize>,
-    accepted: usize,
     singular: Vec<SingularMode>,
     /// Places in `singular` of non-empty sets, by the signs that their normal forces take.
     singular_places: HashMap<(u64, u64), Vec<usize>>,
@@ -58,7 +57,6 @@ impl<'a> Findings<'a> {
             gap_counts: PatternCounts::default(),
             found: Vec::new(),
             shared: HashMap::new(),
-            accepted: 0,
             singular: Vec::new(),
             singular_places: HashMap::new(),
             examined: 0,
@@ -103,12 +101,26 @@ impl<'a> Findings<'a> {
         } else {
             counts.boundary += 1;
         }
-        self.accepted += 1;
-        if self.accepted > self.limits.solutions {
+        self.file(pattern, candidate);
+        if self.found.len() > self.limits.solutions {
             return Err(EnumerationError::TooManySolutions { limit: self.limits.solutions });
         }
-        self.file(pattern, candidate);
         Ok(())
+    }
+
+    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False if it
+    /// has not, or if there are loads.
+    pub(super) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
+        let [zero] = &mut self.found[..] else { return false };
+        if self.problem.load_size().amax() != 0.0 {
+            return false;
+        }
+        self.counts.boundary += 1;
+        zero.pattern_count += 1;
+        if zero.patterns.len() < self.limits.listed {
+            zero.patterns.push(pattern.to_vec());
+        }
+        true
     }
 
     fn file(&mut self, pattern: &[ContactState], candidate: Candidate) {

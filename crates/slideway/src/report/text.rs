@@ -319,8 +319,11 @@ fn vector(components: &[f64], unit: &str) -> String {
 }
 
 fn about_to_change(contacts: &[Contact]) -> String {
-    let names: Vec<&str> =
-        contacts.iter().filter(|contact| contact.side == 0).map(|contact| contact.name.as_str()).collect();
+    let names: Vec<&str> = contacts
+        .iter()
+        .filter(|c| c.side == 0 && c.preload_share.is_none())
+        .map(|contact| contact.name.as_str())
+        .collect();
     match names.as_slice() {
         [name] => format!("{name} is"),
         names => format!("{} are", names.join(", ")),

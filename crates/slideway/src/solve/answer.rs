@@ -33,7 +33,7 @@ impl<'a> Answer<'a> {
         let mut rejected = Vec::new();
         let mut rejections = 0;
         let mut keep = |state: &State<'_>| -> Option<report::Solution> {
-            let unknowns = self.influence.unknowns(&self.friction(state));
+            let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state)));
             match self.tipping(state, &unknowns) {
                 None => Some(self.solution(state, &unknowns)),
                 Some(rejection) => {
@@ -133,7 +133,8 @@ impl<'a> Answer<'a> {
 
     /// A guided slider whose couple is more than its pressure can give: |C| <= |N| L / 2 (theory, section 1).
     fn tipping(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Option<report::Rejection> {
-        let greatest = state.normal_force.amax();
+        let greatest = self.equations.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max);
+        let greatest = greatest.max(state.normal_force.amax());
         self.guided_sliders().find_map(|(joint, slider)| {
             let couple = self.couple(joint, unknowns)?;
             let normal_force = state.normal_force[slider.contacts[0].index()].abs();
@@ -167,7 +168,6 @@ impl<'a> Answer<'a> {
     fn solution(&self, state: &State<'_>, unknowns: &DVector<f64>) -> report::Solution {
         let friction = self.friction(state);
         let residuals = self.residuals(state, unknowns, &friction);
-        let unknowns = &self.equations.without_noise(unknowns);
         let orientation: f64 = state.pattern.iter().map(|contact| contact.sign()).product();
         report::Solution {
             pattern: pattern(state.pattern),
@@ -297,7 +297,10 @@ impl<'a> Answer<'a> {
     }
 
     fn locked_modes(&self, singular: &[SingularMode]) -> Vec<report::LockedMode> {
-        let locked = singular.iter().filter(|mode| mode.set == SolutionSet::Empty);
+        let is_locked = |mode: &&SingularMode| {
+            mode.set == SolutionSet::Empty && !mode.pattern.contains(&ContactState::Gap)
+        };
+        let locked = singular.iter().filter(is_locked);
         locked
             .map(|mode| report::LockedMode {
                 pattern: pattern(&mode.pattern),
@@ -381,6 +384,7 @@ fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Sta
                 Status::Unknown
             }
         }
+        (0, _, 0) if !complete => Status::Unknown,
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,
         _ => Status::Several,
@@ -406,6 +410,17 @@ fn pattern_summary(found: &Solutions, rejected: u64) -> report::PatternSummary {
 /// No number that is printed may be infinite or undefined.
 fn check_finite(report: &Report) -> Result<(), Faults> {
     let mut faults = Faults::default();
+    let closest = report.closest_modes.iter().flat_map(|mode| mode.absolute_normal_forces.iter().copied());
+    let continua =
+        report.continua.iter().flat_map(|set| set.vertices.iter().chain(&set.directions)).flatten();
+    let influence = &report.influence;
+    let eta = influence.eta_positive.iter().chain(&influence.eta_negative).flatten();
+    let frictionless = influence.coordinate_accelerations.iter().chain(&influence.normal_forces);
+    let mut all = closest.chain(continua.chain(eta).chain(frictionless).copied()).chain([report.condition]);
+    if !all.all(f64::is_finite) {
+        let quantity = "an influence coefficient or a normal force".to_owned();
+        faults.push(Fault::general(FaultKind::Overflow { quantity }));
+    }
     for solution in report.solutions.iter().chain(&report.preload_gap_states) {
         let forces = solution
             .contacts
