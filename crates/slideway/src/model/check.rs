@@ -297,6 +297,9 @@ impl Model {
     }
 }
 
+/// Places (m) nearer to each other than a rounding error of this one are the same in every mechanism.
+const SHORTEST: f64 = 1e-40;
+
 /// Two points that give a direction must differ.
 fn check_direction(
     along: &Along,
@@ -307,8 +310,9 @@ fn check_direction(
     let Along::Points(points) = along else { return };
     let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
     let [from, to] = points.as_ref();
+    let rounding = |a: [f64; 2], b: [f64; 2]| 1e-12 * a[0].hypot(a[1]).max(b[0].hypot(b[1])).max(SHORTEST);
     if let (Some(a), Some(b)) = (at(from), at(to))
-        && (b[0] - a[0]).hypot(b[1] - a[1]) <= 1e-12 * a[0].hypot(a[1]).max(b[0].hypot(b[1]))
+        && (b[0] - a[0]).hypot(b[1] - a[1]) <= rounding(a, b)
     {
         let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
         faults.push(Fault::new(kind, place.clone()));
