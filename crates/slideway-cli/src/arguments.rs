@@ -1,5 +1,6 @@
 //! The arguments of the command line.
 
+use crate::failure::Failure;
 use anstream::ColorChoice;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -165,6 +166,18 @@ pub(crate) struct ModelArguments {
 }
 
 impl ModelArguments {
+    /// Sees to it that the output does not take the place of the model.
+    ///
+    /// # Errors
+    /// If both are the same file.
+    pub(crate) fn spare(&self, destination: &Destination) -> Result<(), Failure> {
+        let Some(output) = &destination.output else { return Ok(()) };
+        match (self.file.canonicalize(), output.canonicalize()) {
+            (Ok(model), Ok(file)) if model == file => Err(Failure::OverwritesModel { path: output.clone() }),
+            _ => Ok(()),
+        }
+    }
+
     /// The settings, and the faults of those that are not of the form name=value.
     pub(crate) fn settings(&self) -> (Settings, Vec<Fault>) {
         let mut settings = Settings::default();

@@ -25,6 +25,8 @@ pub(crate) enum Failure {
     StageCount { stages: usize, most: usize },
     /// The output file exists.
     OutputExists { path: PathBuf },
+    /// The output would take the place of the model.
+    OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
     /// Standard output cannot be written.
@@ -47,6 +49,7 @@ impl Failure {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
             Self::OutputExists { path } => format!("`{}` exists already", path.display()),
+            Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }

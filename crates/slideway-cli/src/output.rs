@@ -35,6 +35,7 @@ impl Output {
         let file = destination
             .output
             .as_ref()
+            .filter(|path| path.as_os_str() != "-")
             .map(|path| OutputFile { path: path.clone(), overwrite: destination.force });
         if let Some(file) = &file
             && !file.overwrite

@@ -372,13 +372,15 @@ impl FaultKind {
             Self::MissingKey { key, .. } if key == "mu" => {
                 Some("write `mu = 0` for a contact without friction")
             }
-            Self::WrongDimension { .. } => Some("plain numbers are in SI units (m, kg, s, N, rad)"),
+            Self::WrongDimension { .. } => Some(
+                "plain numbers are in SI units (m, kg, s, N, rad) where they stand alone, and pure numbers in products",
+            ),
             Self::DependsOnMotion { .. } => {
                 Some("only loads and drives may depend on coordinates, rates and the time t")
             }
             Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
-            Self::MalformedSetting { .. } => Some("for instance `--set mu=0.2` or `--set \"alpha=80 deg\"`"),
+            Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => {
                 Some("move it a little with --at to leave the singular position")
             }

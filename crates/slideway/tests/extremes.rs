@@ -121,3 +121,35 @@ fn what_is_too_large_to_be_solved_is_refused_before_it_is_analysed() {
         assert!(matches!(only(&faults), FaultKind::TooManyContacts { contacts: 600, .. }), "{faults}");
     }
 }
+
+#[test]
+fn friction_beyond_what_rounding_can_tell_is_no_jam() {
+    let strong = faults("klepp-2002", &Settings::default().parameter("mu_1", "1e8"));
+    assert!(matches!(only(&strong), FaultKind::IllConditioned { .. }), "{strong}");
+    let load = faults("drawer", &Settings::default().parameter("Q", "1e308 N"));
+    assert!(matches!(only(&load), FaultKind::Overflow { .. }), "{load}");
+}
+
+/// The Painleve-Klein apparatus at its critical friction without loads: a ray of solutions N = t (-1, 1), t >= 0.
+/// With the hinge of the upper slider at the distance `offset` from its middle, the couple is C = offset N, and the
+/// slider can take up N L/2 with L = 60 mm.
+fn unloaded_at_critical_friction(offset: &str) -> Report {
+    let text = find("painleve-klein").unwrap().text.replace(
+        "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\nat = \"B\"",
+        &format!(
+            "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\n\
+             at = [\"l*cos(phi) + {offset}\", \"l*sin(phi)\"]"
+        ),
+    );
+    let settings = Settings::default().parameter("mu", "2/tan(phi)").parameter("P_2", "0 N");
+    solve(&Model::parse(&text).unwrap().with(&settings).unwrap()).unwrap()
+}
+
+#[test]
+fn a_continuum_is_cut_to_where_no_guided_slider_tips() {
+    let slack = unloaded_at_critical_friction("10 mm");
+    assert_eq!((slack.status, slack.continua.len()), (Status::Continuum, 1));
+    let tips = unloaded_at_critical_friction("50 mm");
+    assert_eq!((tips.status, tips.solutions.len(), tips.continua.len()), (Status::One, 1, 0));
+    assert!(tips.solutions[0].contacts.iter().all(|contact| contact.normal_force == 0.0));
+}

@@ -11,6 +11,7 @@ use slideway::solve;
 /// Finds and writes all solutions of a model.
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let report = solve::solve(&model).map_err(|faults| input.refused(faults))?;

@@ -157,8 +157,9 @@ impl Model {
             Symbol::Rate(index) => format!("rate({})", self.coordinates[index].name),
             Symbol::Time => "t".to_owned(),
         };
-        for formula in self.formulas.iter().filter(|formula| !formula.broken) {
-            faults.extend(formula.check(&of, &name));
+        for (index, formula) in self.formulas.iter().enumerate().filter(|(_, formula)| !formula.broken) {
+            let found = formula.check(&of, &name);
+            faults.extend(found.into_iter().map(|fault| self.blame_setting(FormulaId(index), fault)));
         }
     }
 

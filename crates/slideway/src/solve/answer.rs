@@ -48,11 +48,17 @@ impl<'a> Answer<'a> {
             .iter()
             .filter_map(|solution| keep(&regular(solution, &pressed(&solution.pattern))))
             .collect();
-        solutions.extend(found.singular.iter().filter_map(|mode| keep(&point(mode)?)));
+        let singular: Vec<SingularMode> =
+            found.singular.iter().map(|mode| self.without_tipping(mode)).collect();
+        solutions.extend(singular.iter().filter_map(|mode| keep(&point(mode)?)));
         let gaps: Vec<_> = found.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
         let solutions = distinct(solutions, &[]);
         let gaps = distinct(gaps, &solutions);
-        let continua: Vec<_> = found.singular.iter().filter_map(|mode| self.continuum(mode)).collect();
+        let continua: Vec<_> = singular.iter().filter_map(|mode| self.continuum(mode)).collect();
+        for mode in found.singular.iter().zip(&singular).filter(|(mode, cut)| tips_everywhere(mode, cut)) {
+            rejections += mode.0.pattern_count;
+            rejected.extend(mode.0.set.vertices().first().and_then(|vertex| self.tipping_at(mode.0, vertex)));
+        }
         let complete = found.is_complete();
         let report = Report {
             schema: report::SCHEMA,
@@ -101,7 +107,7 @@ impl<'a> Answer<'a> {
 
     /// Friction forces of a state, split by the face at which they act: eq. (2) with
     /// F_k = (mu_k |N_k| + F_k0) s_k.
-    fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
+    pub(super) fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
         let one = |k: usize| {
             let contact = &self.mechanism.contacts[k];
             let sign = self.velocity_signs[k];
@@ -132,7 +138,7 @@ impl<'a> Answer<'a> {
     }
 
     /// A guided slider whose couple is more than its pressure can give: |C| <= |N| L / 2 (theory, section 1).
-    fn tipping(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Option<report::Rejection> {
+    pub(super) fn tipping(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Option<report::Rejection> {
         let greatest = self.equations.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max);
         let greatest = greatest.max(state.normal_force.amax());
         self.guided_sliders().find_map(|(joint, slider)| {
@@ -150,7 +156,7 @@ impl<'a> Answer<'a> {
         })
     }
 
-    fn guided_sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
+    pub(super) fn guided_sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
         self.sliders().filter(|(_, slider)| slider.kind == SliderKind::Guided)
     }
 
@@ -321,34 +327,6 @@ impl<'a> Answer<'a> {
         })
     }
 
-    /// The guided sliders that would tip at some vertex of a continuum. The couple and its limit are affine there,
-    /// so that where no vertex and no direction exceeds the limit, no point does.
-    fn tipping_in(&self, mode: &SingularMode) -> Vec<String> {
-        let vertices = mode.set.vertices();
-        let far = mode.set.directions().into_iter().flat_map(|direction| {
-            let reach = 1e6 * vertices.iter().map(|vertex| vertex.amax()).fold(1.0, f64::max);
-            vertices.iter().map(move |vertex| *vertex + direction * reach)
-        });
-        let points: Vec<DVector<f64>> = vertices.iter().map(|vertex| (*vertex).clone()).chain(far).collect();
-        let mut tipping: Vec<String> = Vec::new();
-        for point in &points {
-            let state = State {
-                pattern: &mode.pattern,
-                patterns: Vec::new(),
-                normal_force: point,
-                shares: vec![None; mode.pattern.len()],
-                signs: signs(&mode.pattern),
-                on_boundary: false,
-                determinant: 0.0,
-            };
-            let unknowns = self.influence.unknowns(&self.friction(&state));
-            tipping.extend(self.tipping(&state, &unknowns).map(|rejection| rejection.joint));
-        }
-        tipping.sort_unstable();
-        tipping.dedup();
-        tipping
-    }
-
     fn closest_mode(&self, mode: &ClosestMode) -> report::ClosestMode {
         let pressed = pressed(&mode.pattern);
         report::ClosestMode {
@@ -372,6 +350,11 @@ impl<'a> Answer<'a> {
             eta_negative: rows(1),
         }
     }
+}
+
+/// Whether nothing is left of a continuum because a guided slider would tip.
+fn tips_everywhere(mode: &SingularMode, cut: &SingularMode) -> bool {
+    mode.set.is_continuum() && cut.set == SolutionSet::Empty
 }
 
 fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Status {

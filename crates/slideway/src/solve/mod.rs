@@ -18,6 +18,7 @@
 //! ```
 
 mod answer;
+mod continuum;
 mod distinct;
 mod equilibrium;
 mod mode_problem;
