@@ -74,6 +74,17 @@ impl<'a> Findings<'a> {
         if pattern.contains(&ContactState::Gap) { &mut self.gap_counts } else { &mut self.counts }
     }
 
+    /// How many solutions, gap states and singular sets have been found so far.
+    pub(super) fn found(&self) -> usize {
+        self.found.len() + self.singular.len()
+    }
+
+    /// Puts what was found into the order of enumeration, whatever the order it was found in.
+    pub(super) fn sort(&mut self) {
+        self.found.sort_by(|one, other| one.pattern().cmp(other.pattern()));
+        self.singular.sort_by(|one, other| one.pattern.cmp(&other.pattern));
+    }
+
     pub(super) fn count_no_solution(&mut self, with_gap: bool) {
         let counts = if with_gap { &mut self.gap_counts } else { &mut self.counts };
         counts.no_solution += 1;

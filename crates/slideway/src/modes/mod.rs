@@ -45,6 +45,7 @@ mod enumeration;
 mod findings;
 mod problem;
 mod scaling;
+pub mod search;
 mod solutions;
 
 pub use enumeration::{EnumerationError, Limits, enumerate};

@@ -1,0 +1,75 @@
+//! The search within one group of contacts.
+
+use super::monitor::Monitor;
+use super::propagation::Propagation;
+use super::report::{GroupReport, Method, PatternShares, SearchOptions, StopReason};
+use super::tree::{Tree, TreeReport};
+use super::uniqueness;
+use crate::modes::findings::Findings;
+use crate::modes::problem::ModeProblem;
+use crate::modes::scaling::ScaledProblem;
+use crate::modes::solutions::Solutions;
+
+/// What a group's own problem has for solutions, and how they were found.
+#[derive(Debug, Clone)]
+pub(super) struct GroupAnswer {
+    pub(super) solutions: Solutions,
+    pub(super) report: GroupReport,
+}
+
+/// Finds all solutions of the problem of one group with the cheapest method that applies.
+pub(super) fn search_group(
+    problem: &ModeProblem,
+    options: &SearchOptions,
+    monitor: &mut Monitor<'_>,
+) -> GroupAnswer {
+    let scaled = ScaledProblem::new(problem);
+    let mut findings = Findings::new(&scaled, &options.limits);
+    let arguments = options.arguments;
+    let solved = if arguments.propagation || arguments.uniqueness { Propagation::new(&scaled) } else { None };
+    let proof = solved.as_ref().filter(|_| arguments.uniqueness);
+    let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut findings, monitor));
+    let (method, tree) = unique.unwrap_or_else(|| {
+        let propagation = solved.as_ref().filter(|_| arguments.propagation);
+        let tree = Tree::new(&scaled, propagation, options).run(&mut findings, monitor);
+        (Method::BranchAndBound, tree)
+    });
+    findings.sort();
+    let report = GroupReport {
+        contacts: (0..problem.contacts()).collect(),
+        method,
+        log2_patterns: log2_patterns(&scaled),
+        nodes: tree.nodes,
+        pivots: tree.pivots,
+        shares: tree.shares,
+        exclusions_proven: true,
+        exclusions: tree.exclusions,
+    };
+    GroupAnswer { solutions: findings.into_solutions(), report }
+}
+
+/// The only solution, if a proof says that there is exactly one.
+fn by_uniqueness(
+    problem: &ScaledProblem,
+    solved: &Propagation,
+    findings: &mut Findings<'_>,
+    monitor: &mut Monitor<'_>,
+) -> Option<(Method, TreeReport)> {
+    let method = uniqueness::proof(problem, solved)?;
+    let mut pattern = uniqueness::only_pattern(problem, solved)?;
+    let mut report = TreeReport { nodes: 1, ..TreeReport::default() };
+    if !monitor.visit(0.0, 0) {
+        report.shares = PatternShares { unexplored: 1.0, ..PatternShares::default() };
+    } else if findings.examine_leaf(&mut pattern).is_err() {
+        monitor.stop(StopReason::SolutionLimit);
+    } else {
+        let examined = (-log2_patterns(problem)).exp2();
+        report.shares = PatternShares { uniqueness: 1.0 - examined, examined, ..PatternShares::default() };
+    }
+    Some((method, report))
+}
+
+/// Binary logarithm of the number of patterns, gap states included.
+fn log2_patterns(problem: &ScaledProblem) -> f64 {
+    problem.has_jump.iter().map(|&jump| if jump { 3_f64.log2() } else { 1.0 }).sum()
+}
