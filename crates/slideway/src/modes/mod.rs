@@ -45,11 +45,16 @@ mod enumeration;
 mod findings;
 mod problem;
 mod scaling;
-pub mod search;
+mod search;
 mod solutions;
 
 pub use enumeration::{EnumerationError, Limits, enumerate};
 pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
+pub use search::{
+    Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
+    GroupReport, GroupState, Method, PatternShares, Progress, SearchOptions, SearchResult, SolutionProduct,
+    StateCounts, StateSet, StopReason, search,
+};
 pub use solutions::{
     ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
     Solutions,

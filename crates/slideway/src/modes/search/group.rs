@@ -42,7 +42,8 @@ pub(super) fn search_group(
         nodes: tree.nodes,
         pivots: tree.pivots,
         shares: tree.shares,
-        exclusions_proven: true,
+        loads: 1,
+        proven: false,
         exclusions: tree.exclusions,
     };
     GroupAnswer { solutions: findings.into_solutions(), report }

@@ -183,11 +183,8 @@ fn size_of_terms(values: &[f64], sizes: &[f64]) -> f64 {
 fn rounding_of_load(problem: &ScaledProblem) -> Vec<f64> {
     let terms = problem.base().iter().zip(problem.load_size());
     let jumps_contribute = terms.clone().any(|(base, &size)| base.abs() != size);
-    let share = if jumps_contribute {
-        IGNORED_JUMP + (problem.contacts() + 4) as f64 * f64::EPSILON
-    } else {
-        0.0
-    };
+    let share =
+        if jumps_contribute { IGNORED_JUMP + (problem.contacts() + 4) as f64 * f64::EPSILON } else { 0.0 };
     terms.map(|(_, size)| share * size).collect()
 }
 

@@ -108,7 +108,10 @@ impl fmt::Display for Method {
             Self::Contraction => formatter.write_str("one solution, because rho(|G|) < 1"),
             Self::SingularValue => formatter.write_str("one solution, because sigma_max(G) < 1"),
             Self::Cells { rank, patterns } => {
-                write!(formatter, "cells of an arrangement, coupling of rank {rank}, {patterns} patterns tried")
+                write!(
+                    formatter,
+                    "cells of an arrangement, coupling of rank {rank}, {patterns} patterns tried"
+                )
             }
             Self::BranchAndBound => formatter.write_str("branch and bound with linear relaxation"),
         }
@@ -137,6 +140,18 @@ impl PatternShares {
     /// The fraction of patterns that is dealt with.
     pub fn done(&self) -> f64 {
         self.uniqueness + self.cells + self.propagation + self.relaxation + self.examined
+    }
+
+    fn mean(&self, other: &Self, weight: f64) -> Self {
+        let mean = |one: f64, other: f64| weight * one + (1.0 - weight) * other;
+        Self {
+            uniqueness: mean(self.uniqueness, other.uniqueness),
+            cells: mean(self.cells, other.cells),
+            propagation: mean(self.propagation, other.propagation),
+            relaxation: mean(self.relaxation, other.relaxation),
+            examined: mean(self.examined, other.examined),
+            unexplored: mean(self.unexplored, other.unexplored),
+        }
     }
 }
 
@@ -174,10 +189,29 @@ pub struct GroupReport {
     pub pivots: u64,
     /// What became of the patterns.
     pub shares: PatternShares,
-    /// Whether all arguments that excluded patterns bound their rounding errors.
-    pub exclusions_proven: bool,
+    /// Right-hand sides that the group was searched with.
+    pub loads: u64,
+    /// Whether every exclusion and every outcome is established with error bounds, for the
+    /// right-hand sides as given.
+    pub proven: bool,
     /// Excluded nodes, if [`SearchOptions::keep_exclusions`] asks for them.
     pub exclusions: Vec<Exclusion>,
+}
+
+impl GroupReport {
+    /// Adds the report on the same group with another right-hand side; shares become means.
+    pub(super) fn add(&mut self, other: &Self) {
+        let weight = self.loads as f64 / (self.loads + other.loads) as f64;
+        self.shares = self.shares.mean(&other.shares, weight);
+        self.loads += other.loads;
+        self.nodes += other.nodes;
+        self.pivots += other.pivots;
+        self.proven &= other.proven;
+        self.exclusions.extend(other.exclusions.iter().cloned());
+        if self.method != other.method {
+            self.method = Method::BranchAndBound;
+        }
+    }
 }
 
 /// Whether the list is all there is.

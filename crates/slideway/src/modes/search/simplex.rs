@@ -299,7 +299,9 @@ impl Basis {
         self.value[row] = entered;
         // B^-1 of the new basis: the pivot row divided by the pivot, and eliminated from the others.
         let mut pivot_row = self.inverse[row * rows..][..rows].to_vec();
-        pivot_row.iter_mut().for_each(|entry| *entry /= pivot);
+        for entry in &mut pivot_row {
+            *entry /= pivot;
+        }
         for ((at, target), &factor) in self.inverse.chunks_exact_mut(rows).enumerate().zip(&change) {
             if at == row {
                 target.copy_from_slice(&pivot_row);
@@ -332,10 +334,11 @@ impl Basis {
     /// Computes inverse, values and reduced costs afresh; false if the basis is singular.
     pub(super) fn refactor(&mut self, program: &LinearProgram, bounds: &Bounds) -> bool {
         let rows = program.rows;
-        let basis = DMatrix::from_fn(rows, rows, |row, at| match self.basic[at].checked_sub(program.columns) {
-            Some(artificial) => f64::from(u8::from(artificial == row)),
-            None => program.column(self.basic[at])[row],
-        });
+        let basis =
+            DMatrix::from_fn(rows, rows, |row, at| match self.basic[at].checked_sub(program.columns) {
+                Some(artificial) => f64::from(u8::from(artificial == row)),
+                None => program.column(self.basic[at])[row],
+            });
         let Some(inverse) = basis.try_inverse() else { return false };
         self.inverse = inverse.transpose().as_slice().to_vec();
         self.updates = 0;

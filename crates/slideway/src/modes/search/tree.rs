@@ -162,7 +162,6 @@ fn branching(states: &[StateSet], relaxed: Option<&[RelaxedContact]>) -> (usize,
         }
     }
     let at = relaxed[best.0];
-    let preferred =
-        if at.positive >= at.negative { ContactState::Positive } else { ContactState::Negative };
+    let preferred = if at.positive >= at.negative { ContactState::Positive } else { ContactState::Negative };
     (best.0, preferred)
 }
