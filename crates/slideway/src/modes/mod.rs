@@ -53,7 +53,7 @@ pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, 
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
     GroupReport, GroupState, Method, PatternShares, Progress, SearchOptions, SearchResult, SolutionProduct,
-    StateCounts, StateSet, StopReason, search,
+    StateCounts, StateKind, StateSet, StopReason, search,
 };
 pub use solutions::{
     ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,

@@ -39,7 +39,7 @@ mod uniqueness;
 use std::ops::ControlFlow;
 
 pub use count::BigCount;
-pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts};
+pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
 pub use report::{
     Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternShares, Progress,
     SearchOptions, StopReason,

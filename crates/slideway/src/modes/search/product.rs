@@ -60,6 +60,15 @@ pub struct CombinedState<'a> {
 }
 
 impl GroupState {
+    /// The kind of the state.
+    pub fn kind(&self) -> StateKind {
+        match self {
+            Self::Solution(_) => StateKind::Solution,
+            Self::Gap(_) => StateKind::Gap,
+            Self::Singular(_) => StateKind::Singular,
+        }
+    }
+
     /// The state of each contact of the group.
     pub fn pattern(&self) -> Vec<ContactState> {
         match self {
@@ -78,6 +87,17 @@ impl GroupState {
             Self::Singular(_) => None,
         }
     }
+}
+
+/// The kind of a state, in increasing order of what has to be said about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum StateKind {
+    /// Every contact is pressed on a side, or about to change it.
+    Solution,
+    /// Some contact rests in its gap.
+    Gap,
+    /// Some group is in a singular pattern.
+    Singular,
 }
 
 /// Cumulated counts: solutions; with gap states; with singular sets.
@@ -101,12 +121,7 @@ impl SolutionProduct {
             let mut sums = Cumulated::default();
             for alternative in &factor.alternatives {
                 let counts = alternative.dependents.cumulated();
-                let first = match alternative.state {
-                    GroupState::Solution(_) => 0,
-                    GroupState::Gap(_) => 1,
-                    GroupState::Singular(_) => 2,
-                };
-                for kind in first..3 {
+                for kind in alternative.state.kind() as usize..3 {
                     sums[kind] = sums[kind].plus(&counts[kind]);
                 }
             }
@@ -125,6 +140,11 @@ impl SolutionProduct {
 }
 
 impl CombinedState<'_> {
+    /// The kind of the combination: that of the part of which most has to be said.
+    pub fn kind(&self) -> StateKind {
+        self.parts.iter().map(|(_, state)| state.kind()).max().unwrap_or(StateKind::Solution)
+    }
+
     /// The state of every contact, given their number.
     pub fn pattern(&self, contacts: usize) -> Vec<ContactState> {
         let mut pattern = vec![ContactState::Positive; contacts];
