@@ -1,5 +1,7 @@
 //! The search within one group of contacts.
 
+use super::cells::{self, Walked};
+use super::low_rank::LowRank;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
 use super::report::{GroupReport, Method, PatternShares, SearchOptions, StopReason};
@@ -8,7 +10,10 @@ use super::uniqueness;
 use crate::modes::findings::Findings;
 use crate::modes::problem::ModeProblem;
 use crate::modes::scaling::ScaledProblem;
-use crate::modes::solutions::Solutions;
+use crate::modes::solutions::{ContactState, Solutions};
+
+/// The fewest contacts for which the cells of an arrangement are worth a look.
+const CELLS_FROM: usize = 13;
 
 /// What a group's own problem has for solutions, and how they were found.
 #[derive(Debug, Clone)]
@@ -29,7 +34,11 @@ pub(super) fn search_group(
     let solved = if arguments.propagation || arguments.uniqueness { Propagation::new(&scaled) } else { None };
     let proof = solved.as_ref().filter(|_| arguments.uniqueness);
     let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut findings, monitor));
-    let (method, tree) = unique.unwrap_or_else(|| {
+    let answered = unique.or_else(|| {
+        let worthwhile = arguments.low_rank && scaled.contacts() >= CELLS_FROM;
+        if worthwhile { by_cells(&scaled, &mut findings, monitor) } else { None }
+    });
+    let (method, tree) = answered.unwrap_or_else(|| {
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
         let tree = Tree::new(&scaled, propagation, options).run(&mut findings, monitor);
         (Method::BranchAndBound, tree)
@@ -68,6 +77,33 @@ fn by_uniqueness(
         report.shares = PatternShares { uniqueness: 1.0 - examined, examined, ..PatternShares::default() };
     }
     Some((method, report))
+}
+
+/// The solutions among the cells of an arrangement, if the coupling is of low rank.
+fn by_cells(
+    problem: &ScaledProblem,
+    findings: &mut Findings<'_>,
+    monitor: &mut Monitor<'_>,
+) -> Option<(Method, TreeReport)> {
+    let low_rank = LowRank::of(problem)?;
+    let Walked { candidates, patterns, fraction } = cells::walk(&low_rank, monitor)?;
+    let examined = (candidates.len() as f64).log2() - log2_patterns(problem);
+    for sides in candidates {
+        let mut pattern: Vec<ContactState> =
+            sides.iter().map(|&side| ContactState::PRESSED[usize::from(side)]).collect();
+        if findings.examine_leaf(&mut pattern).is_err() {
+            monitor.stop(StopReason::SolutionLimit);
+            break;
+        }
+    }
+    let shares = PatternShares {
+        examined: examined.exp2(),
+        cells: fraction - examined.exp2(),
+        unexplored: 1.0 - fraction,
+        ..PatternShares::default()
+    };
+    let report = TreeReport { shares, nodes: patterns, ..TreeReport::default() };
+    Some((Method::Cells { rank: low_rank.rank() }, report))
 }
 
 /// Binary logarithm of the number of patterns, gap states included.

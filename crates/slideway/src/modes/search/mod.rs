@@ -21,10 +21,12 @@
 //! Singular patterns that admit nothing (locking of the mode) are excluded like others and not
 //! listed, unlike in [`enumerate`](super::enumerate).
 
+mod cells;
 mod composition;
 mod count;
 mod group;
 mod groups;
+mod low_rank;
 mod monitor;
 mod product;
 mod propagation;

@@ -95,8 +95,6 @@ pub enum Method {
     Cells {
         /// The rank of the coupling.
         rank: usize,
-        /// Patterns tried; cells are met several times.
-        patterns: u64,
     },
     /// Branch and bound with interval propagation and linear relaxation.
     BranchAndBound,
@@ -107,12 +105,7 @@ impl fmt::Display for Method {
         match self {
             Self::Contraction => formatter.write_str("one solution, because rho(|G|) < 1"),
             Self::SingularValue => formatter.write_str("one solution, because sigma_max(G) < 1"),
-            Self::Cells { rank, patterns } => {
-                write!(
-                    formatter,
-                    "cells of an arrangement, coupling of rank {rank}, {patterns} patterns tried"
-                )
-            }
+            Self::Cells { rank } => write!(formatter, "cells of an arrangement, coupling of rank {rank}"),
             Self::BranchAndBound => formatter.write_str("branch and bound with linear relaxation"),
         }
     }
@@ -183,7 +176,7 @@ pub struct GroupReport {
     pub method: Method,
     /// Binary logarithm of the number of patterns, gap states included.
     pub log2_patterns: f64,
-    /// Nodes visited.
+    /// Nodes visited, or patterns tried with [`Method::Cells`] (a cell may be met several times).
     pub nodes: u64,
     /// Pivots of the linear programs.
     pub pivots: u64,
