@@ -58,9 +58,9 @@ impl IntervalModeProblem {
     /// // One slider, eq. (9): (sigma - mu eta s) y = N(0), with mu eta s between 0.1 and 0.3.
     /// let range = |low, high| IntervalMatrix::from_bounds(&dmatrix![low], &dmatrix![high]).expect("in order");
     /// let problem = IntervalModeProblem::new(
-    ///     BySide { positive: range(0.7, 0.9), negative: range(-1.3, -1.1) },
-    ///     BySide::same(IntervalMatrix::exact(DMatrix::zeros(1, 1))),
-    ///     IntervalMatrix::exact(dmatrix![4.0]),
+    ///     &BySide { positive: range(0.7, 0.9), negative: range(-1.3, -1.1) },
+    ///     &BySide::same(IntervalMatrix::exact(DMatrix::zeros(1, 1))),
+    ///     &IntervalMatrix::exact(dmatrix![4.0]),
     /// )?;
     /// let Decision::Solution { unknowns, .. } = decide(&problem, &[ContactState::Positive]).decision else {
     ///     panic!("the solution persists for all values");
@@ -69,9 +69,9 @@ impl IntervalModeProblem {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(
-        columns: BySide<IntervalMatrix>,
-        jumps: BySide<IntervalMatrix>,
-        right_hand_side: IntervalMatrix,
+        columns: &BySide<IntervalMatrix>,
+        jumps: &BySide<IntervalMatrix>,
+        right_hand_side: &IntervalMatrix,
     ) -> Result<Self, IntervalModeProblemError> {
         if right_hand_side.shape().1 != 1 {
             let columns = right_hand_side.shape().1;

@@ -179,9 +179,9 @@ fn mantissa_and_exponent(value: f64) -> (i64, i32) {
     }
     let bits = value.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as i32;
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let fraction = (bits & ((1 << 52) - 1)).cast_signed();
     let (size, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
     let zeros = size.trailing_zeros();
     let mantissa = size >> zeros;
-    (if value < 0.0 { -mantissa } else { mantissa }, exponent + zeros as i32)
+    (if value < 0.0 { -mantissa } else { mantissa }, exponent + zeros.cast_signed())
 }

@@ -131,6 +131,7 @@ impl Interval {
     }
 
     /// The absolute values of the numbers in the interval.
+    #[must_use]
     pub fn abs(self) -> Self {
         if self.lower >= 0.0 {
             self

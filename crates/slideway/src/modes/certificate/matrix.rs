@@ -37,7 +37,8 @@ impl IntervalMatrix {
     /// The matrices between two bounds; none if shapes differ, bounds are out of order, or an entry
     /// is infinite or not a number. Centre and radius are rounded so that no matrix is lost.
     pub fn from_bounds(lower: &DMatrix<f64>, upper: &DMatrix<f64>) -> Option<Self> {
-        if lower.shape() != upper.shape() || lower.iter().zip(upper).any(|(low, high)| !(low <= high)) {
+        let in_order = || lower.iter().zip(upper).all(|(low, high)| low <= high);
+        if lower.shape() != upper.shape() || !in_order() {
             return None;
         }
         let centre = lower.zip_map(upper, |low, high| (0.5 * low + 0.5 * high).clamp(low, high));

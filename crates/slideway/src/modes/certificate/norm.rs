@@ -104,7 +104,7 @@ fn has_cholesky_factor(mut matrix: DMatrix<f64>) -> bool {
             }
         }
         let pivot = matrix[(column, column)];
-        if !(pivot > 0.0) {
+        if pivot <= 0.0 || pivot.is_nan() {
             return false;
         }
         let root = pivot.sqrt();

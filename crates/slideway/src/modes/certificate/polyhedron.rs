@@ -100,7 +100,7 @@ impl ExactSet {
         }
         let limits = Limits::new(echelon, pattern);
         // The set holds no line, so it is empty exactly if it has no vertex.
-        let Some((mut vertices, mut directions)) = limits.corners(bases) else {
+        let Some(Corners { mut vertices, mut directions }) = limits.corners(bases) else {
             return Self::NotComputed;
         };
         match (vertices.len(), directions.len()) {
@@ -111,6 +111,12 @@ impl ExactSet {
             _ => Self::Polytope { vertices, directions },
         }
     }
+}
+
+/// Vertices and extreme directions.
+struct Corners {
+    vertices: Vec<Vec<RBig>>,
+    directions: Vec<Vec<RBig>>,
 }
 
 /// The solutions of the independent equations, `z_k = constant_k + sum_f coefficient_kf t_f`, where
@@ -147,7 +153,7 @@ impl Limits {
     }
 
     /// Vertices and extreme directions; none if that takes more than `bases` trials.
-    fn corners(&self, bases: u64) -> Option<(Vec<Vec<RBig>>, Vec<Vec<RBig>>)> {
+    fn corners(&self, bases: u64) -> Option<Corners> {
         let (rows, parameters) = (self.rows.len(), self.parameters);
         let work = binomial(rows, parameters).saturating_add(binomial(rows, parameters - 1));
         if work > bases {
@@ -155,7 +161,7 @@ impl Limits {
         }
         let vertices = combinations(rows, parameters).filter_map(|tight| self.vertex(&tight));
         let directions = combinations(rows, parameters - 1).filter_map(|tight| self.direction(&tight));
-        Some((distinct(vertices), distinct(directions)))
+        Some(Corners { vertices: distinct(vertices), directions: distinct(directions) })
     }
 
     /// The point at which the given limits are reached, if it is one point and within all others.
