@@ -39,6 +39,7 @@
 //! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
 
 mod candidate;
+pub mod certificate;
 mod contact_set;
 mod degenerate;
 mod enumeration;
