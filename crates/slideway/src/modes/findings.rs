@@ -36,6 +36,21 @@ struct SharedPattern {
     free: ContactSet,
 }
 
+/// What became of one pattern.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum PatternOutcome {
+    /// Some `y_k < 0`, or a share out of its range.
+    NoSolution,
+    /// Contacts with `y_k = 0`, then those with a share of 0 or 1.
+    Solution { on_boundary: Vec<usize> },
+    /// Singular without a solution.
+    Locked,
+    /// Singular with a solution or a continuum of them.
+    Singular,
+    /// Not within the limits.
+    NotExamined,
+}
+
 pub(super) struct Findings<'a> {
     problem: &'a ScaledProblem,
     limits: Limits,
@@ -102,21 +117,48 @@ impl<'a> Findings<'a> {
     }
 
     /// Solves a pattern carefully and files its outcome.
-    pub(super) fn examine_candidate(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+    pub(super) fn examine_candidate(
+        &mut self,
+        pattern: &[ContactState],
+    ) -> Result<PatternOutcome, EnumerationError> {
         let Some(candidate) = solve_pattern(self.problem, pattern) else {
             self.counts_of(pattern).not_examined += 1;
-            return Ok(());
+            return Ok(PatternOutcome::NotExamined);
         };
         self.file_candidate(pattern, candidate)
     }
 
     /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
-    pub(super) fn examine_leaf(&mut self, pattern: &mut [ContactState]) -> Result<(), EnumerationError> {
+    pub(super) fn examine_leaf(
+        &mut self,
+        pattern: &mut [ContactState],
+    ) -> Result<PatternOutcome, EnumerationError> {
         match solve_pattern(self.problem, pattern) {
             Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
                 self.file_candidate(pattern, candidate)
             }
-            _ => self.examine_all_below(pattern, pattern.len()),
+            _ if self.examined >= self.limits.singular => {
+                self.leave_unexamined(pattern, pattern.len());
+                Ok(PatternOutcome::NotExamined)
+            }
+            _ => self.examine_suspect(pattern),
+        }
+    }
+
+    /// A closer look at a pattern that may be singular.
+    fn examine_suspect(&mut self, pattern: &[ContactState]) -> Result<PatternOutcome, EnumerationError> {
+        self.examined += 1;
+        match examine(self.problem, pattern, &mut self.bases) {
+            Examined::Regular => self.examine_candidate(pattern),
+            Examined::Singular(set) => {
+                let outcome = match set {
+                    SolutionSet::Empty => PatternOutcome::Locked,
+                    SolutionSet::NotComputed => PatternOutcome::NotExamined,
+                    _ => PatternOutcome::Singular,
+                };
+                self.file_singular(pattern, set);
+                Ok(outcome)
+            }
         }
     }
 
@@ -124,13 +166,14 @@ impl<'a> Findings<'a> {
         &mut self,
         pattern: &[ContactState],
         candidate: Candidate,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<PatternOutcome, EnumerationError> {
         let counts = self.counts_of(pattern);
         if !candidate.admissible {
             counts.no_solution += 1;
-            return Ok(());
+            return Ok(PatternOutcome::NoSolution);
         }
-        if candidate.zero.is_empty() && candidate.at_end.is_empty() {
+        let on_boundary: Vec<usize> = candidate.zero.iter().chain(candidate.at_end.iter()).collect();
+        if on_boundary.is_empty() {
             counts.solution += 1;
         } else {
             counts.boundary += 1;
@@ -140,7 +183,7 @@ impl<'a> Findings<'a> {
             return Err(EnumerationError::TooManySolutions { limit: self.limits.solutions });
         }
         self.file(pattern, candidate);
-        Ok(())
+        Ok(PatternOutcome::Solution { on_boundary })
     }
 
     fn file(&mut self, pattern: &[ContactState], candidate: Candidate) {
@@ -186,12 +229,7 @@ impl<'a> Findings<'a> {
             }
             return Ok(());
         }
-        self.examined += 1;
-        match examine(self.problem, pattern, &mut self.bases) {
-            Examined::Regular => self.examine_candidate(pattern)?,
-            Examined::Singular(set) => self.file_singular(pattern, set),
-        }
-        Ok(())
+        self.examine_suspect(pattern).map(|_| ())
     }
 
     fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {

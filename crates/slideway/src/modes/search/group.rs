@@ -1,6 +1,7 @@
 //! The search within one group of contacts.
 
 use super::cells::{self, Walked};
+use super::leaf::Leaves;
 use super::low_rank::LowRank;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
@@ -29,20 +30,24 @@ pub(super) fn search_group(
     monitor: &mut Monitor<'_>,
 ) -> GroupAnswer {
     let scaled = ScaledProblem::new(problem);
-    let mut findings = Findings::new(&scaled, &options.limits);
+    let mut leaves = Leaves::new(problem, Findings::new(&scaled, &options.limits), options.certify);
     let arguments = options.arguments;
     let solved = if arguments.propagation || arguments.uniqueness { Propagation::new(&scaled) } else { None };
     let proof = solved.as_ref().filter(|_| arguments.uniqueness);
-    let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut findings, monitor));
+    let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut leaves, monitor));
     let answered = unique.or_else(|| {
         let worthwhile = arguments.low_rank && scaled.contacts() >= CELLS_FROM;
-        if worthwhile { by_cells(&scaled, &mut findings, monitor) } else { None }
+        if worthwhile { by_cells(&scaled, &mut leaves, monitor) } else { None }
     });
     let (method, tree) = answered.unwrap_or_else(|| {
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
-        let tree = Tree::new(&scaled, propagation, options).run(&mut findings, monitor);
+        let tree = Tree::new(&scaled, propagation, options).run(&mut leaves, monitor);
         (Method::BranchAndBound, tree)
     });
+    // Rounding errors in the walk along cells are not bounded.
+    let exclusions_proven = !matches!(method, Method::Cells { .. });
+    let unproven = leaves.unproven();
+    let mut findings = leaves.into_findings();
     findings.sort();
     let report = GroupReport {
         contacts: (0..problem.contacts()).collect(),
@@ -52,7 +57,8 @@ pub(super) fn search_group(
         pivots: tree.pivots,
         shares: tree.shares,
         loads: 1,
-        proven: false,
+        unproven_patterns: unproven,
+        proven: exclusions_proven && unproven == 0,
         exclusions: tree.exclusions,
     };
     GroupAnswer { solutions: findings.into_solutions(), report }
@@ -62,15 +68,15 @@ pub(super) fn search_group(
 fn by_uniqueness(
     problem: &ScaledProblem,
     solved: &Propagation,
-    findings: &mut Findings<'_>,
+    leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {
     let method = uniqueness::proof(problem, solved)?;
-    let mut pattern = uniqueness::only_pattern(problem, solved)?;
+    let pattern = uniqueness::only_pattern(problem, solved)?;
     let mut report = TreeReport { nodes: 1, ..TreeReport::default() };
     if !monitor.visit(0.0, 0) {
         report.shares = PatternShares { unexplored: 1.0, ..PatternShares::default() };
-    } else if findings.examine_leaf(&mut pattern).is_err() {
+    } else if leaves.examine(pattern).is_err() {
         monitor.stop(StopReason::SolutionLimit);
     } else {
         let examined = (-log2_patterns(problem)).exp2();
@@ -82,16 +88,16 @@ fn by_uniqueness(
 /// The solutions among the cells of an arrangement, if the coupling is of low rank.
 fn by_cells(
     problem: &ScaledProblem,
-    findings: &mut Findings<'_>,
+    leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {
     let low_rank = LowRank::of(problem)?;
     let Walked { candidates, patterns, fraction } = cells::walk(&low_rank, monitor)?;
     let examined = (candidates.len() as f64).log2() - log2_patterns(problem);
     for sides in candidates {
-        let mut pattern: Vec<ContactState> =
+        let pattern: Vec<ContactState> =
             sides.iter().map(|&side| ContactState::PRESSED[usize::from(side)]).collect();
-        if findings.examine_leaf(&mut pattern).is_err() {
+        if leaves.examine(pattern).is_err() {
             monitor.stop(StopReason::SolutionLimit);
             break;
         }

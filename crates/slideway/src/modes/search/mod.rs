@@ -26,6 +26,7 @@ mod composition;
 mod count;
 mod group;
 mod groups;
+mod leaf;
 mod low_rank;
 mod monitor;
 mod product;

@@ -15,17 +15,21 @@ pub struct SearchOptions {
     pub limits: Limits,
     /// Which arguments the search may use; by default all of them.
     pub arguments: Arguments,
+    /// Whether the outcome of every pattern that is solved is also decided by proof, for the numbers
+    /// as given. Without it nothing is [`Completeness::Proven`].
+    pub certify: bool,
     /// Whether every excluded node is kept with its proof, in [`GroupReport::exclusions`].
     pub keep_exclusions: bool,
 }
 
 impl Default for SearchOptions {
-    /// 100 million nodes, all arguments, no list of exclusions.
+    /// 100 million nodes, all arguments, proofs, no list of exclusions.
     fn default() -> Self {
         Self {
             nodes: 100_000_000,
             limits: Limits::default(),
             arguments: Arguments::default(),
+            certify: true,
             keep_exclusions: false,
         }
     }
@@ -184,6 +188,9 @@ pub struct GroupReport {
     pub shares: PatternShares,
     /// Right-hand sides that the group was searched with.
     pub loads: u64,
+    /// Patterns whose outcome within tolerances was not confirmed by
+    /// [`certificate::decide`](crate::modes::certificate::decide).
+    pub unproven_patterns: u64,
     /// Whether every exclusion and every outcome is established with error bounds, for the
     /// right-hand sides as given.
     pub proven: bool,
@@ -199,6 +206,7 @@ impl GroupReport {
         self.loads += other.loads;
         self.nodes += other.nodes;
         self.pivots += other.pivots;
+        self.unproven_patterns += other.unproven_patterns;
         self.proven &= other.proven;
         self.exclusions.extend(other.exclusions.iter().cloned());
         if self.method != other.method {

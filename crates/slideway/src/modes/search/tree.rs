@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
+use super::leaf::Leaves;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
 use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
 use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
-use crate::modes::findings::Findings;
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::ContactState;
 
@@ -52,17 +52,17 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Visits nodes until none is left or the monitor says stop; `findings` takes what is found.
-    pub(super) fn run(mut self, findings: &mut Findings<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
+    /// Visits nodes until none is left or the monitor says stop; `leaves` takes patterns that are left.
+    pub(super) fn run(mut self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
         let root = Node { states: all_states(self.problem), basis: Rc::new(self.relaxation.first_basis()) };
         let mut open = vec![root];
         while let Some(node) = open.pop() {
-            if !monitor.visit(self.report.shares.done(), findings.found()) {
+            if !monitor.visit(self.report.shares.done(), leaves.found()) {
                 open.push(node);
                 break;
             }
             self.report.nodes += 1;
-            if let Err(reason) = self.visit(node, &mut open, findings) {
+            if let Err(reason) = self.visit(node, &mut open, leaves) {
                 monitor.stop(reason);
             }
         }
@@ -76,7 +76,7 @@ impl<'a> Tree<'a> {
         &mut self,
         mut node: Node,
         open: &mut Vec<Node>,
-        findings: &mut Findings<'_>,
+        leaves: &mut Leaves<'_>,
     ) -> Result<(), StopReason> {
         if !self.propagate(&mut node.states) {
             return Ok(());
@@ -94,7 +94,7 @@ impl<'a> Tree<'a> {
         };
         let pattern: Vec<ContactState> = node.states.iter().filter_map(|states| states.decided()).collect();
         if pattern.len() == node.states.len() {
-            return self.examine(pattern, findings);
+            return self.examine(pattern, leaves);
         }
         let (contact, preferred) = branching(&node.states, relaxed.as_deref());
         let basis = if relaxed.is_some() { Rc::new(basis) } else { node.basis };
@@ -123,14 +123,10 @@ impl<'a> Tree<'a> {
         true
     }
 
-    fn examine(
-        &mut self,
-        mut pattern: Vec<ContactState>,
-        findings: &mut Findings<'_>,
-    ) -> Result<(), StopReason> {
+    fn examine(&mut self, pattern: Vec<ContactState>, leaves: &mut Leaves<'_>) -> Result<(), StopReason> {
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
         self.report.shares.examined += fraction_of_patterns(self.problem, &states);
-        findings.examine_leaf(&mut pattern).map_err(|_| StopReason::SolutionLimit)
+        leaves.examine(pattern)
     }
 
     fn keep(&mut self, states: &[StateSet], argument: impl FnOnce() -> ExclusionArgument) {
