@@ -99,6 +99,11 @@ impl ScaledProblem {
         (matrix, right_hand_side)
     }
 
+    /// Something that adds to the problem's right-hand side, in scaled units.
+    pub(super) fn scaled_load(&self, load: &DVector<f64>) -> DVector<f64> {
+        load.component_mul(&self.row_scale) / self.load_unit
+    }
+
     /// A combination of the scaled equations as a combination of the problem's own equations.
     pub(super) fn unscaled_rows(&self, multipliers: &[f64]) -> Vec<f64> {
         multipliers.iter().zip(&self.row_scale).map(|(multiplier, scale)| multiplier * scale).collect()

@@ -3,15 +3,15 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use nalgebra::{DMatrix, DVector};
-
 use super::group::{GroupAnswer, search_group};
 use super::groups::Groups;
+use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
 use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
-use crate::modes::problem::{ModeProblem, ModeProblemError, Side};
-use crate::modes::solutions::{ContactState, SolutionSet, Solutions};
+use crate::modes::certificate::Interval;
+use crate::modes::problem::{ModeProblem, ModeProblemError};
+use crate::modes::solutions::{SolutionSet, Solutions};
 
 /// A group's contacts and the right-hand side of its equations, bit by bit.
 type GroupKey = (Vec<usize>, Vec<u64>);
@@ -24,8 +24,8 @@ pub(super) struct Composer<'p, 'm, 'c> {
     solved: HashMap<GroupKey, Rc<GroupAnswer>>,
     /// Reports of all groups, those of one group with several right-hand sides added up.
     pub(super) reports: Vec<GroupReport>,
-    /// Whether some group was solved with the rounded solution of another.
-    pub(super) chained: bool,
+    /// Whether every solution that other groups depend on is enclosed by proof.
+    pub(super) chain_proven: bool,
     pub(super) all_examined: bool,
 }
 
@@ -43,7 +43,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             monitor,
             solved: HashMap::new(),
             reports: Vec::new(),
-            chained: false,
+            chain_proven: true,
             all_examined: true,
         }
     }
@@ -51,7 +51,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     /// All solutions of the problem.
     pub(super) fn solve(&mut self) -> Result<SolutionProduct, ModeProblemError> {
         let all: Vec<usize> = (0..self.groups.members.len()).collect();
-        let mut product = self.solve_groups(&all, self.problem.right_hand_side(), (0.0, 1.0))?;
+        let mut product = self.solve_groups(&all, &Load::exact(self.problem), (0.0, 1.0))?;
         product.prune();
         Ok(product)
     }
@@ -61,7 +61,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     fn solve_groups(
         &mut self,
         groups: &[usize],
-        load: &DVector<f64>,
+        load: &Load,
         work: (f64, f64),
     ) -> Result<SolutionProduct, ModeProblemError> {
         let contacts = |part: &[usize]| -> usize { part.iter().map(|&g| self.groups.members[g].len()).sum() };
@@ -89,7 +89,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     fn solve_part(
         &mut self,
         part: &[usize],
-        load: &DVector<f64>,
+        load: &Load,
         work: (f64, f64),
     ) -> Result<Factor, ModeProblemError> {
         let rest = &part[1..];
@@ -110,12 +110,11 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             let answer = self.solve_group(&contacts, load)?;
             return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts });
         }
-        self.chained = true;
         let mut alternatives = alternatives(&answer.solutions);
         let share = (work.1 - own) / alternatives.len().max(1) as f64;
         let mut done = work.0 + own;
         for alternative in &mut alternatives {
-            let load = self.load_with(&first, &alternative.state, load);
+            let load = self.load_with(&first, &answer, &alternative.state, load);
             alternative.dependents = self.solve_groups(rest, &load, (done, share))?;
             done += share;
         }
@@ -123,23 +122,13 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 
     /// The solutions of one group's equations, each right-hand side solved once.
-    fn solve_group(
-        &mut self,
-        contacts: &[usize],
-        load: &DVector<f64>,
-    ) -> Result<Rc<GroupAnswer>, ModeProblemError> {
-        let key = (
-            contacts.to_vec(),
-            contacts.iter().map(|&contact| load[contact].to_bits()).collect::<Vec<u64>>(),
-        );
+    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Result<Rc<GroupAnswer>, ModeProblemError> {
+        let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
+        let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
         if let Some(answer) = self.solved.get(&key) {
             return Ok(Rc::clone(answer));
         }
-        let restricted = if contacts.len() == self.problem.contacts() {
-            self.problem.clone()
-        } else {
-            restricted(self.problem, contacts, load)?
-        };
+        let restricted = LoadedProblem::restricted(self.problem, contacts, load)?;
         let mut answer = search_group(&restricted, self.options, self.monitor);
         self.monitor.count_found(answer.solutions.solutions.len() + answer.solutions.gaps.len());
         answer.report.contacts = contacts.to_vec();
@@ -159,23 +148,31 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 
     /// The right-hand side with `sum_k d_k - c_k y_k` of a group's contacts.
-    fn load_with(&self, contacts: &[usize], state: &GroupState, load: &DVector<f64>) -> DVector<f64> {
+    fn load_with(
+        &mut self,
+        contacts: &[usize],
+        answer: &GroupAnswer,
+        state: &GroupState,
+        load: &Load,
+    ) -> Load {
         let mut load = load.clone();
         let Some(force) = state.normal_force() else { return load };
-        let jump = |side: Side, contact: usize| self.problem.jumps(side).column(contact);
-        for (at, (&contact, state)) in contacts.iter().zip(state.pattern()).enumerate() {
-            match state {
-                // What a jump reaches is in the same group: elsewhere both sides are equal.
-                ContactState::Gap => load += jump(Side::Negative, contact),
-                ContactState::Positive | ContactState::Negative => {
-                    let side = if state == ContactState::Positive { Side::Positive } else { Side::Negative };
-                    load += jump(side, contact);
-                    load -= self.problem.columns(side).column(contact) * force[at].abs();
-                }
-            }
+        let pattern = state.pattern();
+        let enclosure = answer.enclosures.get(&pattern);
+        self.chain_proven &= enclosure.is_some();
+        for (at, (&contact, &state)) in contacts.iter().zip(&pattern).enumerate() {
+            let y = force[at].abs();
+            let radius = enclosure.map_or(0.0, |unknowns| distance(unknowns[at], y));
+            load.add_contact(self.problem, contact, state, y, radius);
         }
         load
     }
+}
+
+/// How far a number within bounds may be from `y`, rounded up.
+fn distance(bounds: Interval, y: f64) -> f64 {
+    let largest = (bounds.upper() - y).max(y - bounds.lower());
+    if largest > 0.0 { largest.next_up() } else { 0.0 }
 }
 
 /// What a group admits, as alternatives without dependents.
@@ -194,23 +191,4 @@ fn alternatives(solutions: &Solutions) -> Vec<Alternative> {
 
 fn admits_singular_sets(solutions: &Solutions) -> bool {
     solutions.singular.iter().any(|mode| mode.set != SolutionSet::Empty)
-}
-
-/// The equations and columns of some contacts alone.
-fn restricted(
-    problem: &ModeProblem,
-    contacts: &[usize],
-    load: &DVector<f64>,
-) -> Result<ModeProblem, ModeProblemError> {
-    let size = contacts.len();
-    let part = |matrix: &DMatrix<f64>| {
-        DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
-    };
-    ModeProblem::new(
-        part(problem.columns(Side::Positive)),
-        part(problem.columns(Side::Negative)),
-        part(problem.jumps(Side::Positive)),
-        part(problem.jumps(Side::Negative)),
-        DVector::from_fn(size, |row, _| load[contacts[row]]),
-    )
 }

@@ -1,7 +1,8 @@
 //! The search within one group of contacts.
 
 use super::cells::{self, Walked};
-use super::leaf::Leaves;
+use super::leaf::{Enclosures, Leaves};
+use super::load::LoadedProblem;
 use super::low_rank::LowRank;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
@@ -9,7 +10,6 @@ use super::report::{GroupReport, Method, PatternShares, SearchOptions, StopReaso
 use super::tree::{Tree, TreeReport};
 use super::uniqueness;
 use crate::modes::findings::Findings;
-use crate::modes::problem::ModeProblem;
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::{ContactState, Solutions};
 
@@ -20,19 +20,25 @@ const CELLS_FROM: usize = 13;
 #[derive(Debug, Clone)]
 pub(super) struct GroupAnswer {
     pub(super) solutions: Solutions,
+    pub(super) enclosures: Enclosures,
     pub(super) report: GroupReport,
 }
 
 /// Finds all solutions of the problem of one group with the cheapest method that applies.
 pub(super) fn search_group(
-    problem: &ModeProblem,
+    loaded: &LoadedProblem,
     options: &SearchOptions,
     monitor: &mut Monitor<'_>,
 ) -> GroupAnswer {
-    let scaled = ScaledProblem::new(problem);
-    let mut leaves = Leaves::new(problem, Findings::new(&scaled, &options.limits), options.certify);
+    let scaled = ScaledProblem::new(&loaded.problem);
+    let load_radius = scaled.scaled_load(&loaded.radius);
+    let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), options.certify);
     let arguments = options.arguments;
-    let solved = if arguments.propagation || arguments.uniqueness { Propagation::new(&scaled) } else { None };
+    let solved = if arguments.propagation || arguments.uniqueness {
+        Propagation::new(&scaled, &load_radius)
+    } else {
+        None
+    };
     let proof = solved.as_ref().filter(|_| arguments.uniqueness);
     let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut leaves, monitor));
     let answered = unique.or_else(|| {
@@ -41,16 +47,16 @@ pub(super) fn search_group(
     });
     let (method, tree) = answered.unwrap_or_else(|| {
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
-        let tree = Tree::new(&scaled, propagation, options).run(&mut leaves, monitor);
+        let tree = Tree::new(&scaled, propagation, &load_radius, options).run(&mut leaves, monitor);
         (Method::BranchAndBound, tree)
     });
     // Rounding errors in the walk along cells are not bounded.
     let exclusions_proven = !matches!(method, Method::Cells { .. });
     let unproven = leaves.unproven();
-    let mut findings = leaves.into_findings();
+    let (mut findings, enclosures) = leaves.into_findings();
     findings.sort();
     let report = GroupReport {
-        contacts: (0..problem.contacts()).collect(),
+        contacts: (0..scaled.contacts()).collect(),
         method,
         log2_patterns: log2_patterns(&scaled),
         nodes: tree.nodes,
@@ -61,7 +67,7 @@ pub(super) fn search_group(
         proven: exclusions_proven && unproven == 0,
         exclusions: tree.exclusions,
     };
-    GroupAnswer { solutions: findings.into_solutions(), report }
+    GroupAnswer { solutions: findings.into_solutions(), enclosures, report }
 }
 
 /// The only solution, if a proof says that there is exactly one.

@@ -1,33 +1,60 @@
 //! The outcome of single patterns, and whether it is proven.
 
+use std::collections::HashMap;
+
+use super::load::LoadedProblem;
 use super::report::StopReason;
-use crate::modes::certificate::{Decision, ExactSet, decide};
+use crate::modes::certificate::{Decision, ExactSet, Interval, IntervalModeProblem, decide};
 use crate::modes::findings::{Findings, PatternOutcome};
-use crate::modes::problem::ModeProblem;
 use crate::modes::solutions::ContactState;
+
+/// Proven bounds of the unknowns of each pattern that has a solution.
+pub(super) type Enclosures = HashMap<Vec<ContactState>, Vec<Interval>>;
+
+/// What proofs refer to.
+enum Proofs<'a> {
+    None,
+    Exact(&'a LoadedProblem),
+    /// All right-hand sides within bounds.
+    Within(Box<IntervalModeProblem>),
+}
 
 /// Solves patterns one by one.
 pub(super) struct Leaves<'a> {
-    problem: &'a ModeProblem,
+    proofs: Proofs<'a>,
     findings: Findings<'a>,
-    certify: bool,
-    /// Patterns solved, and those among them whose outcome is not proven.
-    examined: u64,
+    enclosures: Enclosures,
+    /// Patterns whose outcome is not proven.
     unproven: u64,
 }
 
 impl<'a> Leaves<'a> {
     /// Patterns of `problem`, of which `findings` has the scaled form.
-    pub(super) fn new(problem: &'a ModeProblem, findings: Findings<'a>, certify: bool) -> Self {
-        Self { problem, findings, certify, examined: 0, unproven: 0 }
+    pub(super) fn new(problem: &'a LoadedProblem, findings: Findings<'a>, certify: bool) -> Self {
+        let proofs = if !certify {
+            Proofs::None
+        } else if problem.is_exact() {
+            Proofs::Exact(problem)
+        } else {
+            problem.within_bounds().map_or(Proofs::None, |problem| Proofs::Within(Box::new(problem)))
+        };
+        Self { proofs, findings, enclosures: Enclosures::new(), unproven: 0 }
     }
 
     /// Files what a pattern admits.
     pub(super) fn examine(&mut self, mut pattern: Vec<ContactState>) -> Result<(), StopReason> {
-        self.examined += 1;
         let outcome = self.findings.examine_leaf(&mut pattern).map_err(|_| StopReason::SolutionLimit)?;
-        if !self.certify || !confirms(&decide(self.problem, &pattern).decision, &outcome) {
-            self.unproven += 1;
+        let verdict = match &self.proofs {
+            Proofs::None => None,
+            Proofs::Exact(loaded) => Some(decide(&loaded.problem, &pattern)),
+            Proofs::Within(problem) => Some(decide(problem.as_ref(), &pattern)),
+        };
+        match verdict.map(|verdict| verdict.decision).filter(|decision| confirms(decision, &outcome)) {
+            None => self.unproven += 1,
+            Some(Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) => {
+                self.enclosures.insert(pattern, unknowns);
+            }
+            Some(_) => {}
         }
         Ok(())
     }
@@ -41,8 +68,8 @@ impl<'a> Leaves<'a> {
         self.unproven
     }
 
-    pub(super) fn into_findings(self) -> Findings<'a> {
-        self.findings
+    pub(super) fn into_findings(self) -> (Findings<'a>, Enclosures) {
+        (self.findings, self.enclosures)
     }
 }
 

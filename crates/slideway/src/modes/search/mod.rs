@@ -27,6 +27,7 @@ mod count;
 mod group;
 mod groups;
 mod leaf;
+mod load;
 mod low_rank;
 mod monitor;
 mod product;
@@ -86,12 +87,13 @@ pub fn search(
     let mut monitor = Monitor::new(options.nodes, progress);
     let mut composer = Composer::new(problem, options, &mut monitor);
     let product = composer.solve()?;
-    let (groups, chained, all_examined) = (composer.reports, composer.chained, composer.all_examined);
+    let (groups, all_examined) = (composer.reports, composer.all_examined);
+    let proven = composer.chain_proven && groups.iter().all(|group| group.proven);
     let completeness = match monitor.stopped() {
         Some(reason) => Completeness::Partial(reason),
         None if !all_examined => Completeness::Unexamined,
-        None if chained || groups.iter().any(|group| !group.proven) => Completeness::NotProven,
-        None => Completeness::Proven,
+        None if proven => Completeness::Proven,
+        None => Completeness::NotProven,
     };
     Ok(SearchResult { product, completeness, groups, contacts: problem.contacts() })
 }

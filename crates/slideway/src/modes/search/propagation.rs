@@ -46,8 +46,8 @@ pub(super) struct Propagation {
 }
 
 impl Propagation {
-    /// None if `A` is singular.
-    pub(super) fn new(problem: &ScaledProblem) -> Option<Self> {
+    /// For all right-hand sides within `load_radius`; none if `A` is singular.
+    pub(super) fn new(problem: &ScaledProblem, load_radius: &DVector<f64>) -> Option<Self> {
         let contacts = problem.contacts();
         let columns = |state| {
             let columns: Vec<_> = (0..contacts).map(|contact| problem.column(contact, state)).collect();
@@ -64,7 +64,7 @@ impl Propagation {
         let slip = residual + &sizes * (a.abs() + b.abs()) * (2.0 * rounding);
         let frictionless = &inverse * problem.base();
         let jump_difference = -columns(ContactState::Gap);
-        let offset_error = &sizes * problem.load_size() * (4.0 * rounding);
+        let offset_error = &sizes * (problem.load_size() * (4.0 * rounding) + load_radius * 1.01);
         if !slip.iter().chain(&frictionless).all(|value| value.is_finite()) {
             return None;
         }

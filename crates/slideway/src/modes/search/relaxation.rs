@@ -9,6 +9,8 @@
 //! on its positive side, and so on; in its gap both `y` are zero. What is dropped is that one of
 //! `y_k^+` and `y_k^-` is zero. If this has no solution the node has none.
 
+use nalgebra::DVector;
+
 use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::modes::scaling::ScaledProblem;
@@ -54,8 +56,9 @@ pub(super) enum Relaxed {
 }
 
 impl Relaxation {
-    /// The relaxation with `y_k <= largest_k` for every solution.
-    pub(super) fn new(problem: &ScaledProblem, largest: Vec<f64>) -> Self {
+    /// The relaxation with `y_k <= largest_k` for every solution, for all right-hand sides within
+    /// `load_radius`.
+    pub(super) fn new(problem: &ScaledProblem, load_radius: &DVector<f64>, largest: Vec<f64>) -> Self {
         let contacts = problem.contacts();
         let (mut columns, mut cost, mut first) = (Vec::new(), Vec::new(), Vec::new());
         let mut column_scale = Vec::new();
@@ -70,7 +73,8 @@ impl Relaxation {
             }
         }
         let load_size = problem.load_size().as_slice().to_vec();
-        let load_error = rounding_of_load(problem);
+        let load_error =
+            rounding_of_load(problem).iter().zip(load_radius).map(|(error, radius)| error + radius).collect();
         Self {
             program: LinearProgram::new(&columns, problem.base().as_slice().to_vec(), cost),
             first,

@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use nalgebra::DVector;
+
 use super::leaf::Leaves;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
@@ -39,6 +41,7 @@ impl<'a> Tree<'a> {
     pub(super) fn new(
         problem: &'a ScaledProblem,
         propagation: Option<&'a Propagation>,
+        load_radius: &DVector<f64>,
         options: &SearchOptions,
     ) -> Self {
         let unbounded = || vec![f64::INFINITY; problem.contacts()];
@@ -46,7 +49,7 @@ impl<'a> Tree<'a> {
         Self {
             problem,
             propagation,
-            relaxation: Relaxation::new(problem, largest),
+            relaxation: Relaxation::new(problem, load_radius, largest),
             keep_exclusions: options.keep_exclusions,
             report: TreeReport::default(),
         }
