@@ -18,7 +18,7 @@ use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum}
 use super::system::BoundedVector;
 
 /// How often a trial bound is enlarged.
-const INFLATIONS: usize = 4;
+const INFLATIONS: usize = 16;
 /// By how much more than needed.
 const INFLATION: f64 = 1.1;
 
