@@ -349,3 +349,29 @@ fn friction_within_bounds_tells_what_persists() -> Result<(), Box<dyn Error>> {
 fn exact_rational_of_a_float() {
     assert_eq!(rational(0.75), RBig::from_parts(3.into(), 4_u8.into()));
 }
+
+/// Uncoupled contacts with `N_1 = load + sum jumps`, and all others well pressed.
+fn with_cancelling_jumps(load: f64, jumps: &[f64]) -> ModeProblem {
+    let contacts = jumps.len();
+    let mut jump_matrix = DMatrix::zeros(contacts, contacts);
+    jump_matrix.set_row(0, &DVector::from_column_slice(jumps).transpose());
+    let identity = DMatrix::identity(contacts, contacts);
+    let mut right = DVector::repeat(contacts, 1.0);
+    right[0] = load;
+    ModeProblem::new(identity.clone(), -identity, jump_matrix.clone(), jump_matrix, right).expect("finite")
+}
+
+#[test]
+fn sums_that_cancel_are_decided_by_more_digits() {
+    // In f64 the sum is -2^-58, in fact it is +2^-58.
+    let problem = with_cancelling_jumps(2.0_f64.powi(-57), &[1.0, -1.0, -(2.0_f64.powi(-58))]);
+    let verdict = decide(&problem, &[POSITIVE; 3]);
+    assert!(matches!(verdict.decision, Decision::Solution { .. }));
+    assert_eq!(verdict.precision, Precision::DoubleDouble);
+    // Even with twice the digits the sum is -2^-113, in fact it is +2^-113.
+    let small = 2.0_f64.powi(-56);
+    let jumps = [small, 2.0_f64.powi(-112), -small, -1.0, -(2.0_f64.powi(-113))];
+    let verdict = decide(&with_cancelling_jumps(1.0, &jumps), &[POSITIVE; 5]);
+    assert!(matches!(verdict.decision, Decision::Solution { .. }));
+    assert_eq!(verdict.precision, Precision::Rational);
+}

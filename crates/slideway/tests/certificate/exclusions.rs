@@ -4,9 +4,10 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 use slideway::modes::certificate::{
-    Interval, IntervalModeProblem, Propagation, Sign, propagate, proves_at_most_one, proves_empty,
+    Interval, IntervalMatrix, IntervalModeProblem, Propagation, Sign, propagate, proves_at_most_one,
+    proves_empty,
 };
-use slideway::modes::{ContactState, ModeProblem, Side};
+use slideway::modes::{BySide, ContactState, ModeProblem, Side};
 
 use crate::oracle::{self, Digits, STATES, agrees, forces, patterns, rational};
 
@@ -255,4 +256,19 @@ fn rotation_is_proved_by_its_norm_only() {
     let jumping = ModeProblem::new(plus, minus, jump.clone(), -jump, load.clone()).expect("finite");
     assert!(!proves_at_most_one(&jumping, &none));
     assert!(proves_at_most_one(&jumping, &vec![Some(ContactState::Positive); size]));
+}
+
+#[test]
+fn bounds_cover_wide_coefficients() {
+    // y between 2/3 and 2 on the positive side; N between 1 / 1.5 and 1 / 0.5 with the side open.
+    let wide = |centre: f64| IntervalMatrix::around(dmatrix![centre], dmatrix![0.5]).expect("finite");
+    let columns = BySide { positive: wide(1.0), negative: wide(-1.0) };
+    let jumps = BySide::same(IntervalMatrix::exact(dmatrix![0.0]));
+    let problem =
+        IntervalModeProblem::new(&columns, &jumps, &IntervalMatrix::exact(dmatrix![1.0])).expect("it fits");
+    let Propagation::Bounds(bounds) = propagate(&problem, &[Some(ContactState::Positive)]) else {
+        panic!("bounds");
+    };
+    assert!(bounds[0].contains(2.0 / 3.0) && bounds[0].contains(2.0) && bounds[0].upper() < 2.1);
+    assert_eq!(propagate(&problem, &[None]), Propagation::Unknown);
 }
