@@ -9,7 +9,7 @@
 //! ```
 //!
 //! for every matrix and right-hand side within the given bounds (Rump, Verification methods, Acta
-//! Numerica 19 (2010), theorem 10.8).
+//! Numerica 19 (2010)).
 
 use nalgebra::{DMatrix, DVector};
 
