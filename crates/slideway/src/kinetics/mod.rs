@@ -18,7 +18,7 @@ mod system;
 pub use loads::Wrench;
 pub(crate) use loads::unit_effort as effort_forces;
 
-use crate::configuration::{Configuration, ContactState, motion_in_words};
+use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::mechanism::{JointKind, Mechanism, rot90};
@@ -102,7 +102,7 @@ pub struct KineticEquations {
     /// Where the unknowns stand.
     pub layout: Layout,
     /// The contacts in this configuration.
-    pub contacts: Vec<ContactState>,
+    pub contacts: Vec<ContactGeometry>,
     /// All that acts on the bodies besides reactions and friction: weights and loads.
     pub applied: Vec<Wrench>,
     /// Right-hand side without friction: f, gamma, prescribed accelerations.
@@ -121,7 +121,7 @@ impl KineticEquations {
     /// equations too ill-conditioned to be solved.
     pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let layout = Layout::new(mechanism);
-        let contacts: Vec<ContactState> =
+        let contacts: Vec<ContactGeometry> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
         let applied = loads::applied(mechanism, configuration)?;
         let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
@@ -229,7 +229,7 @@ impl Builder<'_> {
 
     /// W_k^{+} and W_k^{-}: a unit friction force, -u on the block and u on the guide, at the pressed face
     /// P - sign(N) (h/2) n.
-    fn friction(&self, id: ContactId, contact: &ContactState) -> [DVector<f64>; 2] {
+    fn friction(&self, id: ContactId, contact: &ContactGeometry) -> [DVector<f64>; 2] {
         [1.0, -1.0].map(|sign| {
             let mut column = DVector::zeros(self.layout.len());
             for wrench in friction_forces(self.mechanism, id, contact, sign, 1.0) {
@@ -292,7 +292,7 @@ impl Builder<'_> {
 pub(crate) fn friction_forces(
     mechanism: &Mechanism,
     id: ContactId,
-    contact: &ContactState,
+    contact: &ContactGeometry,
     sign: f64,
     friction: f64,
 ) -> [Wrench; 2] {

@@ -3,7 +3,7 @@
 //! Nothing of the kinetic equations' matrix is used: the forces are placed at their points, and their moments are
 //! taken about the origin of the world frame.
 
-use crate::configuration::{Configuration, ContactState};
+use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::ContactFriction;
 use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
@@ -25,7 +25,7 @@ pub(super) struct Residual {
 pub(super) struct Balance<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) configuration: &'a Configuration,
-    pub(super) contacts: &'a [ContactState],
+    pub(super) contacts: &'a [ContactGeometry],
     pub(super) applied: &'a [Wrench],
     pub(super) layout: &'a Layout,
     pub(super) unknowns: &'a DVector<f64>,
