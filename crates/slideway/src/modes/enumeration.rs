@@ -259,7 +259,7 @@ impl<'a> Tree<'a> {
             self.findings.offer_closest(&self.pattern, self.levels[self.pattern.len()].determinant);
         }
         if self.may_be_solution() {
-            self.findings.examine_candidate(&self.pattern)
+            self.findings.examine_candidate(&self.pattern).map(|_| ())
         } else {
             self.findings.count_no_solution(self.in_gap > 0);
             Ok(())
