@@ -19,6 +19,8 @@ const VERTICES: usize = 1024;
 const ENCLOSURE_WORK: f64 = 1e9;
 /// Solutions on a boundary are decided in rational numbers: only for so many unknowns.
 const EXACT_UNKNOWNS: usize = 24;
+/// Solutions that differ by less than this, relative to the largest unknown, are the same.
+const SAME: f64 = 1e-9;
 
 /// All solutions of a raw problem.
 ///
@@ -52,7 +54,8 @@ pub fn solve(
         solutions: Vec::new(),
         gap_states: Vec::new(),
         continua: Vec::new(),
-        strategy: result.strategy(),
+        // Whoever has matrices has unknowns, no contacts.
+        strategy: result.strategy().replace("contacts", "unknowns"),
         nodes: result.nodes(),
         groups: result.groups.iter().map(group).collect(),
     };
@@ -144,12 +147,13 @@ fn open(result: &SearchResult, proved: &Proved, counts: &Counts) -> Vec<String> 
             open.push(format!("{reason}; {}", unexplored(groups)));
         }
     }
+    // A list that is not complete stays so whatever the rounding.
     let rounded = match proved {
         Proved::Exact => None,
         Proved::Within { rounded, .. } => Some(format!("rounded in {rounded} of their entries")),
         Proved::Nothing => Some("rounded".to_owned()),
     };
-    if let Some(rounded) = rounded.filter(|_| !unique_within(result, proved, counts)) {
+    if let Some(rounded) = rounded.filter(|_| !proven_within(result, proved, counts)) {
         open.push(format!(
             "A + B and A - B are {rounded}: what is proven holds for the problem with the rounded numbers"
         ));
@@ -177,15 +181,15 @@ fn not_proven(groups: &[GroupReport]) -> String {
     }
 }
 
-/// Whether the one solution is proven to be the only one for the numbers before rounding.
-fn unique_within(result: &SearchResult, proved: &Proved, counts: &Counts) -> bool {
-    counts.points.to_u64() == Some(1)
-        && counts.continua.is_zero()
-        && result
-            .product
-            .states()
-            .next()
-            .is_some_and(|state| proved.only_solution(&state.pattern(result.contacts)))
+/// Whether it is proven for the numbers before rounding, too, that the list is complete.
+fn proven_within(result: &SearchResult, proved: &Proved, counts: &Counts) -> bool {
+    let Some(points) = counts.points.to_u64().filter(|_| counts.continua.is_zero()) else { return false };
+    let only = || {
+        let mut states = result.product.states();
+        points == 1
+            && states.next().is_some_and(|state| proved.only_solution(&state.pattern(result.contacts)))
+    };
+    proved.number_of_solutions() == Some(points) || only()
 }
 
 fn group(report: &GroupReport) -> RawGroup {
@@ -200,7 +204,8 @@ fn group(report: &GroupReport) -> RawGroup {
             propagation: shares.propagation,
             relaxation: shares.relaxation,
             examined: shares.examined,
-            unexplored: shares.unexplored,
+            // An empty sum is -0.
+            unexplored: shares.unexplored + 0.0,
         },
         proven: report.proven,
     }
@@ -238,6 +243,11 @@ impl Teller<'_> {
         });
         list(Sort::Gap, gaps, &mut |state| report.gap_states.push(self.point(state, 0)));
         list(Sort::Continuum, continua, &mut |state| report.continua.push(self.continuum(state)));
+        for solution in &mut report.solutions {
+            let ends_it =
+                |continuum: &RawContinuum| continuum.vertices.iter().any(|end| same(end, &solution.unknowns));
+            solution.end_of_continuum = report.continua.iter().position(ends_it);
+        }
     }
 
     fn kind(&self) -> RawKind {
@@ -265,6 +275,7 @@ impl Teller<'_> {
             enclosure_radius,
             residual: self.residual(&signed, &pattern, &gaps),
             gaps,
+            end_of_continuum: None,
         }
     }
 
@@ -416,6 +427,14 @@ fn with_jumps(problem: &ModeProblem, pattern: &[ContactState], gaps: &[GapShare]
 fn relative(sum: &DVector<f64>, size: &DVector<f64>) -> f64 {
     let scale = size.amax();
     if scale > 0.0 && scale.is_finite() { sum.amax() / scale } else { 0.0 }
+}
+
+/// Whether two solutions are the same but for rounding.
+fn same(one: &Unknowns, other: &Unknowns) -> bool {
+    one.named().iter().zip(other.named()).all(|((_, one), (_, other))| {
+        let scale = one.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
+        one.iter().zip(other).all(|(one, other)| (one - other).abs() <= SAME * scale)
+    })
 }
 
 fn sign(value: f64) -> i8 {

@@ -117,6 +117,9 @@ pub struct RawSolution {
     /// What is left over in the problem's equations, relative to the largest sum of sizes of terms
     /// in an equation.
     pub residual: f64,
+    /// The continuum of the list `continua`, from 0, of which this is a vertex; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_of_continuum: Option<usize>,
     /// Unknowns in their gap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<GapShare>,

@@ -9,6 +9,9 @@ use crate::modes::certificate::{
 };
 use crate::modes::{BySide, ContactState, ModeProblem, Side};
 
+/// The most unknowns with which every pattern is decided.
+const EVERY_PATTERN: usize = 10;
+
 /// The problem that proofs are about.
 pub(super) enum Proved {
     /// The mode problem as it stands: nothing was rounded.
@@ -48,6 +51,25 @@ impl Proved {
         let verdict = || decide(problem.as_ref(), pattern).decision;
         proves_at_most_one(problem.as_ref(), &vec![None; pattern.len()])
             && matches!(verdict(), Decision::Solution { .. })
+    }
+
+    /// The number of solutions of the problem as given, if it is small enough to decide every pattern
+    /// and all of them can be decided.
+    pub(super) fn number_of_solutions(&self) -> Option<u64> {
+        let Self::Within { problem, .. } = self else { return None };
+        let size = problem.centre().contacts();
+        let mut solutions = 0;
+        for number in 0..1_u32.checked_shl(u32::try_from(size).ok()?).filter(|_| size <= EVERY_PATTERN)? {
+            let side = |at: usize| {
+                if number >> at & 1 == 0 { ContactState::Positive } else { ContactState::Negative }
+            };
+            match decide(problem.as_ref(), &(0..size).map(side).collect::<Vec<_>>()).decision {
+                Decision::Solution { .. } => solutions += 1,
+                Decision::NoSolution { .. } => {}
+                _ => return None,
+            }
+        }
+        Some(solutions)
     }
 
     /// How far the values of a pattern may be from those of its exact solution; none if that is not

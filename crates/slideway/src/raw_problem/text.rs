@@ -46,26 +46,30 @@ impl Text<'_> {
         let report = self.report;
         let found = if report.partial { " found so far" } else { "" };
         let single = match report.count.as_str() {
-            "0" => format!("No single solution{found}"),
-            "1" => format!("One solution{found}"),
-            count => format!("{count} solutions{found}"),
+            "0" => "No single solution".to_owned(),
+            "1" => "One solution".to_owned(),
+            count => format!("{count} solutions"),
         };
+        let single = format!("{single}{found}");
         let verdict = match report.status {
             Status::None => "No solution.".to_owned(),
             Status::Unknown => {
                 "Nothing found, but not every pattern of signs could be dealt with.".to_owned()
             }
             Status::Continuum => {
-                let sets = match report.continuum_count.as_str() {
-                    "1" => "a set of infinitely many solutions".to_owned(),
-                    count => format!("{count} sets of infinitely many solutions each"),
+                let continua = match report.continuum_count.as_str() {
+                    "1" => "one continuum".to_owned(),
+                    count => format!("{count} continua"),
                 };
-                format!("{single}, and {sets}.")
+                format!("Infinitely many solutions: {continua}{found}.")
             }
             Status::PreloadGap => "No solution, but a state with an unknown in its preload gap.".to_owned(),
             Status::One | Status::Several => format!("{single}."),
         };
         self.line(&self.style.verdict(report.status, &verdict));
+        if report.status == Status::Continuum {
+            self.line(&format!("{single} by a regular pattern; ends of continua may be among such."));
+        }
         self.line(&format!("complete: {}", report.complete));
         for open in &report.open {
             self.line(&format!("  open: {open}"));
@@ -79,13 +83,21 @@ impl Text<'_> {
             let signs = if solution.signs.len() > SIGNS { String::new() } else { signs(solution) };
             self.line(format!("{title}   {signs}").trim_end());
             self.boundary(solution);
+            if let Some(continuum) = solution.end_of_continuum {
+                self.line(&format!("  An end of continuum {}", continuum + 1));
+            }
             let rows = rows(self.report.kind, &[&solution.unknowns]);
             self.out.push_str(&rows);
             for gap in &solution.gaps {
                 self.line(&format!("  {} is in its gap, share {}", gap.index + 1, number(gap.lambda)));
             }
             if let Some(radius) = solution.enclosure_radius {
-                self.line(&format!("  proven to within {}", power_of_ten_above(radius)));
+                let bound = power_of_ten_above(radius);
+                self.line(&if radius == 0.0 {
+                    "  exact".to_owned()
+                } else {
+                    format!("  proven to within {bound}")
+                });
             }
         }
         if !solutions.is_empty() && solutions.len().to_string() != all {
@@ -243,7 +255,7 @@ fn ranges(indices: &[usize]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// A power of ten above a bound: "1e-15".
+/// A power of ten above a bound, with room for the rounding of other machines: "1e-15".
 fn power_of_ten_above(bound: f64) -> String {
-    if bound == 0.0 { "0".to_owned() } else { format!("1e{}", bound.log10().ceil()) }
+    format!("1e{}", bound.log10().ceil().max(-15.0))
 }
