@@ -1,13 +1,16 @@
 //! `decide` against rational numbers.
 
 use dashu_ratio::RBig;
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use slideway::modes::certificate::{
-    Decision, DecisionCounts, ExactOutcome, ExactSet, Interval, IntervalModeProblem, Precision, Sign, decide,
-    solve_exactly,
+    Decision, DecisionCounts, ExactOutcome, ExactSet, Interval, IntervalInfluence, IntervalMatrix,
+    IntervalModeProblem, IntervalModeProblemError, Precision, Sign, decide, solve_exactly,
 };
-use slideway::modes::{ContactState, Limits, ModeProblem, enumerate};
+use slideway::modes::{
+    BySide, ContactState, InfluenceCoefficients, Limits, ModeProblem, ModeProblemError, Side, enumerate,
+};
 
 use crate::oracle::{self, Digits, STATES, patterns, rational};
 
@@ -30,6 +33,8 @@ fn check(problem: &ModeProblem, pattern: &[ContactState], counts: &mut DecisionC
     let on_boundary = !zeros.is_empty() || !ones.is_empty();
     match &verdict.decision {
         Decision::Solution { unknowns, determinant } => {
+            let largest = unknowns.iter().fold(0.0, |most: f64, value| most.max(value.upper()));
+            assert!(unknowns.iter().all(|value| value.width() <= 1e-9 * largest));
             assert!(!on_boundary && !(0..exact.len()).any(outside));
             assert!(unknowns.iter().zip(&exact).all(|(interval, value)| holds(*interval, value)));
             assert_ne!(*determinant, Sign::Zero);
@@ -59,10 +64,10 @@ fn check_set(problem: &ModeProblem, pattern: &[ContactState], set: &ExactSet) {
     assert_eq!(found.len(), expected.len(), "{set:?}");
     assert!(expected.iter().all(|point| found.contains(&point.as_slice())));
     let zero_load = ModeProblem::new(
-        problem.columns(slideway::modes::Side::Positive).clone(),
-        problem.columns(slideway::modes::Side::Negative).clone(),
-        problem.jumps(slideway::modes::Side::Positive) * 0.0,
-        problem.jumps(slideway::modes::Side::Negative) * 0.0,
+        problem.columns(Side::Positive).clone(),
+        problem.columns(Side::Negative).clone(),
+        problem.jumps(Side::Positive) * 0.0,
+        problem.jumps(Side::Negative) * 0.0,
         problem.right_hand_side() * 0.0,
     )
     .expect("finite");
@@ -155,8 +160,8 @@ fn shifted(problem: &ModeProblem, steps: &[i32], width: f64) -> ModeProblem {
     let mut steps = steps.iter();
     let mut shift =
         |value: f64| value * (1.0 + 0.999 * width * f64::from(*steps.next().expect("one step per number")));
-    let [plus, minus] = slideway::modes::Side::BOTH.map(|side| problem.columns(side).map(&mut shift));
-    let [jump_plus, jump_minus] = slideway::modes::Side::BOTH.map(|side| problem.jumps(side).map(&mut shift));
+    let [plus, minus] = Side::BOTH.map(|side| problem.columns(side).map(&mut shift));
+    let [jump_plus, jump_minus] = Side::BOTH.map(|side| problem.jumps(side).map(&mut shift));
     let right = problem.right_hand_side().map(&mut shift);
     ModeProblem::new(plus, minus, jump_plus, jump_minus, right).expect("finite")
 }
@@ -200,4 +205,78 @@ fn most_patterns_take_plain_arithmetic() {
     assert_eq!(counts.double + counts.double_double, 40 * 64);
     assert!(counts.double > 40 * 63, "{counts:?}");
     assert_eq!(counts.merged(counts).double, 2 * counts.double);
+}
+
+#[test]
+fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
+    let (eta, mu) = (DMatrix::from_element(2, 2, 0.3), 0.1);
+    let exact = |matrix: &DMatrix<f64>| BySide::same(IntervalMatrix::exact(matrix.clone()));
+    let vector = |value: f64| DMatrix::from_element(2, 1, value);
+    let influence = IntervalInfluence {
+        eta: exact(&eta),
+        eta_preload: exact(&eta),
+        mu: exact(&vector(mu)),
+        preload: exact(&vector(0.7)),
+        velocity_signs: DVector::from_vec(vec![1.0, -1.0]),
+        frictionless: IntervalMatrix::exact(vector(1.0)),
+    };
+    let problem = IntervalModeProblem::from_influence(&influence).expect("it fits");
+    let rounded = ModeProblem::from_influence(&InfluenceCoefficients {
+        eta: BySide::same(eta.clone()),
+        eta_preload: BySide::same(eta),
+        mu: BySide::same(DVector::from_element(2, mu)),
+        preload: BySide::same(DVector::from_element(2, 0.7)),
+        velocity_signs: influence.velocity_signs.clone(),
+        frictionless: DVector::from_element(2, 1.0),
+    })
+    .expect("it fits");
+    for pattern in patterns(2, &STATES[..2]) {
+        let (within, single) = (decide(&problem, &pattern).decision, decide(&rounded, &pattern).decision);
+        let (Decision::Solution { unknowns: wide, .. }, Decision::Solution { unknowns: narrow, .. }) =
+            (&within, &single)
+        else {
+            assert_eq!(within, single);
+            continue;
+        };
+        assert!(wide.iter().zip(narrow).all(|(wide, narrow)| wide.intersection(*narrow).is_some()));
+        assert!(wide.iter().all(|interval| interval.width() < 1e-13));
+    }
+    let misfit = IntervalInfluence { mu: exact(&DMatrix::zeros(3, 1)), ..influence.clone() };
+    assert!(matches!(
+        IntervalModeProblem::from_influence(&misfit),
+        Err(IntervalModeProblemError::Problem(ModeProblemError::Shape { found: (3, 1), .. }))
+    ));
+    let skew = IntervalInfluence { velocity_signs: DVector::from_vec(vec![1.0, 0.5]), ..influence.clone() };
+    assert!(matches!(
+        IntervalModeProblem::from_influence(&skew),
+        Err(IntervalModeProblemError::Problem(ModeProblemError::VelocitySign { contact: 1, .. }))
+    ));
+    let huge = IntervalInfluence {
+        preload: exact(&vector(1e308)),
+        eta_preload: exact(&DMatrix::from_element(2, 2, 1e9)),
+        ..influence
+    };
+    assert!(matches!(
+        IntervalModeProblem::from_influence(&huge),
+        Err(IntervalModeProblemError::Radius { .. })
+    ));
+    assert!(IntervalModeProblem::widened(&rounded, -1.0).is_err());
+    assert!(IntervalModeProblem::widened(&rounded, f64::MAX).is_err());
+}
+
+#[test]
+fn enclosures_of_solutions_are_narrow() {
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let mut solutions = 0;
+    for _ in 0..20 {
+        let problem =
+            oracle::problem(6, Digits::Many, true, Some(0.2)).new_tree(&mut runner).expect("a problem");
+        for pattern in patterns(6, &STATES[..2]) {
+            if let Decision::Solution { unknowns, .. } = decide(&problem.current(), &pattern).decision {
+                solutions += 1;
+                assert!(unknowns.iter().all(|value| value.width() <= 2.0 * f64::EPSILON * value.upper()));
+            }
+        }
+    }
+    assert!(solutions > 10);
 }

@@ -18,15 +18,15 @@ fn equations(problem: &ModeProblem, pattern: &[ContactState]) -> Vec<Vec<RBig>> 
     let in_gap: Vec<usize> = (0..contacts).filter(|&k| pattern[k] == ContactState::Gap).collect();
     let width = contacts + in_gap.len();
     let mut rows = vec![vec![RBig::ZERO; width + 1]; width];
-    for row in 0..contacts {
-        rows[row][width] = rational(problem.right_hand_side()[row]);
+    for (row, equation) in rows[..contacts].iter_mut().enumerate() {
+        equation[width] = rational(problem.right_hand_side()[row]);
         for (k, state) in pattern.iter().enumerate() {
             let jump = |side: Side| rational(problem.jumps(side)[(row, k)]);
-            rows[row][k] = match state.side() {
+            equation[k] = match state.side() {
                 Some(side) => rational(problem.columns(side)[(row, k)]),
                 None => jump(Side::Negative) - jump(Side::Positive),
             };
-            rows[row][width] += jump(state.side().unwrap_or(Side::Negative));
+            equation[width] += jump(state.side().unwrap_or(Side::Negative));
         }
     }
     for (index, &k) in in_gap.iter().enumerate() {

@@ -1,4 +1,5 @@
 //! Random problems, and the comparison of a search with the enumeration of all patterns.
+#![allow(dead_code, reason = "each test uses a part of it")]
 
 use std::ops::ControlFlow;
 
@@ -15,7 +16,7 @@ pub(crate) struct Random {
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
-        let mut random = Self { state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 2002 };
+        let mut random = Self { state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) };
         random.number();
         random.number();
         random
@@ -30,7 +31,7 @@ impl Random {
 
     /// From 0 to less than `count`.
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        (0..count).rfind(|&at| (self.number() + 1.0) / 2.0 < 1.0 / (at + 1) as f64).unwrap_or(0)
+        (0..count).rfind(|&at| f64::midpoint(self.number(), 1.0) < 1.0 / (at + 1) as f64).unwrap_or(0)
     }
 
     /// A whole number from `-most` to `most`.
@@ -48,7 +49,7 @@ impl Random {
 
     pub(crate) fn sparse_matrix(&mut self, size: usize, density: f64) -> DMatrix<f64> {
         DMatrix::from_fn(size, size, |_, _| {
-            let (value, kept) = (self.number(), (self.number() + 1.0) / 2.0 < density);
+            let (value, kept) = (self.number(), f64::midpoint(self.number(), 1.0) < density);
             if kept { value } else { 0.0 }
         })
     }

@@ -120,7 +120,8 @@ impl DecisionCounts {
 /// contact (theory, section 3), and encloses the solution rigorously (see [`enclose_solution`]). Where
 /// a sign stays in doubt the residual is computed with twice the digits, and after that an exact
 /// problem is solved in rational numbers, so that it is never left undecided. Units are those of the
-/// problem; an enclosure is about as wide as rounding errors of a stable solution, or narrower.
+/// problem. For an exact problem the enclosure of a solution is about as narrow as `f64` allows, unless
+/// the pattern is close to singular.
 ///
 /// [`enclose_solution`]: super::enclose_solution
 ///
@@ -146,8 +147,12 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
     {
         for precision in [Precision::Double, Precision::DoubleDouble] {
             enclosure = approximation.improve(precision).or(enclosure);
-            if let Some(decision) = enclosure.as_ref().and_then(|found| found.decide(pattern)) {
-                return Verdict { decision, precision };
+            match enclosure.as_ref().and_then(|found| found.decide(pattern)) {
+                Some(decision @ Decision::Solution { .. }) if precision == Precision::Double => {
+                    return Verdict { decision: approximation.sharpened(decision), precision };
+                }
+                Some(decision) => return Verdict { decision, precision },
+                None => {}
             }
         }
     }
@@ -188,6 +193,19 @@ impl<'a> Approximation<'a> {
             Enclosure { unknowns: unknowns.collect(), determinant: self.inverse.determinant_sign() };
         self.unknowns += centre;
         Some(enclosure)
+    }
+}
+
+impl Approximation<'_> {
+    /// The same solution within narrower bounds, if there are such.
+    fn sharpened(&mut self, solution: Decision) -> Decision {
+        let Decision::Solution { unknowns, determinant } = solution else { return solution };
+        let Some(sharper) = self.improve(Precision::DoubleDouble) else {
+            return Decision::Solution { unknowns, determinant };
+        };
+        let both = |(one, other): (&Interval, &Interval)| one.intersection(*other).unwrap_or(*one);
+        let unknowns = unknowns.iter().zip(&sharper.unknowns).map(both).collect();
+        Decision::Solution { unknowns, determinant }
     }
 }
 

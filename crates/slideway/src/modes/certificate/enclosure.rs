@@ -9,7 +9,7 @@
 //! ```
 //!
 //! for every matrix and right-hand side within the given bounds (Rump, Verification methods, Acta
-//! Numerica 19 (2010), theorem 10.8).
+//! Numerica 19 (2010)).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,7 +18,7 @@ use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum}
 use super::system::BoundedVector;
 
 /// How often a trial bound is enlarged.
-const INFLATIONS: usize = 4;
+const INFLATIONS: usize = 16;
 /// By how much more than needed.
 const INFLATION: f64 = 1.1;
 

@@ -10,6 +10,8 @@ use crate::modes::{ContactState, Side};
 /// Products within this fraction of their terms' size may be zero but for rounding and for the bounds
 /// of the data.
 const NEARLY_ZERO: f64 = 1e-3;
+/// Columns whose products are below this multiple of what is missing are moved away from zero, too.
+const NEARBY: f64 = 64.0;
 /// How much further weights are moved than they miss.
 const STEPS: [f64; 2] = [2.0, 8.0];
 
@@ -51,19 +53,19 @@ pub fn proves_empty<'a>(
     let problem = problem.into();
     assert_eq!(partial.len(), problem.contacts(), "one entry per contact");
     assert_eq!(weights.len(), problem.contacts(), "one weight per equation");
-    let Some(nearly_zero) = nearly_zero_columns(problem, partial, weights) else { return false };
-    if nearly_zero.columns.is_empty() {
-        return opposes_right_hand_side(problem, partial, weights);
-    }
-    // Not worth a factorization if the right-hand side is no obstacle in the first place.
+    let Some(missing) = missing_fraction(problem, partial, weights) else { return false };
     if !opposes_right_hand_side(problem, partial, weights) {
         return false;
     }
-    let Some(direction) = direction_inwards(&nearly_zero.columns, weights) else { return false };
+    if missing == 0.0 {
+        return true;
+    }
+    let nearly_zero = nearly_zero_columns(problem, partial, weights, NEARBY * missing);
+    let Some(direction) = direction_inwards(&nearly_zero, weights) else { return false };
     STEPS.iter().any(|step| {
-        let step = step * nearly_zero.missing;
+        let step = step * missing;
         let moved: Vec<f64> = weights.iter().zip(&direction).map(|(w, towards)| w + step * towards).collect();
-        nearly_zero_columns(problem, partial, &moved).is_some_and(|left| left.columns.is_empty())
+        missing_fraction(problem, partial, &moved) == Some(0.0)
             && opposes_right_hand_side(problem, partial, &moved)
     })
 }
@@ -84,39 +86,55 @@ fn opposes_right_hand_side(
     sum.upper() < 0.0
 }
 
-/// Columns that a solution may use, and for which `w . c_k^{sigma} >= 0` fails by little.
-#[derive(Default)]
-struct NearlyZero<'a> {
-    columns: Vec<&'a [f64]>,
-    /// By how much at most, as a fraction of `|w| . |c_k|`.
-    missing: f64,
+/// The columns that a solution may use.
+fn usable_columns<'a>(
+    problem: ProblemView<'a>,
+    partial: &[Option<ContactState>],
+) -> impl Iterator<Item = Column<'a>> {
+    let sides = partial.iter().map(|&state| column_sides(state)).enumerate();
+    sides.flat_map(move |(contact, sides)| sides.iter().map(move |&side| problem.column(contact, side)))
 }
 
-/// The columns for which `w . c_k^{sigma} >= 0` is not verified; none if it fails by more than rounding
-/// and the bounds of the data can do.
+/// By how much at most `w . c_k^{sigma} >= 0` is not verified, as a fraction of `|w| . |c_k^{sigma}|`:
+/// 0 if it is for all columns. None if that is more than rounding and the bounds of the data can do.
+fn missing_fraction(
+    problem: ProblemView<'_>,
+    partial: &[Option<ContactState>],
+    weights: &[f64],
+) -> Option<f64> {
+    let mut most: f64 = 0.0;
+    for column in usable_columns(problem, partial) {
+        let product = inner_product(weights, column.centre, column.radius);
+        if product.lower() >= 0.0 || exact_where_possible(weights, column).lower() >= 0.0 {
+            continue;
+        }
+        let missing = -product.lower() / product_size(weights, column.centre);
+        if missing > NEARLY_ZERO || missing.is_nan() {
+            return None;
+        }
+        most = most.max(missing);
+    }
+    Some(most)
+}
+
+/// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of
+/// `|w| . |c_k^{sigma}|`, or negative.
 fn nearly_zero_columns<'a>(
     problem: ProblemView<'a>,
     partial: &[Option<ContactState>],
     weights: &[f64],
-) -> Option<NearlyZero<'a>> {
-    let mut nearly_zero = NearlyZero::default();
-    for (contact, &state) in partial.iter().enumerate() {
-        for &side in column_sides(state) {
-            let column = problem.column(contact, side);
-            let product = inner_product(weights, column.centre, column.radius);
-            if product.lower() >= 0.0 || exact_where_possible(weights, column).lower() >= 0.0 {
-                continue;
-            }
-            let size: f64 = weights.iter().zip(column.centre).map(|(w, c)| (w * c).abs()).sum();
-            let missing = -product.lower() / size;
-            if missing > NEARLY_ZERO || missing.is_nan() {
-                return None;
-            }
-            nearly_zero.missing = nearly_zero.missing.max(missing);
-            nearly_zero.columns.push(column.centre);
-        }
-    }
-    Some(nearly_zero)
+    fraction: f64,
+) -> Vec<&'a [f64]> {
+    let is_nearly_zero = |column: &Column<'_>| {
+        let product = inner_product(weights, column.centre, column.radius);
+        product.lower() < fraction * product_size(weights, column.centre)
+    };
+    usable_columns(problem, partial).filter(is_nearly_zero).map(|column| column.centre).collect()
+}
+
+/// `|w| . |c|`.
+fn product_size(weights: &[f64], column: &[f64]) -> f64 {
+    weights.iter().zip(column).map(|(w, c)| (w * c).abs()).sum()
 }
 
 /// `w . c` with no rounding where every partial sum is an `f64`.
@@ -131,7 +149,7 @@ fn direction_inwards(columns: &[&[f64]], weights: &[f64]) -> Option<Vec<f64>> {
     if columns.len() > rows {
         return None;
     }
-    let sizes = columns.iter().map(|column| weights.iter().zip(*column).map(|(w, c)| (w * c).abs()).sum());
+    let sizes = columns.iter().map(|column| product_size(weights, column));
     let sizes = DVector::from_iterator(columns.len(), sizes);
     let factors = DMatrix::from_fn(rows, columns.len(), |row, column| columns[column][row]).qr();
     // C = Q R: v = Q R^-T sizes.

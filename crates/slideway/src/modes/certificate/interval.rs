@@ -69,7 +69,7 @@ impl Interval {
         if value.is_finite() { Self { lower: value, upper: value } } else { Self::REAL_LINE }
     }
 
-    /// All numbers at most `radius >= 0` away from `centre`; the whole real line if one of them is
+    /// All numbers at most `radius >= 0` away from `centre`; the whole real line if one of the two is
     /// not a number.
     pub fn around(centre: f64, radius: f64) -> Self {
         if !centre.is_finite() {

@@ -80,7 +80,7 @@ fn gram(matrix: &IntervalMatrix) -> (DMatrix<f64>, DMatrix<f64>) {
 ///
 /// If the Cholesky factorization of `G - c I` in plain arithmetic runs to its end, then `G` is
 /// positive definite, provided that `c >= gamma / (1 - gamma) trace(G)`, `gamma = gamma_{n+2}`,
-/// underflow apart (Rump, Verification of positive definiteness, BIT 46 (2006), theorem 2.3); here
+/// underflow apart (Rump, Verification of positive definiteness, BIT 46 (2006)); here
 /// `spread` is subtracted as well.
 fn exceeds(mut matrix: DMatrix<f64>, spread: f64) -> bool {
     let size = matrix.nrows();

@@ -110,7 +110,7 @@ fn largest_sizes(equations: &Preconditioned) -> Option<DVector<f64>> {
     // A little more than the solution, so that rounding does not matter; the test below is what counts.
     let floor = constant.amax().max(f64::MIN_POSITIVE);
     let trial = system.lu().solve(&constant.map(|value| value * 1.000_001 + floor * 1e-9))?;
-    let holds = |(image, trial): (&f64, &f64)| image <= trial && trial.is_finite();
+    let holds = |(image, trial): (&f64, &f64)| *trial > 0.0 && image <= trial && trial.is_finite();
     image(&trial).iter().zip(&trial).all(holds).then_some(trial)
 }
 

@@ -18,6 +18,16 @@
 //! exclusion cannot be verified is split further. Patterns that are left are decided with the
 //! tolerances of [`modes`](super). [`SearchResult::completeness`] tells what is proven.
 //!
+//! Not proven are answers by method 3, whose rounding errors are not bounded, and patterns whose
+//! outcome within tolerances is not what [`certificate::decide`](super::certificate::decide) says of
+//! the numbers as given, for example within rounding of a boundary.
+//!
+//! # Cost
+//! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
+//! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low
+//! rank: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary is met
+//! in up to `2^m` patterns.
+//!
 //! Singular patterns that admit nothing (locking of the mode) are excluded like others and not
 //! listed, unlike in [`enumerate`](super::enumerate).
 
