@@ -151,7 +151,7 @@ pub enum RawFault {
         found: &'static str,
     },
     /// Rows of different lengths.
-    #[error("`{key}`: row {row} has {found} entries, row 0 has {expected}")]
+    #[error("`{key}`: row {row} has {}, row 0 has {expected} (counted from 0)", entries(*found))]
     Ragged {
         /// The name.
         key: String,
@@ -255,7 +255,11 @@ fn place(row: usize, column: Option<usize>) -> String {
 }
 
 fn because(reference: Option<&(&'static str, usize)>) -> String {
-    reference.map_or(String::new(), |(key, size)| format!(", as `{key}` has {size} entries"))
+    reference.map_or(String::new(), |(key, size)| format!(", as `{key}` has {}", entries(*size)))
+}
+
+fn entries(count: usize) -> String {
+    if count == 1 { "1 entry".to_owned() } else { format!("{count} entries") }
 }
 
 /// "`A`, `B` and `b`"

@@ -127,3 +127,38 @@ impl Archive {
         self.push("continuum_pattern", npy::write_texts(&[patterns.len()], &patterns));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Read};
+    use std::ops::ControlFlow;
+
+    use super::super::{RawProblem, npy, solve};
+    use super::to_npz;
+    use crate::modes::SearchOptions;
+
+    #[test]
+    fn an_archive_holds_the_solutions_row_by_row() {
+        let problem = RawProblem::from_json(br#"{"M": [[-1, 0], [0, -1]], "q": [1, 2]}"#).expect("a problem");
+        let report = solve(&problem, &SearchOptions::default(), 3, &mut |_| ControlFlow::Continue(()))
+            .expect("finite");
+        let bytes = to_npz(&report);
+        let mut archive = zip::ZipArchive::new(Cursor::new(&bytes)).expect("an archive");
+        let mut content = |name: &str| {
+            let mut content = Vec::new();
+            archive.by_name(name).expect(name).read_to_end(&mut content).expect(name);
+            content
+        };
+        let z = npy::numbers("z", &content("z.npy"), 100).expect("numbers");
+        let w = npy::numbers("w", &content("w.npy"), 100).expect("numbers");
+        assert_eq!(z.sizes, [3, 2]);
+        for (at, (z, w)) in z.values.iter().zip(&w.values).enumerate() {
+            assert_eq!(*w, [1.0, 2.0][at % 2] - z);
+        }
+        for (name, text) in [("count", "4"), ("complete", "proven"), ("type", "lcp"), ("status", "several")] {
+            assert_eq!(npy::text(name, &content(&format!("{name}.npy"))), Ok(Some(text.to_owned())));
+        }
+        // What is written has no time in it.
+        assert_eq!(bytes, to_npz(&report));
+    }
+}

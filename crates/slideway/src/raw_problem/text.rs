@@ -89,7 +89,7 @@ impl Text<'_> {
             let rows = rows(self.report.kind, &[&solution.unknowns]);
             self.out.push_str(&rows);
             for gap in &solution.gaps {
-                self.line(&format!("  {} is in its gap, share {}", gap.index + 1, number(gap.lambda)));
+                self.line(&format!("  N_{} is in its gap, share {}", gap.index + 1, number(gap.lambda)));
             }
             if let Some(radius) = solution.enclosure_radius {
                 let bound = power_of_ten_above(radius);
