@@ -15,8 +15,10 @@ use crate::report::Status;
 
 /// The most vertices of one continuum that are told.
 const VERTICES: usize = 1024;
-/// Enclosures are computed as long as the sum of n^3 over the solutions is below this.
-const ENCLOSURE_WORK: f64 = 1e9;
+/// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
+const ENCLOSURE_WORK: f64 = 3e7;
+/// ... and of the first solution for up to so many unknowns.
+const ENCLOSED_UNKNOWNS: usize = 500;
 /// Solutions on a boundary are decided in rational numbers: only for so many unknowns.
 const EXACT_UNKNOWNS: usize = 24;
 /// Solutions that differ by less than this, relative to the largest unknown, are the same.
@@ -263,7 +265,8 @@ impl Teller<'_> {
         let signs: Vec<i8> = signed.iter().map(|value| sign(*value)).collect();
         let on_boundary = signs.iter().enumerate().any(|(at, &sign)| sign == 0 && !in_gap(at));
         let singular = state.parts.iter().any(|(_, part)| matches!(part, GroupState::Singular(_)));
-        let affordable = (number as f64 + 1.0) * (size as f64).powi(3) <= ENCLOSURE_WORK
+        let work = (number as f64 + 1.0) * (size as f64).powi(3);
+        let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
             && (!on_boundary || size <= EXACT_UNKNOWNS);
         let enclosure_radius = (affordable && !singular && gaps.is_empty())
             .then(|| self.proved.radius(self.problem, &pattern, signed.as_slice()))
