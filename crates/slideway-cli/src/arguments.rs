@@ -42,7 +42,7 @@ pub(crate) enum Command {
     /// Say what a model consists of and whether it is sound
     #[command(after_help = CHECK_HELP)]
     Check(CheckArguments),
-    /// Find all solutions of an LCP, an absolute value equation or the like, given by its matrices
+    /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = MODES_HELP)]
     Modes(ModesArguments),
     /// List the gallery of models, or write one of them
