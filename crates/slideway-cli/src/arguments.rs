@@ -7,6 +7,7 @@ use clap_complete::Shell;
 use slideway::fault::Fault;
 use slideway::model::{SettingKind, Settings};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// All solutions of planar mechanisms with dry friction in sliding joints.
 ///
@@ -29,6 +30,7 @@ Examples:
   slideway models drawer > drawer.toml          write one of them to a file
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
+  slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
 
@@ -41,6 +43,9 @@ pub(crate) enum Command {
     /// Say what a model consists of and whether it is sound
     #[command(after_help = CHECK_HELP)]
     Check(CheckArguments),
+    /// Find all solutions of an LCP or the like, given by its matrices
+    #[command(after_help = MODES_HELP)]
+    Modes(ModesArguments),
     /// List the gallery of models, or write one of them
     #[command(after_help = MODELS_HELP)]
     Models(ModelsArguments),
@@ -79,6 +84,30 @@ Examples:
 Exit codes:
   0  the model is sound: `slideway solve` accepts it
   2  faulty input, or a finding for which `slideway solve` would refuse it";
+
+const MODES_HELP: &str = "\
+Types of problems and their arrays:
+  lcp    M, q       w = M z + q, w >= 0, z >= 0, w_k z_k = 0
+  ave    A, B, b    A x + B |x| = b
+  hlcp   A, B, q    A w - B z = q, w >= 0, z >= 0, w_k z_k = 0
+  modes  columns_positive, columns_negative, right_hand_side,
+         perhaps jumps_positive, jumps_negative
+
+As JSON, a matrix being a list of rows:
+  {\"type\": \"lcp\", \"M\": [[2, 1], [1, 2]], \"q\": [-1, 1]}
+or as a NumPy archive, written by numpy.savez(\"problem.npz\", M=M, q=q).
+
+Examples:
+  slideway modes problem.json
+  slideway modes problem.npz --output result.npz
+  slideway modes problem.json --time-limit 30s --format json
+  slideway modes - < problem.json
+
+Exit codes:
+  0  solutions were found: one, several, infinitely many, or a state in a preload gap
+  1  no solution, and the search was complete
+  2  faulty input: the problem, the files or the arguments
+  3  unknown: nothing was found, but the search was not complete";
 
 const MODELS_HELP: &str = "\
 Examples:
@@ -125,6 +154,59 @@ pub(crate) struct CheckArguments {
 
     #[command(flatten)]
     pub(crate) destination: Destination,
+}
+
+/// Arguments of `slideway modes`.
+#[derive(Debug, Args)]
+pub(crate) struct ModesArguments {
+    /// The problem (JSON or .npz), or `-` for standard input.
+    #[arg(value_name = "PROBLEM")]
+    pub(crate) file: PathBuf,
+
+    /// Form of the answer; without it the ending of the output file tells (.json, .npz), else text.
+    #[arg(long, value_enum)]
+    format: Option<ModesFormat>,
+
+    /// List at most so many solutions; all are counted.
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub(crate) max_solutions: usize,
+
+    /// End the search after so many nodes; the answer is then partial.
+    #[arg(long, value_name = "N")]
+    pub(crate) max_nodes: Option<u64>,
+
+    /// End the search after this time (30s, 500ms, 2min, 1.5h); the answer is then partial.
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time_limit: Option<Duration>,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+impl ModesArguments {
+    /// The form that is asked for.
+    pub(crate) fn format(&self) -> ModesFormat {
+        let ending = self.destination.output.as_ref().and_then(|path| path.extension()?.to_str());
+        self.format.unwrap_or(match ending {
+            Some("json") => ModesFormat::Json,
+            Some("npz") => ModesFormat::Npz,
+            _ => ModesFormat::Text,
+        })
+    }
+}
+
+/// A time such as 30s, 500ms, 2min, 1.5h; seconds without a unit.
+fn duration(text: &str) -> Result<Duration, String> {
+    let number = text.trim_end_matches(char::is_alphabetic);
+    let factor = match &text[number.len()..] {
+        "ms" => 1e-3,
+        "s" | "" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        unit => return Err(format!("the unit `{unit}` is none of ms, s, min, h")),
+    };
+    let seconds = number.trim_end().parse::<f64>().map_err(|_| format!("`{number}` is not a number"))?;
+    Duration::try_from_secs_f64(seconds * factor).map_err(|_| "it must be a positive time".to_owned())
 }
 
 /// Arguments of `slideway models`.
@@ -233,6 +315,17 @@ pub(crate) enum CheckFormat {
     Json,
 }
 
+/// Form of the answer to a problem given by matrices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ModesFormat {
+    /// Words and aligned numbers, for people.
+    Text,
+    /// The whole report, for programs.
+    Json,
+    /// A NumPy archive.
+    Npz,
+}
+
 /// When to use colours.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Color {
@@ -251,6 +344,23 @@ impl From<Color> for ColorChoice {
             Color::Auto => Self::Auto,
             Color::Always => Self::Always,
             Color::Never => Self::Never,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_units() {
+        let table =
+            [("30s", 30.0), ("500ms", 0.5), ("2min", 120.0), ("1.5h", 5400.0), ("7", 7.0), ("0", 0.0)];
+        for (text, seconds) in table {
+            assert_eq!(duration(text), Ok(Duration::from_secs_f64(seconds)), "{text}");
+        }
+        for text in ["", "s", "-1s", "1 day", "1e400", "nan", "inf", "s30"] {
+            assert!(duration(text).is_err(), "{text}");
         }
     }
 }

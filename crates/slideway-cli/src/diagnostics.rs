@@ -4,6 +4,7 @@ use crate::input::FaultyInput;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use slideway::fault::{Fault, FaultKind, Source};
 use slideway::model::SettingKind;
+use slideway::raw_problem::{RawFault, RawFaults};
 use std::ops::Range;
 
 /// At most so many faults are shown in full.
@@ -35,6 +36,24 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
         renderer.render(&[Group::with_title(
             Level::ERROR.primary_title(closing_line(&sorted, &texts.model_name)),
         )]),
+    );
+    parts.join("\n\n")
+}
+
+/// All faults of a problem given by matrices, and how many there are.
+pub(crate) fn raw_faults(name: &str, faults: &RawFaults) -> String {
+    let renderer = Renderer::styled();
+    let part = |fault: &RawFault| {
+        let group = Group::with_title(Level::ERROR.primary_title(fault.to_string()));
+        let hint = fault.hint().map(|hint| Level::HELP.message(hint));
+        renderer.render(&[group.element(Origin::path(name)).elements(hint)])
+    };
+    let mut parts: Vec<String> = faults.iter().take(SHOWN).map(part).collect();
+    let count = faults.iter().len();
+    let more = if count > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
+    let count = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
+    parts.push(
+        renderer.render(&[Group::with_title(Level::ERROR.primary_title(format!("{count} in {name}{more}")))]),
     );
     parts.join("\n\n")
 }

@@ -39,36 +39,11 @@ impl Input {
     pub(crate) fn read(arguments: &ModelArguments) -> Result<Self, Failure> {
         let path = arguments.file.as_path();
         let (settings, malformed) = arguments.settings();
-        let standard = path == Path::new("-");
-        let name = if standard { "standard input".to_owned() } else { path.display().to_string() };
-        let input = Self { name, bytes: Vec::new(), settings, malformed };
-        let cannot_read = |error: io::Error| match error.kind() {
-            io::ErrorKind::NotFound => {
-                Failure::NotFound { path: path.to_owned(), gallery_name: gallery_name(path) }
-            }
-            io::ErrorKind::IsADirectory => Failure::IsDirectory { path: path.to_owned() },
-            _ => Failure::CannotRead { path: path.to_owned(), error },
-        };
-        let (source, size): (Box<dyn Read>, u64) = if standard {
-            (Box::new(io::stdin().lock()), 0)
-        } else {
-            let file = File::open(path).map_err(cannot_read)?;
-            let metadata = file.metadata().map_err(cannot_read)?;
-            if metadata.is_dir() {
-                return Err(Failure::IsDirectory { path: path.to_owned() });
-            }
-            (Box::new(file), metadata.len())
-        };
-        let mut bytes = Vec::new();
-        if size <= SIZE_LIMIT {
-            source.take(SIZE_LIMIT + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
+        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed };
+        match read_bytes(path, SIZE_LIMIT)? {
+            Some(bytes) => Ok(Self { bytes, ..input }),
+            None => Err(input.refused(Fault::general(FaultKind::TooLarge { limit: SIZE_LIMIT }).into())),
         }
-        let size = size.max(bytes.len() as u64);
-        if size > SIZE_LIMIT {
-            let kind = FaultKind::TooLarge { limit: SIZE_LIMIT };
-            return Err(input.refused(Fault::general(kind).into()));
-        }
-        Ok(Self { bytes, ..input })
     }
 
     /// The model with its settings.
@@ -100,6 +75,42 @@ impl Input {
     pub(crate) fn text(&self) -> String {
         String::from_utf8_lossy(&self.bytes).into_owned()
     }
+}
+
+/// The name of an input in messages.
+pub(crate) fn name(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".to_owned() } else { path.display().to_string() }
+}
+
+/// The bytes of a file, or of standard input for `-`; none if there are more than `limit`, and no more
+/// than that are read.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Option<Vec<u8>>, Failure> {
+    let cannot_read = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            Failure::NotFound { path: path.to_owned(), gallery_name: gallery_name(path) }
+        }
+        io::ErrorKind::IsADirectory => Failure::IsDirectory { path: path.to_owned() },
+        _ => Failure::CannotRead { path: path.to_owned(), error },
+    };
+    let (source, size): (Box<dyn Read>, u64) = if path == Path::new("-") {
+        (Box::new(io::stdin().lock()), 0)
+    } else {
+        let file = File::open(path).map_err(cannot_read)?;
+        let metadata = file.metadata().map_err(cannot_read)?;
+        if metadata.is_dir() {
+            return Err(Failure::IsDirectory { path: path.to_owned() });
+        }
+        (Box::new(file), metadata.len())
+    };
+    let mut bytes = Vec::new();
+    if size <= limit {
+        source.take(limit + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
+    }
+    let size = size.max(bytes.len() as u64);
+    Ok((size <= limit).then_some(bytes))
 }
 
 /// The model of the gallery that was meant by the path of a file that does not exist.

@@ -18,7 +18,7 @@ use std::process::ExitCode;
 enum Outcome {
     /// There are solutions, or the command did what it was asked to do.
     Done = 0,
-    /// Friction locks the mechanism.
+    /// There is no solution: friction locks the mechanism.
     NoSolution = 1,
     /// The input makes no sense.
     Refused = 2,
@@ -43,6 +43,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
     match command {
         Command::Solve(arguments) => commands::solve(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
+        Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Schema => commands::schema(output),
         Command::Completions { shell } => commands::completions(*shell, Arguments::command(), output),

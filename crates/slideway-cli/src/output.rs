@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use anstream::{AutoStream, ColorChoice};
 use slideway::report::Style;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Where the answer of a command goes.
@@ -55,13 +55,31 @@ impl Output {
         if self.file.is_none() && choice != ColorChoice::Never { Style::Colour } else { Style::Plain }
     }
 
+    /// Writes an answer that is no text.
+    ///
+    /// # Errors
+    /// If it cannot be written, or would go to a terminal.
+    pub(crate) fn write_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
+        if let Some(file) = &self.file {
+            return file.write(bytes);
+        }
+        let mut stream = io::stdout().lock();
+        if stream.is_terminal() {
+            return Err(Failure::BinaryOnTerminal);
+        }
+        match stream.write_all(bytes).and_then(|()| stream.flush()) {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput { error }),
+            _ => Ok(()),
+        }
+    }
+
     /// Writes the answer. A reader that goes away early (`| head`) has seen all it wanted.
     ///
     /// # Errors
     /// If it cannot be written.
     pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
         if let Some(file) = &self.file {
-            return file.write(text);
+            return file.write(text.as_bytes());
         }
         let mut stream = AutoStream::new(io::stdout(), self.color).lock();
         match stream.write_all(text.as_bytes()).and_then(|()| stream.flush()) {
@@ -73,10 +91,10 @@ impl Output {
 
 impl OutputFile {
     /// Through a temporary file in the same directory that is renamed; devices and pipes are written directly.
-    fn write(&self, text: &str) -> Result<(), Failure> {
+    fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         let failure = |error| Failure::CannotWrite { path: self.path.clone(), error };
         if self.path.exists() && !is_regular(&self.path) {
-            return match fs::write(&self.path, text) {
+            return match fs::write(&self.path, bytes) {
                 Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(failure(error)),
                 _ => Ok(()),
             };
@@ -97,7 +115,7 @@ impl OutputFile {
             builder.permissions(fs::Permissions::from_mode(mode));
         }
         let mut file = builder.tempfile_in(directory).map_err(failure)?;
-        file.write_all(text.as_bytes()).and_then(|()| file.as_file().sync_all()).map_err(failure)?;
+        file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(failure)?;
         let written = if self.overwrite { file.persist(&target) } else { file.persist_noclobber(&target) };
         match written {
             Ok(_) => Ok(()),
@@ -117,4 +135,34 @@ fn is_regular(path: &Path) -> bool {
 pub(crate) fn complain(message: &str, color: ColorChoice) {
     let mut stream = AutoStream::new(io::stderr(), color).lock();
     let _ = writeln!(stream, "{message}");
+}
+
+/// One line on standard error that is written over and over, if that is a terminal.
+#[derive(Debug)]
+pub(crate) struct ProgressLine {
+    on_terminal: bool,
+    written: bool,
+}
+
+impl ProgressLine {
+    /// Nothing is written yet.
+    pub(crate) fn new() -> Self {
+        Self { on_terminal: io::stderr().is_terminal(), written: false }
+    }
+
+    /// Puts this in the place of what stood there.
+    pub(crate) fn show(&mut self, text: &str) {
+        if self.on_terminal {
+            let _ = write!(io::stderr(), "\r\x1b[K{text}");
+            self.written = true;
+        }
+    }
+}
+
+impl Drop for ProgressLine {
+    fn drop(&mut self) {
+        if self.written {
+            let _ = write!(io::stderr(), "\r\x1b[K");
+        }
+    }
 }

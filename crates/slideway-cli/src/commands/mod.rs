@@ -2,10 +2,12 @@
 
 mod check;
 mod models;
+mod modes;
 mod solve;
 
 pub(crate) use check::check;
 pub(crate) use models::models;
+pub(crate) use modes::modes;
 pub(crate) use solve::solve;
 
 use crate::Outcome;

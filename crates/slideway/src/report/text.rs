@@ -28,7 +28,7 @@ impl Style {
         self.paint(Ansi::new().bold(), text)
     }
 
-    fn verdict(self, status: Status, text: &str) -> String {
+    pub(crate) fn verdict(self, status: Status, text: &str) -> String {
         let colour = match status {
             Status::One => AnsiColor::Green,
             Status::None => AnsiColor::Red,
