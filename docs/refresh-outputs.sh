@@ -67,12 +67,24 @@ show elliptic-trammel.txt 0 solve models/elliptic-trammel.toml
 show sleeve-on-arm.txt 0 solve models/sleeve-on-arm.toml
 show telescopic-boom.txt 0 solve models/telescopic-boom.toml
 
-# The guide.
-show models.txt 0 models
+# The command line.
+show help.txt 0 --help
+show help-solve.txt 0 solve --help
+show help-modes.txt 0 modes --help
 show check-klepp.txt 0 check models/klepp-2002.toml
+show check-bracket.txt 2 check models/bracket-on-pole.toml
+show models.txt 0 models
+
+# The guide.
 show my-drawer.txt 0 solve $examples/my-drawer.toml
 show mistakes.txt 2 solve $examples/mistakes.toml
 show setting-mistakes.txt 2 solve models/drawer.toml --set "L=3 kg" --set nu=0.7
 show at-rest.txt 2 solve models/drawer.toml --rate x=0
 show guided-tips.txt 1 solve $examples/guided-tips.toml
 show block-tips.txt 0 solve $examples/block-tips.toml
+
+# Problems given by matrices.
+show modes-species.txt 0 modes $examples/species.json
+show modes-ave.txt 0 modes $examples/ave.json
+show modes-ray.txt 0 modes crates/slideway-cli/tests/raw/good/ray.json
+show modes-mistakes.txt 2 modes $examples/problem-mistakes.json

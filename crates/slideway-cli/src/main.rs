@@ -1,1 +1,56 @@
-fn main() {}
+//! The command line of slideway: arguments, files, colours; everything else is the library's.
+
+mod arguments;
+mod commands;
+mod diagnostics;
+mod failure;
+mod input;
+mod output;
+
+use arguments::{Arguments, Command};
+use clap::{CommandFactory, Parser};
+use failure::Failure;
+use output::Output;
+use std::process::ExitCode;
+
+/// What a command found, as its exit code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// There are solutions, or the command did what it was asked to do.
+    Done = 0,
+    /// There is no solution: friction locks the mechanism.
+    NoSolution = 1,
+    /// The input makes no sense.
+    Refused = 2,
+    /// The search was incomplete and found nothing.
+    Unknown = 3,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        Self::from(outcome as u8)
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let color = arguments.color.into();
+    let outcome = run(&arguments.command, &Output::standard(color));
+    outcome.unwrap_or_else(|failure| refuse(&failure, color)).into()
+}
+
+fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
+    match command {
+        Command::Solve(arguments) => commands::solve(arguments, output),
+        Command::Check(arguments) => commands::check(arguments, output),
+        Command::Modes(arguments) => commands::modes(arguments, output),
+        Command::Models(arguments) => commands::models(arguments, output),
+        Command::Schema => commands::schema(output),
+        Command::Completions { shell } => commands::completions(*shell, Arguments::command(), output),
+    }
+}
+
+fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
+    output::complain(&failure.to_string(), color);
+    Outcome::Refused
+}

@@ -2,7 +2,7 @@
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
-use crate::expression::{Dimension, ExpressionFaultKind};
+use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
 use std::fmt;
 use std::ops::Range;
 
@@ -70,6 +70,52 @@ impl Faults {
         self.list.extend(faults);
     }
 
+    /// Whether some text could not be read at all.
+    pub(crate) fn has_syntax_fault(&self) -> bool {
+        self.list.iter().any(|fault| matches!(fault.kind, FaultKind::Syntax { .. }))
+    }
+
+    /// The sections of the file whose entries are not known, because their heading is misspelt or faulty.
+    fn unknown_sections(&self) -> Vec<String> {
+        let section = |fault: &Fault| match &fault.kind {
+            FaultKind::UnknownKey { nearest: Some(nearest), table, .. } if table.is_empty() => {
+                Some(nearest.clone())
+            }
+            FaultKind::NoHeading { section } => Some(section.clone()),
+            _ => None,
+        };
+        self.list.iter().filter_map(section).collect()
+    }
+
+    /// Leaves out the unknown names of entries whose section is not known.
+    #[must_use]
+    pub(crate) fn without_names_of_unknown_sections(mut self) -> Self {
+        let sections = self.unknown_sections();
+        let unknown = |section: &str| sections.iter().any(|unknown| unknown == section);
+        self.list.retain(|fault| match &fault.kind {
+            FaultKind::UnknownName { what, .. } => !match *what {
+                "point" => unknown("points"),
+                "coordinate" => unknown("coordinates"),
+                "body" | "moving body" => unknown("bodies"),
+                _ => unknown("joints"),
+            },
+            FaultKind::MissingKey { key, table } => !(table.is_empty() && unknown(key)),
+            FaultKind::NotOwned { .. } => !unknown("bodies"),
+            FaultKind::Expression(
+                ExpressionFaultKind::UnknownName { .. } | ExpressionFaultKind::UnknownUnit { .. },
+            ) => !unknown("parameters") && !unknown("coordinates"),
+            _ => true,
+        });
+        self
+    }
+
+    /// Leaves out what may only follow from text that could not be read: whatever seems to be absent.
+    #[must_use]
+    pub(crate) fn without_absences(mut self) -> Self {
+        self.list.retain(|fault| !fault.kind.is_absence());
+        self
+    }
+
     /// Adds those of another stage.
     pub fn append(&mut self, mut other: Self) {
         self.list.append(&mut other.list);
@@ -80,14 +126,22 @@ impl Faults {
         self.list.is_empty()
     }
 
-    /// The faults in the order of their places; faults without a place come last.
+    /// The faults in the order of their places, each once; faults without a place come last.
     pub fn sorted(&self) -> Vec<&Fault> {
         let mut sorted: Vec<&Fault> = self.list.iter().collect();
         sorted.sort_by_key(|fault| match &fault.place {
             Some(place) => (0, place.source, place.span.start),
             None => (1, Source::Model, 0),
         });
-        sorted
+        // What is written once for two contacts may be found at each of them.
+        let mut unique: Vec<&Fault> = Vec::with_capacity(sorted.len());
+        for fault in sorted {
+            let mut beside = unique.iter().rev().take_while(|other| other.place == fault.place);
+            if !beside.any(|other| *other == fault) {
+                unique.push(fault);
+            }
+        }
+        unique
     }
 
     /// `value` if nothing is wrong, else the faults.
@@ -122,10 +176,10 @@ pub enum FaultKind {
     // The text as a whole.
     #[error("the model file is empty")]
     Empty,
-    #[error("the model file is not UTF-8 text: byte {offset} is not part of a character")]
-    NotUtf8 { offset: usize },
-    #[error("the model file has {size} bytes; at most {limit} are read")]
-    TooLarge { size: u64, limit: u64 },
+    #[error("the model file is not UTF-8 text: the byte 0x{byte:02X} is no part of a character here")]
+    NotUtf8 { byte: u8 },
+    #[error("the model file is larger than {} MiB, too large for a model", limit >> 20)]
+    TooLarge { limit: u64 },
     #[error("not valid TOML: {message}")]
     Syntax { message: String },
 
@@ -136,15 +190,17 @@ pub enum FaultKind {
     MissingKey { key: String, table: String },
     #[error("`{table}` has no `type`")]
     MissingType { table: String, known: Vec<String> },
+    #[error("`{section}` holds tables, each with a name in its heading")]
+    NoHeading { section: String },
     #[error("`{place}` cannot be \"{word}\"")]
     UnknownWord { place: String, word: String, nearest: Option<String>, known: Vec<String> },
-    #[error("`{place}` wants a {wanted}, not a {found}")]
+    #[error("`{place}` must be {wanted}, not {found}")]
     WrongType { place: String, wanted: String, found: &'static str },
-    #[error("`{place}` wants {wanted} values, not {found}")]
+    #[error("`{place}` must have {wanted} values, not {found}")]
     WrongLength { place: String, wanted: u64, found: usize },
     #[error("{owner} has both `{first}` and `{second}`")]
     Both { owner: String, first: &'static str, second: &'static str },
-    #[error("{owner} has none of {}", keys(one_of))]
+    #[error("{owner} has {}", none_of(one_of))]
     NoneOf { owner: String, one_of: Vec<&'static str> },
     #[error("{owner} has a `{first}` without a `{second}`")]
     Without { owner: String, first: &'static str, second: &'static str },
@@ -184,6 +240,8 @@ pub enum FaultKind {
     // Topology.
     #[error("the model has no bodies")]
     NoBodies,
+    #[error("the model has {bodies} bodies; at most {limit} are taken")]
+    TooManyBodies { bodies: usize, limit: usize },
     #[error("{joint} joins {body} to itself")]
     SelfJoint { joint: String, body: String },
     #[error("{joint} doubles {other}: the same joint of the same bodies")]
@@ -206,16 +264,25 @@ pub enum FaultKind {
     NoFreedom,
     #[error("{} of freedom, but {}", degrees(*degrees_of_freedom), coordinates(*chosen))]
     CoordinateCount { degrees_of_freedom: usize, chosen: usize, undetermined: Vec<String> },
-    #[error("the chosen coordinates do not determine the motion of {}", bodies.join(", "))]
+    #[error("the chosen coordinates do not determine the motion of {}", listed(bodies))]
     DependentCoordinates { bodies: Vec<String> },
 
     // Assembly of the state.
-    #[error("the mechanism cannot be assembled in this state: {joint} stays open by {gap}")]
-    NotAssembled { joint: String, gap: String, reached: String },
-    #[error("the overlap of {joint} has shrunk to {overlap:.6} m at a displacement of {displacement:.6} m")]
+    #[error("the mechanism cannot be assembled in this state: {} by {gap}", opening(joint, loop_joints))]
+    NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
+    #[error("{state} is too far from the drawing")]
+    TooFar { state: String, limit: f64 },
+    #[error(
+        "the overlap of {joint} has shrunk to {} m at a displacement of {} m",
+        rounded(*overlap),
+        rounded(*displacement)
+    )]
     OverlapVanished { joint: String, overlap: f64, displacement: f64 },
     #[error(
-        "{joint} is at a displacement of {displacement:.6} m, outside its travel of {least:.6} m to {greatest:.6} m"
+        "{joint} is at a displacement of {} m, outside its travel from {} m to {} m",
+        rounded(*displacement),
+        rounded(*least),
+        rounded(*greatest)
     )]
     TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64 },
     #[error("the length of {load} is zero, so its force has no direction")]
@@ -228,8 +295,11 @@ pub enum FaultKind {
     DriveCannotMove { drives: Vec<String>, motion: String },
     #[error("the kinetic equations are too ill-conditioned to be solved (condition {condition:.1e})")]
     IllConditioned { condition: f64 },
-    #[error("the sliding velocity of {} is zero, so the direction of friction is undefined", contacts.join(", "))]
-    ZeroSlidingVelocity { contacts: Vec<String> },
+    #[error(
+        "the sliding velocity of {} is zero, so the direction of friction is undefined",
+        listed(contacts)
+    )]
+    ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
 
     // Enumeration of the modes.
     #[error("{contacts} contacts with friction have 2^{contacts} contact modes; at most 2^{limit} are tried")]
@@ -240,20 +310,41 @@ pub enum FaultKind {
     TooManyPatterns { contacts: usize, with_jump: usize, limit: u64 },
     #[error("more than {limit} sign patterns give a solution")]
     TooManySolutions { limit: usize },
-    #[error("the mode problem overflows: {quantity} is beyond the range of floating-point numbers")]
+    #[error("{quantity} is too large or too small to compute with")]
     Overflow { quantity: String },
 }
 
 impl FaultKind {
+    /// Whether something is said to be absent.
+    fn is_absence(&self) -> bool {
+        matches!(
+            self,
+            Self::MissingKey { .. }
+                | Self::MissingType { .. }
+                | Self::NoneOf { .. }
+                | Self::Without { .. }
+                | Self::UnknownName { .. }
+                | Self::NotOwned { .. }
+                | Self::NoBodies
+                | Self::Expression(
+                    ExpressionFaultKind::UnknownName { .. }
+                        | ExpressionFaultKind::UnknownUnit { .. }
+                        | ExpressionFaultKind::UnknownFunction { .. }
+                        | ExpressionFaultKind::NotACoordinate { .. }
+                )
+        )
+    }
+
     /// What to do about it, where there is something better to say than the message itself.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::Expression(kind) => kind.hint(),
+            Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }
             Self::UnknownWord { nearest, known, .. } => choose(nearest.as_deref(), known),
-            Self::MissingType { known, .. } => choose(None, known),
+            Self::NoHeading { section } => Some(format!("write `[{section}.NAME]` above these lines")),
+            Self::MissingType { known, .. } => Some(format!("possible types: {}", known.join(", "))),
             Self::NotOwned { body, point, owners } => Some(ownership_hint(body, point, owners)),
             Self::CoordinateCount { undetermined, degrees_of_freedom, chosen } => {
                 Some(coordinate_hint(*degrees_of_freedom, *chosen, undetermined))
@@ -265,9 +356,10 @@ impl FaultKind {
             Self::SeveralOwners { point, owners } => {
                 Some(format!("say which one: \"{}.{point}\"", owners.first().map_or("body", String::as_str)))
             }
-            Self::NotAssembled { reached, .. } => {
-                Some(format!("the nearest state that can be assembled is {reached}"))
+            Self::NotAssembled { reached: Some(reached), .. } => {
+                Some(format!("on the way from the drawing it can be assembled as far as {reached}"))
             }
+            Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
             _ => self.fixed_hint().map(str::to_owned),
         }
     }
@@ -280,30 +372,44 @@ impl FaultKind {
             Self::MissingKey { key, .. } if key == "mu" => {
                 Some("write `mu = 0` for a contact without friction")
             }
-            Self::WrongDimension { .. } => Some("plain numbers are in SI units (m, kg, s, N, rad)"),
+            Self::WrongDimension { .. } => Some(
+                "plain numbers are in SI units (m, kg, s, N, rad) where they stand alone, and pure numbers in products",
+            ),
             Self::DependsOnMotion { .. } => {
                 Some("only loads and drives may depend on coordinates, rates and the time t")
             }
             Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
-            Self::MalformedSetting { .. } => Some("for instance `--set mu=0.2` or `--set \"alpha=80 deg\"`"),
+            Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => {
                 Some("move it a little with --at to leave the singular position")
             }
+            Self::TooFar { .. } => Some(
+                "draw the mechanism nearer to this state: it is followed through at most 300 of its sizes, or 300 rad",
+            ),
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
             Self::OverlapVanished { .. } => {
-                Some("the block has left its guide; use --at with a smaller displacement")
+                Some("the block has left its guide; choose --at nearer to the drawing")
             }
             Self::MotionWithoutInertia { .. } => {
                 Some("give the bodies that move a mass, or prescribe the motion with a drive")
             }
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::ZeroSlidingVelocity { .. } => Some(
-                "give the mechanism a velocity, for instance with `--rate COORDINATE=1`; what holds at rest is another question",
+                "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates",
             ),
+            Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
+            Self::Overflow { .. } | Self::IllConditioned { .. } => {
+                Some("look for lengths, masses, forces or coefficients of absurd magnitude")
+            }
+            Self::MissingKey { key, .. } if key == "bodies" || key == "joints" => {
+                Some("start from a model of the gallery: `slideway models` lists it")
+            }
+            Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
+            Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
             Self::TooManyPatterns { .. } => Some("preload_line = \"centre\" makes no gaps to be tried"),
             Self::TooManyContacts { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
@@ -313,17 +419,9 @@ impl FaultKind {
     }
 }
 
-/// The known name nearest to `name`, if one is near enough to be meant.
-///
-/// Similarity is Jaro-Winkler's, with 0.75 as the least; letter case does not count.
+/// The known name most like `name`, if one is like it at all: as for the names in expressions.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let name = name.to_lowercase();
-    known
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(&name, &candidate.to_lowercase()), candidate))
-        .filter(|(similarity, _)| *similarity > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate.to_owned())
+    nearest_names(name, known.into_iter()).first().map(|nearest| (*nearest).to_owned())
 }
 
 fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {
@@ -360,9 +458,51 @@ fn in_table(table: &str) -> String {
     if table.is_empty() { String::new() } else { format!(" in `{table}`") }
 }
 
-fn keys(keys: &[&str]) -> String {
-    let quoted: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
-    quoted.join(", ")
+fn none_of(keys: &[&str]) -> String {
+    match keys {
+        [key] => format!("no `{key}`"),
+        [first, second] => format!("neither `{first}` nor `{second}`"),
+        keys => {
+            let quoted: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+            format!("none of {}", quoted.join(", "))
+        }
+    }
+}
+
+/// "a, b and c"
+fn listed(names: &[String]) -> String {
+    match names {
+        [names @ .., last] if !names.is_empty() => format!("{} and {last}", names.join(", ")),
+        names => names.concat(),
+    }
+}
+
+/// A length with as many digits as matter.
+fn rounded(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let trimmed = text.trim_end_matches('0').trim_end_matches('.');
+    if value != 0.0 && matches!(trimmed, "0" | "-0") { format!("{value:.1e}") } else { trimmed.to_owned() }
+}
+
+fn opening(joint: &str, loop_joints: &[String]) -> String {
+    if loop_joints.is_empty() {
+        return format!("{joint} stays open");
+    }
+    format!("the loop of {} does not close, {joint} stays open", listed(loop_joints))
+}
+
+fn velocity_hint(coordinates: &[String]) -> String {
+    let rates: Vec<String> = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1")).collect();
+    format!(
+        "give the mechanism a velocity, for instance with `{}`; friction at rest is not analysed",
+        rates.join(" ")
+    )
+}
+
+fn expression_hint(kind: &ExpressionFaultKind) -> Option<String> {
+    matches!(kind, ExpressionFaultKind::UnknownName { .. }).then(|| {
+        "expressions may use the names in [parameters] and, in loads and drives, [coordinates]".to_owned()
+    })
 }
 
 fn are(bodies: &[String]) -> String {

@@ -55,7 +55,7 @@ impl Influence {
             .collect();
         Self {
             layout,
-            frictionless: equations.frictionless(),
+            frictionless: equations.without_noise(&equations.frictionless()),
             columns: (0..contacts).map(|k| equations.influence_of(ContactId(k))).collect(),
             normal,
         }

@@ -12,9 +12,12 @@
 //! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> Report
 //! ```
 //!
+//! [`check::check`] stands beside it and says what a model consists of and what would keep it from being solved.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
-//! enters at [`modes`].
+//! enters at [`modes`], or with a file of them at [`raw_problem`].
 
+pub mod check;
 pub mod configuration;
 pub mod expression;
 pub mod fault;
@@ -25,5 +28,6 @@ pub mod kinetics;
 pub mod mechanism;
 pub mod model;
 pub mod modes;
+pub mod raw_problem;
 pub mod report;
 pub mod solve;

@@ -4,7 +4,7 @@
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
 use crate::expression::Values;
-use crate::fault::{Fault, Faults, Place};
+use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::model::{
     self, Along, CarriedBy, Effort as ModelEffort, ForceFrame, Formula, Gravity, Inertia,
@@ -12,6 +12,9 @@ use crate::model::{
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
+
+/// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// A mechanism in its reference drawing.
 #[derive(Debug, Clone)]
@@ -103,6 +106,8 @@ pub struct Slider {
     pub length: f64,
     /// Distance of the rubbing faces (m), negative where the block surrounds the guide.
     pub height: f64,
+    /// Whether the block surrounds the guide, so that the opposite faces press.
+    pub around: bool,
     /// Limits of the displacement (m).
     pub travel: Option<[f64; 2]>,
     /// Its contacts: front and rear of a block slider, else the only one.
@@ -295,9 +300,49 @@ impl Mechanism {
     /// The mechanism that a model describes, with the present values of its parameters.
     ///
     /// # Errors
-    /// Every value that is not finite or not allowed.
+    /// Every value that is not finite or not allowed, or too large or small to compute with.
     pub fn new(model: &Model) -> Result<Self, Faults> {
-        Ok(Evaluation::new(model)?.mechanism())
+        let mechanism = Evaluation::new(model)?.mechanism();
+        mechanism.check_magnitudes()?;
+        Ok(mechanism)
+    }
+
+    /// Products of a few quantities must stay within the range of floating point.
+    fn check_magnitudes(&self) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        let mut check = |what: String, place: Option<&Place>, values: &[f64]| {
+            let is_usual = |value: &f64| *value == 0.0 || MAGNITUDES.contains(&value.abs());
+            if !values.iter().all(is_usual) {
+                let kind = FaultKind::Overflow { quantity: what };
+                faults.push(
+                    place.map_or(Fault::general(kind.clone()), |place| Fault::new(kind, place.clone())),
+                );
+            }
+        };
+        check("the size of the mechanism".into(), None, &[self.size]);
+        check("gravity".into(), None, self.gravity.as_slice());
+        for body in &self.bodies {
+            let values = [body.mass, body.moment_of_inertia, body.centre_of_mass.x, body.centre_of_mass.y];
+            check(
+                format!("the mass, the moment of inertia or the place of {}", body.name),
+                Some(&body.place),
+                &values,
+            );
+        }
+        for joint in &self.joints {
+            let JointKind::Slider(slider) = &joint.kind else { continue };
+            check(format!("the size of {}", joint.name), Some(&joint.place), &[slider.length, slider.height]);
+        }
+        for contact in &self.contacts {
+            let place = &self.joints[contact.joint.index()].place;
+            let values = [contact.mu, contact.mu_static, contact.preload].concat();
+            check(format!("the friction of {}", contact.name), Some(place), &values);
+        }
+        for coordinate in &self.coordinates {
+            let values = [coordinate.value, coordinate.drawn_at, coordinate.rate];
+            check(format!("the value or the rate of {}", coordinate.name), Some(&coordinate.place), &values);
+        }
+        faults.or(())
     }
 
     /// The sliding joint with this number, if it is one.
@@ -416,9 +461,9 @@ impl<'m> Evaluation<'m> {
             Inertia::Massless => (0.0, 0.0, mean_joint_place(Frame::Body(id), joints)),
             Inertia::Massive { mass, centre_of_mass, moment } => {
                 let mass = self.value(*mass);
-                let (specific, middle) = self.specific_moment(moment, mass);
+                let (moment, middle) = self.moment_of_inertia(moment, mass);
                 let centre = centre_of_mass.map_or(middle, |centre| self.vector(centre));
-                (mass, mass * specific, centre)
+                (mass, moment, centre)
             }
         };
         let points =
@@ -433,16 +478,16 @@ impl<'m> Evaluation<'m> {
         }
     }
 
-    /// Moment of inertia for each unit of mass, and the middle of a bar.
-    fn specific_moment(&self, moment: &Moment, mass: f64) -> (f64, Vector2<f64>) {
+    /// Moment of inertia about the centre of mass, and the middle of a bar.
+    fn moment_of_inertia(&self, moment: &Moment, mass: f64) -> (f64, Vector2<f64>) {
         match moment {
-            Moment::Given(moment) => (self.value(*moment) / mass, Vector2::zeros()),
+            Moment::Given(moment) => (self.value(*moment), Vector2::zeros()),
             Moment::Bar([from, to]) => {
                 let (from, to) = (self.vector(*from), self.vector(*to));
-                ((to - from).norm_squared() / 12.0, (from + to) / 2.0)
+                (mass * (to - from).norm_squared() / 12.0, (from + to) / 2.0)
             }
-            Moment::Rectangle(sides) => (self.vector(*sides).norm_squared() / 12.0, Vector2::zeros()),
-            Moment::Disc(radius) => (self.value(*radius).powi(2) / 2.0, Vector2::zeros()),
+            Moment::Rectangle(sides) => (mass * self.vector(*sides).norm_squared() / 12.0, Vector2::zeros()),
+            Moment::Disc(radius) => (mass * self.value(*radius).powi(2) / 2.0, Vector2::zeros()),
         }
     }
 
@@ -482,6 +527,7 @@ impl<'m> Evaluation<'m> {
             tangent: self.direction(&slider.along),
             length,
             height: if slider.around { -height } else { height },
+            around: slider.around,
             travel: slider.travel.map(|travel| travel.map(|limit| self.value(limit))),
             contacts: (first..contacts.len()).map(ContactId).collect(),
         }
@@ -634,5 +680,5 @@ fn size(mechanism: &Mechanism) -> f64 {
         values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
     };
     let size = extent(0).hypot(extent(1));
-    if size.is_finite() && size > 0.0 { size } else { 1.0 }
+    if size > 0.0 { size } else { 1.0 }
 }

@@ -17,6 +17,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("influence", &["ids", "kinetics"]),
     ("modes", &[]),
     ("report", &[]),
+    ("raw_problem", &["fault", "modes", "report"]),
     ("gallery", &[]),
 ];
 

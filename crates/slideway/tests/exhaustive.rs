@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use slideway::modes::exhaustive::screen;
+use slideway::modes::exhaustive::{prove, screen};
 use slideway::modes::{Limits, ModeProblem, Side, enumerate};
 
 /// The patterns that the simple enumerator finds to have a solution, inside or on the boundary.
@@ -12,7 +12,8 @@ fn with_solution(problem: &ModeProblem) -> Vec<u64> {
         pattern.iter().enumerate().map(|(k, side)| u64::from(*side == Side::Negative) << k).sum::<u64>()
     };
     let solutions = enumerate(problem, &Limits::default()).unwrap();
-    let mut patterns: Vec<u64> = solutions.solutions.iter().flat_map(|solution| &solution.patterns).map(bits).collect();
+    let mut patterns: Vec<u64> =
+        solutions.solutions.iter().flat_map(|solution| &solution.patterns).map(bits).collect();
     patterns.sort_unstable();
     patterns
 }
@@ -94,8 +95,25 @@ fn hardly_anything_is_left_in_doubt() {
 fn every_pattern_of_the_negative_identity_is_a_solution() {
     let n = 12;
     let problem =
-        ModeProblem::from_linear_complementarity(&-DMatrix::identity(n, n), DVector::from_element(n, 1.0)).unwrap();
+        ModeProblem::from_linear_complementarity(&-DMatrix::identity(n, n), DVector::from_element(n, 1.0))
+            .unwrap();
     assert_eq!(screen(&problem).remaining.len(), 1 << n);
+}
+
+#[test]
+fn what_is_proved_is_what_the_enumerator_finds() {
+    let mut state = 99_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    for n in 1..11 {
+        let entries = DMatrix::from_fn(n, n, |_, _| random());
+        let rhs = DVector::from_fn(n, |_, _| random());
+        let problem = ModeProblem::from_linear_complementarity(&entries, rhs).unwrap();
+        let proved: Vec<u64> = prove(&problem).into_iter().map(|(pattern, _)| pattern).collect();
+        assert_eq!(proved, with_solution(&problem));
+    }
 }
 
 #[test]

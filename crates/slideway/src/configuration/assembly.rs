@@ -1,18 +1,30 @@
 //! Newton's method on the joint equations, led from the drawing to the wanted coordinates in small steps.
 
 use super::joint_equations::JointEquations;
-use super::mobility::{Mobility, advance, least_squares, null_space, rank};
+use super::mobility::{
+    Mobility, RANK_TOLERANCE, advance, least_squares, null_space_within, rank, regularity,
+};
 use super::{Configuration, Pose, Velocity, drawing_poses, unit};
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{Frame, JointId};
 use crate::mechanism::{JointKind, Mechanism};
 use nalgebra::{DVector, Vector2};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
 const CLOSED: f64 = 1e-12;
+/// Where two solutions meet Newton's method finds the place only to the root of its tolerance. A state counts as
+/// singular if its joint equations, coordinates included, have a singular value below this multiple of the
+/// greatest...
+const SINGULAR_STATE: f64 = 5e-6;
+/// ... and if that multiple is below this part of what it is in the drawing. (It is small everywhere where a short
+/// body turns in a large mechanism.)
+const SINGULAR_LOSS: f64 = 1e-3;
 /// Newton steps after which a stage of the way counts as failed; quadratic convergence needs far fewer.
 const NEWTON_STEPS: usize = 25;
 /// Largest change of a coordinate in one stage, in sizes of the mechanism or rad.
 const STAGE: f64 = 0.15;
+/// Longest way that is followed from the drawing, in sizes of the mechanism or rad.
+const LONGEST_WAY: f64 = 300.0;
 /// Least fraction of the whole way that is tried before the state counts as out of reach.
 const LEAST_STAGE: f64 = 1e-4;
 
@@ -73,7 +85,7 @@ fn check_coordinate_count(
 
 /// The bodies that move while all rows of the equations stay satisfied.
 fn moving_bodies(mechanism: &Mechanism, equations: &JointEquations) -> Vec<String> {
-    let motions = null_space(&equations.jacobian);
+    let motions = null_space_within(&equations.jacobian, SINGULAR_STATE);
     let moves = |body: usize| motions.ncols() > 0 && motions.rows(3 * body, 3).amax() > 1e-6;
     let bodies = mechanism.bodies.iter().enumerate();
     bodies.filter(|(index, _)| moves(*index)).map(|(_, body)| body.name.to_string()).collect()
@@ -88,7 +100,15 @@ fn reach(mechanism: &Mechanism, values: &[f64]) -> Result<Vec<Pose>, Faults> {
     let mut poses = newton(mechanism, drawing_poses(mechanism), &drawn)
         .map_err(|poses| not_assembled(mechanism, &poses, &drawn, None))?;
     let mut done = 0.0;
-    let mut stage = (STAGE / longest_way(mechanism, values)).min(1.0);
+    let way = longest_way(mechanism, values);
+    if way > LONGEST_WAY {
+        return Err(Fault::general(FaultKind::TooFar {
+            state: state(mechanism, values),
+            limit: LONGEST_WAY,
+        })
+        .into());
+    }
+    let mut stage = (STAGE / way).min(1.0);
     while done < 1.0 {
         let next = if done + 1.01 * stage >= 1.0 { 1.0 } else { done + stage };
         let wanted = if next == 1.0 { values.to_vec() } else { at(next) };
@@ -151,24 +171,59 @@ fn not_assembled(mechanism: &Mechanism, poses: &[Pose], values: &[f64], reached:
     let Some((joint, row)) = open else { return Fault::general(FaultKind::NoFreedom) };
     let is_angle = row > 0 && equations.joints[row - 1] == Some(joint) && is_slider(mechanism, joint);
     let residual = equations.residual[row].abs();
-    let gap =
-        if is_angle { format!("{residual:.3e} rad") } else { format!("{:.3e} m", residual * mechanism.size) };
+    let gap = if is_angle { in_units(residual, "rad") } else { in_units(residual * mechanism.size, "m") };
     let kind = FaultKind::NotAssembled {
         joint: mechanism.joints[joint.index()].name.to_string(),
+        loop_joints: loop_of(mechanism, joint),
         gap,
-        reached: reached.map_or("not even the drawing".to_owned(), |values| state(mechanism, values)),
+        reached: reached.map(|values| state(mechanism, values)),
     };
     Fault::new(kind, mechanism.joints[joint.index()].place.clone())
 }
 
-fn is_slider(mechanism: &Mechanism, joint: crate::ids::JointId) -> bool {
+fn in_units(value: f64, unit: &str) -> String {
+    if value < 1e-3 { format!("{value:.2e} {unit}") } else { format!("{value:.4} {unit}") }
+}
+
+/// The joints of a shortest loop through `joint`, that one first; none if it closes no loop.
+fn loop_of(mechanism: &Mechanism, joint: JointId) -> Vec<String> {
+    let joined = |index: usize| match &mechanism.joints[index].kind {
+        JointKind::Hinge([first, second]) => [first.frame, second.frame],
+        JointKind::Slider(slider) => [slider.block, slider.guide],
+    };
+    let [start, end] = joined(joint.index());
+    let mut ways: Vec<(Frame, Vec<usize>)> = vec![(start, vec![joint.index()])];
+    let mut next = 0;
+    while let Some((frame, way)) = ways.get(next).cloned() {
+        if frame == end {
+            return way.iter().map(|&index| mechanism.joints[index].name.to_string()).collect();
+        }
+        for index in (0..mechanism.joints.len()).filter(|index| !way.contains(index)) {
+            let [first, second] = joined(index);
+            for (from, to) in [(first, second), (second, first)] {
+                if from == frame && ways.iter().all(|(reached, _)| *reached != to) {
+                    ways.push((to, [way.as_slice(), &[index]].concat()));
+                }
+            }
+        }
+        next += 1;
+    }
+    Vec::new()
+}
+
+fn is_slider(mechanism: &Mechanism, joint: JointId) -> bool {
     matches!(mechanism.joints[joint.index()].kind, JointKind::Slider(_))
 }
 
 /// Coordinate values in words.
 fn state(mechanism: &Mechanism, values: &[f64]) -> String {
     let one = |(coordinate, value): (&crate::mechanism::Coordinate, &f64)| {
-        format!("{} = {value:.6} {}", coordinate.name, unit(&coordinate.kind))
+        let degrees = if coordinate.kind.is_angle() {
+            format!(" ({:.2} deg)", value.to_degrees())
+        } else {
+            String::new()
+        };
+        format!("{} = {value:.5} {}{degrees}", coordinate.name, unit(&coordinate.kind))
     };
     let list: Vec<String> = mechanism.coordinates.iter().zip(values).map(one).collect();
     list.join(", ")
@@ -180,7 +235,13 @@ fn velocities(mechanism: &Mechanism, poses: &[Pose]) -> Result<Vec<Velocity>, Fa
     let equations = JointEquations::with_coordinates(mechanism, poses, &values);
     let rows = equations.joints.len();
     let joint_rows = rows - mechanism.coordinates.len();
-    if rank(&equations.jacobian) < rows {
+    let singular = rank(&equations.jacobian, SINGULAR_STATE) < rows && {
+        let drawn: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect();
+        let drawing = JointEquations::with_coordinates(mechanism, &drawing_poses(mechanism), &drawn);
+        let (here, there) = (regularity(&equations.jacobian), regularity(&drawing.jacobian));
+        here <= RANK_TOLERANCE || here < SINGULAR_LOSS * there
+    };
+    if singular {
         return Err(singular_coordinates(mechanism, poses, &equations).into());
     }
     let mut rates = DVector::zeros(rows);
@@ -203,12 +264,22 @@ fn velocities(mechanism: &Mechanism, poses: &[Pose]) -> Result<Vec<Velocity>, Fa
 fn singular_coordinates(mechanism: &Mechanism, poses: &[Pose], equations: &JointEquations) -> Fault {
     let mut here = Configuration::drawing(mechanism);
     here.poses = poses.to_vec();
-    let mobility = Mobility::of(mechanism, &here);
+    let mobility = Mobility::within(mechanism, &here, SINGULAR_STATE);
     if let Some(kind) = mobility.fault(mechanism) {
         return redundancy_fault(mechanism, &mobility, kind);
     }
     let bodies = moving_bodies(mechanism, equations);
-    Fault::general(FaultKind::DependentCoordinates { bodies })
+    // The first coordinate that says nothing new.
+    let joint_rows = equations.joints.len() - mechanism.coordinates.len();
+    let dependent = (0..mechanism.coordinates.len()).find(|index| {
+        let rows = joint_rows + index + 1;
+        rank(&equations.jacobian.rows(0, rows).into_owned(), SINGULAR_STATE) < rows
+    });
+    let kind = FaultKind::DependentCoordinates { bodies };
+    match dependent {
+        Some(index) => Fault::new(kind, mechanism.coordinates[index].place.clone()),
+        None => Fault::general(kind),
+    }
 }
 
 /// Travel limits and overlaps of the sliding joints.

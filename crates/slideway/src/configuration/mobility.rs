@@ -5,12 +5,12 @@ use super::joint_equations::JointEquations;
 use super::{Configuration, Pose};
 use crate::fault::FaultKind;
 use crate::ids::JointId;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{JointKind, Mechanism, rot90};
 use crate::model::SliderKind;
-use nalgebra::{DMatrix, DVector, SVD};
+use nalgebra::{DMatrix, DVector, SVD, Vector2};
 
 /// Singular values below this multiple of the greatest count as zero.
-const RANK_TOLERANCE: f64 = 1e-9;
+pub(super) const RANK_TOLERANCE: f64 = 1e-9;
 /// Length of the step, in sizes of the mechanism, that tells a singular position from a redundant structure.
 const PROBE: f64 = 1e-2;
 
@@ -41,17 +41,20 @@ pub struct Redundancy {
 impl Mobility {
     /// Mobility of a mechanism in a configuration.
     pub fn of(mechanism: &Mechanism, configuration: &Configuration) -> Self {
+        Self::within(mechanism, configuration, RANK_TOLERANCE)
+    }
+
+    /// Mobility where singular values below this multiple of the greatest count as zero.
+    pub(super) fn within(mechanism: &Mechanism, configuration: &Configuration, tolerance: f64) -> Self {
         let equations = JointEquations::of_joints(mechanism, &configuration.poses);
         let (constraints, body_coordinates) = equations.jacobian.shape();
-        let independent = rank(&equations.jacobian);
-        let redundancy = (independent < constraints).then(|| Redundancy {
-            joints: joints_in_excess(&equations),
-            suggestion: None,
-            only_here: is_singular_position(mechanism, &configuration.poses, independent),
-        });
-        let redundancy = redundancy.map(|redundancy| Redundancy {
-            suggestion: suggestion(mechanism, &redundancy.joints),
-            ..redundancy
+        let independent = rank(&equations.jacobian, tolerance);
+        let redundancy = (independent < constraints).then(|| {
+            let joints = joints_in_excess(&equations, tolerance);
+            let only_here = is_singular_position(mechanism, &configuration.poses, independent);
+            let suggestion =
+                if only_here { None } else { suggestion(mechanism, &equations, &joints, independent) };
+            Redundancy { joints, suggestion, only_here }
         });
         Self { body_coordinates, constraints, independent, redundancy }
     }
@@ -79,23 +82,34 @@ impl Mobility {
     }
 }
 
-/// Number of singular values above the tolerance.
-pub(super) fn rank(matrix: &DMatrix<f64>) -> usize {
+/// Number of singular values above this multiple of the greatest.
+pub(super) fn rank(matrix: &DMatrix<f64>, tolerance: f64) -> usize {
     if matrix.is_empty() {
         return 0;
     }
     let values = matrix.clone().singular_values();
-    let threshold = values.max() * RANK_TOLERANCE;
+    let threshold = values.max() * tolerance;
     values.iter().filter(|value| **value > threshold).count()
+}
+
+/// The least singular value as a part of the greatest.
+pub(super) fn regularity(matrix: &DMatrix<f64>) -> f64 {
+    let values = matrix.clone().singular_values();
+    values.min() / values.max()
 }
 
 /// An orthonormal basis of the vectors that `matrix` maps to zero, one in each column.
 pub(crate) fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    null_space_within(matrix, RANK_TOLERANCE)
+}
+
+/// [`null_space`] where singular values below this multiple of the greatest count as zero.
+pub(super) fn null_space_within(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
     let columns = matrix.ncols();
     let mut square = DMatrix::zeros(matrix.nrows().max(columns), columns);
     square.rows_mut(0, matrix.nrows()).copy_from(matrix);
     let svd = SVD::new(square, false, true);
-    let threshold = svd.singular_values.max() * RANK_TOLERANCE;
+    let threshold = svd.singular_values.max() * tolerance;
     let Some(v_t) = svd.v_t else { return DMatrix::zeros(columns, 0) };
     let null: Vec<DVector<f64>> = (0..columns)
         .filter(|&index| svd.singular_values[index] <= threshold)
@@ -104,9 +118,54 @@ pub(crate) fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     if null.is_empty() { DMatrix::zeros(columns, 0) } else { DMatrix::from_columns(&null) }
 }
 
+/// The motions that the joints leave, one in each column: (x, y, angle) of every body in m and rad.
+pub(crate) fn free_motions(mechanism: &Mechanism, configuration: &Configuration) -> DMatrix<f64> {
+    let mut motions = null_space(&JointEquations::of_joints(mechanism, &configuration.poses).jacobian);
+    for (row, mut motion) in motions.row_iter_mut().enumerate() {
+        if row % 3 != 2 {
+            motion *= mechanism.size;
+        }
+    }
+    motions
+}
+
+/// A motion of the bodies, (x, y, angle) of each: "rod rotates about (0.1, 0.2), block moves along (1, 0)".
+pub(crate) fn motion_in_words(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    motion: &DVector<f64>,
+) -> String {
+    let size = mechanism.size;
+    let scale = (0..mechanism.bodies.len())
+        .map(|b| motion[3 * b].hypot(motion[3 * b + 1]).max(size * motion[3 * b + 2].abs()))
+        .fold(0.0, f64::max);
+    let mut parts = Vec::new();
+    for (index, body) in mechanism.bodies.iter().enumerate() {
+        let velocity = Vector2::new(motion[3 * index], motion[3 * index + 1]);
+        let angular = motion[3 * index + 2];
+        if angular.abs() * size > 1e-6 * scale {
+            // The pole: the point that stays at rest, c + rot90(v)/omega.
+            let pole = configuration.poses[index].position + rot90(velocity) / angular;
+            parts.push(format!("{} rotates about {}", body.name, components(pole, size)));
+        } else if velocity.norm() > 1e-6 * scale {
+            parts.push(format!("{} moves along {}", body.name, components(velocity.normalize(), 1.0)));
+        }
+    }
+    parts.join(", ")
+}
+
+/// "(0.1, 0.2)", with rounding errors against `scale` as 0.
+fn components(vector: Vector2<f64>, scale: f64) -> String {
+    let rounded = |value: f64| {
+        let text = format!("{:.4}", if value.abs() < 1e-9 * scale { 0.0 } else { value });
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    format!("({}, {})", rounded(vector.x), rounded(vector.y))
+}
+
 /// The joints that take part in a state of self-stress: in a combination of rows that vanishes.
-fn joints_in_excess(equations: &JointEquations) -> Vec<JointId> {
-    let stresses = null_space(&equations.jacobian.transpose());
+fn joints_in_excess(equations: &JointEquations, tolerance: f64) -> Vec<JointId> {
+    let stresses = null_space_within(&equations.jacobian.transpose(), tolerance);
     let mut joints: Vec<JointId> = (0..equations.joints.len())
         .filter(|&row| stresses.row(row).amax() > 1e-6)
         .filter_map(|row| equations.joints[row])
@@ -115,17 +174,85 @@ fn joints_in_excess(equations: &JointEquations) -> Vec<JointId> {
     joints
 }
 
-/// A guided or block slider holds the angle of its block; a pin in a slot does not.
-fn suggestion(mechanism: &Mechanism, joints: &[JointId]) -> Option<String> {
-    let slider = joints
-        .iter()
-        .find(|joint| mechanism.slider(**joint).is_some_and(|slider| slider.kind != SliderKind::Pin))?;
-    let kind = match &mechanism.joints[slider.index()].kind {
-        JointKind::Slider(slider) if slider.kind == SliderKind::Guided => "guided slider",
-        _ => "block slider",
+/// At most so many changes are tried before none is suggested.
+const CHANGES_TRIED: usize = 200;
+
+/// A change of one or two joints.
+#[derive(Clone, Copy)]
+enum Change {
+    /// A block or guided slider becomes a pin in a slot, which leaves the angle free.
+    ToPin(JointId),
+    /// The joint goes.
+    Remove(JointId),
+}
+
+/// The first small change that makes the structure determinate and leaves its freedom as it is.
+fn suggestion(
+    mechanism: &Mechanism,
+    equations: &JointEquations,
+    joints: &[JointId],
+    independent: usize,
+) -> Option<String> {
+    let turns =
+        |joint: &JointId| mechanism.slider(*joint).is_some_and(|slider| slider.kind != SliderKind::Pin);
+    let to_pin: Vec<Change> = joints.iter().copied().filter(turns).map(Change::ToPin).collect();
+    let remove: Vec<Change> = joints.iter().copied().map(Change::Remove).collect();
+    let single =
+        |changes: &[Change]| -> Vec<Vec<Change>> { changes.iter().map(|change| vec![*change]).collect() };
+    let pairs = |first: &[Change], second: &[Change]| -> Vec<Vec<Change>> {
+        first.iter().flat_map(|a| second.iter().map(|b| vec![*a, *b])).collect()
     };
-    let name = &mechanism.joints[slider.index()].name;
-    Some(format!("for instance make {name} a pin in a slot in place of a {kind}"))
+    // Pins rather than removals: they keep every support.
+    let all = [
+        single(&to_pin),
+        pairs(&to_pin, &to_pin),
+        single(&remove),
+        pairs(&to_pin, &remove),
+        pairs(&remove, &remove),
+    ];
+    let mut distinct =
+        all.into_iter().flatten().filter(|changes| !matches!(changes[..], [a, b] if a.joint() == b.joint()));
+    let changes = distinct.by_ref().take(CHANGES_TRIED).find(|changes| {
+        let left = rows_left(equations, changes);
+        left.nrows() == independent && rank(&left, RANK_TOLERANCE) == independent
+    })?;
+    let words: Vec<String> = changes.iter().map(|change| change.in_words(mechanism)).collect();
+    Some(format!("for instance {}", words.join(", and ")))
+}
+
+impl Change {
+    fn joint(self) -> JointId {
+        match self {
+            Self::ToPin(joint) | Self::Remove(joint) => joint,
+        }
+    }
+
+    fn in_words(self, mechanism: &Mechanism) -> String {
+        let joint = &mechanism.joints[self.joint().index()];
+        match (self, &joint.kind) {
+            (Self::ToPin(_), JointKind::Slider(slider)) if slider.kind == SliderKind::Guided => {
+                format!("make {} a pin in a slot in place of a guided slider", joint.name)
+            }
+            (Self::ToPin(_), _) => format!("make {} a pin in a slot in place of a block slider", joint.name),
+            (Self::Remove(_), _) => format!("remove {}", joint.name),
+        }
+    }
+}
+
+/// The rows of the Jacobian that changes of some joints leave.
+fn rows_left(equations: &JointEquations, changes: &[Change]) -> DMatrix<f64> {
+    let left: Vec<_> = (0..equations.joints.len())
+        .filter(|&row| {
+            changes.iter().all(|change| {
+                let of_joint = equations.joints[row] == Some(change.joint());
+                // The angle is the second equation of a slider.
+                let second = row > 0 && equations.joints[row - 1] == equations.joints[row];
+                !of_joint || (matches!(change, Change::ToPin(_)) && !second)
+            })
+        })
+        .map(|row| equations.jacobian.row(row))
+        .collect();
+    if left.is_empty() { DMatrix::zeros(0, equations.jacobian.ncols()) } else { DMatrix::from_rows(&left) }
 }
 
 /// Whether the rank rises when the mechanism moves a little along its freedom.
@@ -139,7 +266,7 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
             advance(mechanism, &mut poses, &(&step * *sign));
             close(mechanism, &mut poses);
             let equations = JointEquations::of_joints(mechanism, &poses);
-            equations.residual.amax() < 1e-10 && rank(&equations.jacobian) > rank_here
+            equations.residual.amax() < 1e-10 && rank(&equations.jacobian, RANK_TOLERANCE) > rank_here
         })
     })
 }

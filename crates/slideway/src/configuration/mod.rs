@@ -8,8 +8,8 @@ mod assembly;
 mod joint_equations;
 mod mobility;
 
-pub(crate) use mobility::null_space;
 pub use mobility::{Mobility, Redundancy};
+pub(crate) use mobility::{free_motions, motion_in_words, null_space};
 
 use crate::fault::Faults;
 use crate::ids::{ContactId, Frame};
@@ -63,7 +63,7 @@ pub struct Slide {
 
 /// A contact in a configuration.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactState {
+pub struct ContactGeometry {
     /// The point P on the centre line of the guide.
     pub point: Vector2<f64>,
     /// Tangent u of the guide.
@@ -136,7 +136,7 @@ impl Configuration {
     }
 
     /// A contact in this configuration.
-    pub fn contact(&self, mechanism: &Mechanism, id: ContactId) -> ContactState {
+    pub fn contact(&self, mechanism: &Mechanism, id: ContactId) -> ContactGeometry {
         let contact = &mechanism.contacts[id.index()];
         let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
         let tangent = self.direction(slider.guide, slider.tangent);
@@ -147,7 +147,7 @@ impl Configuration {
         let drawn = slider.at + contact.offset * slider.tangent;
         let point = self.position(mechanism, &Attachment { frame, position: drawn });
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
-        ContactState { point, tangent, normal: rot90(tangent), sliding_velocity: tangent.dot(&relative) }
+        ContactGeometry { point, tangent, normal: rot90(tangent), sliding_velocity: tangent.dot(&relative) }
     }
 
     /// Supported length of a block slider: distance of front from rear contact along the guide (m).

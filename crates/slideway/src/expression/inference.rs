@@ -81,7 +81,11 @@ fn unary(function: Unary, x: &Part, span: Range<usize>) -> Result<Part, Expressi
                 let kind = ExpressionFaultKind::NotDimensionless { function: function.name(), found };
                 return Err(ExpressionFault::new(kind, x.span.clone()));
             }
-            _ => Inferred::Known(Dimension::NONE),
+            // An angle is one; the others are plain numbers, so that `0.4*cos(30 deg)` may be a length in SI.
+            _ if matches!(function, Unary::Asin | Unary::Acos | Unary::Atan) => {
+                Inferred::Known(Dimension::NONE)
+            }
+            _ => Inferred::Number,
         },
     };
     Ok(Part { inferred, constant: x.constant.map(|value| function.value(value)), span })

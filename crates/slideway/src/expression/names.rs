@@ -128,7 +128,7 @@ pub(super) fn nearest_function(name: &str) -> Option<&'static str> {
 }
 
 /// The candidates most like `name`, best first: those that differ in case only, else those a few edits away.
-pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let lower = name.to_lowercase();
     let length = name.chars().count();
     let allowed = if length < 2 { 0 } else { (length / 3).max(1) };

@@ -29,14 +29,23 @@ impl Wrench {
     }
 }
 
+/// Forces (N) and couples (N m) with which every product of the equations stays within the range of floating point.
+const GREATEST: f64 = 1e100;
+
 /// All weights and loads in a configuration.
 pub(super) fn applied(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<Wrench>, Faults> {
     let mut loads = Loads { mechanism, configuration, wrenches: Vec::new() };
     loads.weights();
     let mut faults = Faults::default();
     for load in &mechanism.loads {
+        let first = loads.wrenches.len();
         if let Err(fault) = loads.load(load) {
             faults.push(fault);
+        }
+        let is_usual = |wrench: &Wrench| wrench.force.amax() < GREATEST && wrench.couple.abs() < GREATEST;
+        if !loads.wrenches[first..].iter().all(is_usual) {
+            let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
+            faults.push(Fault::new(kind, load.place.clone()));
         }
     }
     faults.or(loads.wrenches)

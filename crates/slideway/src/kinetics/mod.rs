@@ -18,7 +18,7 @@ mod system;
 pub use loads::Wrench;
 pub(crate) use loads::unit_effort as effort_forces;
 
-use crate::configuration::{Configuration, ContactState};
+use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::mechanism::{JointKind, Mechanism, rot90};
@@ -102,7 +102,7 @@ pub struct KineticEquations {
     /// Where the unknowns stand.
     pub layout: Layout,
     /// The contacts in this configuration.
-    pub contacts: Vec<ContactState>,
+    pub contacts: Vec<ContactGeometry>,
     /// All that acts on the bodies besides reactions and friction: weights and loads.
     pub applied: Vec<Wrench>,
     /// Right-hand side without friction: f, gamma, prescribed accelerations.
@@ -121,7 +121,7 @@ impl KineticEquations {
     /// equations too ill-conditioned to be solved.
     pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let layout = Layout::new(mechanism);
-        let contacts: Vec<ContactState> =
+        let contacts: Vec<ContactGeometry> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
         let applied = loads::applied(mechanism, configuration)?;
         let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
@@ -146,6 +146,11 @@ impl KineticEquations {
         let first = self.factorization.solve(positive);
         let second = if positive == negative { first.clone() } else { self.factorization.solve(negative) };
         [first, second]
+    }
+
+    /// The unknowns with every component set to zero that is below the rounding errors of the solution.
+    pub fn without_noise(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        self.factorization.without_noise(unknowns)
     }
 
     /// Estimate of how much rounding is amplified: ratio of the greatest to the least pivot.
@@ -224,7 +229,7 @@ impl Builder<'_> {
 
     /// W_k^{+} and W_k^{-}: a unit friction force, -u on the block and u on the guide, at the pressed face
     /// P - sign(N) (h/2) n.
-    fn friction(&self, id: ContactId, contact: &ContactState) -> [DVector<f64>; 2] {
+    fn friction(&self, id: ContactId, contact: &ContactGeometry) -> [DVector<f64>; 2] {
         [1.0, -1.0].map(|sign| {
             let mut column = DVector::zeros(self.layout.len());
             for wrench in friction_forces(self.mechanism, id, contact, sign, 1.0) {
@@ -265,7 +270,7 @@ impl Builder<'_> {
         else {
             return Fault::general(FaultKind::IllConditioned { condition: *condition });
         };
-        let motion = self.motion_in_words(&accelerations);
+        let motion = motion_in_words(self.mechanism, self.configuration, &accelerations);
         Fault::new(FaultKind::MotionWithoutInertia { motion }, self.mechanism.bodies[first].place.clone())
     }
 
@@ -280,28 +285,6 @@ impl Builder<'_> {
             .collect();
         names.join(", ")
     }
-
-    /// "rod rotates about (0.1, 0.2), block moves along (1, 0)"
-    fn motion_in_words(&self, motion: &DVector<f64>) -> String {
-        let size = self.mechanism.size;
-        let scale = (0..self.mechanism.bodies.len())
-            .map(|b| motion[3 * b].hypot(motion[3 * b + 1]).max(size * motion[3 * b + 2].abs()))
-            .fold(0.0, f64::max);
-        let mut parts = Vec::new();
-        for (index, body) in self.mechanism.bodies.iter().enumerate() {
-            let velocity = Vector2::new(motion[3 * index], motion[3 * index + 1]);
-            let angular = motion[3 * index + 2];
-            if angular.abs() * size > 1e-6 * scale {
-                // The pole: the point that stays at rest, c + rot90(v)/omega.
-                let pole = self.configuration.poses[index].position + rot90(velocity) / angular;
-                parts.push(format!("{} rotates about ({:.4}, {:.4})", body.name, pole.x, pole.y));
-            } else if velocity.norm() > 1e-6 * scale {
-                let direction = velocity.normalize();
-                parts.push(format!("{} moves along ({:.4}, {:.4})", body.name, direction.x, direction.y));
-            }
-        }
-        parts.join(", ")
-    }
 }
 
 /// The friction force `friction` of a contact as forces on block and guide, acting at the face that is pressed
@@ -309,7 +292,7 @@ impl Builder<'_> {
 pub(crate) fn friction_forces(
     mechanism: &Mechanism,
     id: ContactId,
-    contact: &ContactState,
+    contact: &ContactGeometry,
     sign: f64,
     friction: f64,
 ) -> [Wrench; 2] {

@@ -1,7 +1,7 @@
 //! Rows of the acceleration constraints: G a = gamma, and the coordinates' C a = prescribed + bias.
 
 use super::{Layout, Reaction};
-use crate::configuration::{Configuration, ContactState};
+use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism, rot90};
 use nalgebra::{DVector, Vector2};
@@ -44,7 +44,7 @@ impl ConstraintRow {
 pub(super) fn constraints(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    contacts: &[ContactState],
+    contacts: &[ContactGeometry],
     layout: &Layout,
 ) -> Vec<ConstraintRow> {
     let row = |reaction: &Reaction| match *reaction {
@@ -77,7 +77,7 @@ fn normal(
     mechanism: &Mechanism,
     configuration: &Configuration,
     joint: JointId,
-    contact: &ContactState,
+    contact: &ContactGeometry,
 ) -> ConstraintRow {
     let mut row = ConstraintRow::default();
     if let Some(slider) = mechanism.slider(joint) {

@@ -5,6 +5,8 @@ use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
 
 /// Pivots below this multiple of the greatest count as zero; the equations are then singular.
 const SINGULAR: f64 = 1e-13;
+/// Components of an equilibrated solution that are this many roundoffs below its greatest one are noise.
+const NOISE: f64 = 16.0;
 
 /// The factored matrix of the kinetic equations.
 #[derive(Debug, Clone)]
@@ -31,6 +33,14 @@ pub(super) struct Singular {
 impl Factorization {
     /// Factors a square matrix.
     pub(super) fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
+        if !matrix.iter().all(|entry| entry.is_finite()) {
+            let nothing = DVector::zeros(matrix.ncols());
+            return Err(Singular {
+                null_vector: nothing.clone(),
+                weights: nothing,
+                condition: f64::INFINITY,
+            });
+        }
         let (row_scale, column_scale) = equilibration(&matrix);
         let scaled = scaled(&matrix, &row_scale, &column_scale);
         let factors = scaled.clone().full_piv_lu();
@@ -50,6 +60,13 @@ impl Factorization {
         let first = self.solve_once(right_hand_side);
         let residual = right_hand_side - &self.matrix * &first;
         first + self.solve_once(&residual)
+    }
+
+    /// A solution with every component set to zero that is below the rounding errors of the solution itself.
+    pub(super) fn without_noise(&self, solution: &DVector<f64>) -> DVector<f64> {
+        let scaled = solution.component_div(&self.column_scale);
+        let noise = NOISE * f64::EPSILON * scaled.amax();
+        DVector::from_fn(solution.len(), |i, _| if scaled[i].abs() <= noise { 0.0 } else { solution[i] })
     }
 
     pub(super) fn condition(&self) -> f64 {

@@ -1,9 +1,9 @@
 //! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
 //! relations between values, and how its parts are connected.
 
-use super::{Along, JointKind, LoadKind, Model, NamedPoint, Slider};
+use super::{Along, BODY_LIMIT, JointKind, LoadKind, Model, NamedPoint, Slider};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
-use crate::fault::{Fault, FaultKind, Faults, Place};
+use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -15,12 +15,16 @@ impl Model {
     /// further fault for lacking it.
     pub(super) fn check(&mut self, complete: bool) -> Faults {
         let mut faults = Faults::default();
+        if self.bodies.len() > BODY_LIMIT {
+            let kind = FaultKind::TooManyBodies { bodies: self.bodies.len(), limit: BODY_LIMIT };
+            faults.push(Fault::new(kind, self.bodies[BODY_LIMIT].place.clone()));
+        }
         self.order_parameters(&mut faults);
         self.check_dimensions(&mut faults);
         let values = self.allowed_values(&mut faults);
         self.check_relations(&values, &mut faults);
         if complete {
-            self.check_connections(&mut faults);
+            self.check_connections(&values, &mut faults);
         }
         faults
     }
@@ -116,8 +120,13 @@ impl Model {
         let mut inferred = vec![Inferred::Any; self.parameters.len()];
         for &index in &self.evaluation_order {
             let of = |symbol| self.inferred(symbol, &inferred);
-            let found = self.formula(self.parameters[index].value).expression.dimension(&of);
-            inferred[index] = match found {
+            let formula = self.formula(self.parameters[index].value);
+            // A setting keeps the dimension of what it replaces: if it has another one, that is its fault alone.
+            if let Some(wanted) = formula.wanted {
+                inferred[index] = Inferred::Known(wanted);
+                continue;
+            }
+            inferred[index] = match formula.expression.dimension(&of) {
                 Ok(Inferred::Known(dimension)) => Inferred::Known(dimension),
                 _ => Inferred::Any,
             };
@@ -148,8 +157,9 @@ impl Model {
             Symbol::Rate(index) => format!("rate({})", self.coordinates[index].name),
             Symbol::Time => "t".to_owned(),
         };
-        for formula in self.formulas.iter().filter(|formula| !formula.broken) {
-            faults.extend(formula.check(&of, &name));
+        for (index, formula) in self.formulas.iter().enumerate().filter(|(_, formula)| !formula.broken) {
+            let found = formula.check(&of, &name);
+            faults.extend(found.into_iter().map(|fault| self.blame_setting(FormulaId(index), fault)));
         }
     }
 
@@ -181,10 +191,20 @@ impl Model {
             match formula.constant(&parameters) {
                 Ok(value) => values[index] = Some(value),
                 Err(_) if is_parameter.contains(&id) => {}
-                Err(fault) => faults.push(fault),
+                Err(fault) => faults.push(self.blame_setting(id, fault)),
             }
         }
         values
+    }
+
+    /// A value that is not allowed because of a parameter from a setting is a fault of the setting.
+    fn blame_setting(&self, formula: FormulaId, fault: Fault) -> Fault {
+        let mut used =
+            self.used_parameters(formula).map(|index| &self.formula(self.parameters[index].value).origin);
+        match used.find(|origin| matches!(origin.source, Source::Setting(_))) {
+            Some(origin) => Fault::new(fault.kind, origin.place()),
+            None => fault,
+        }
     }
 
     /// Relations between values: static and kinetic friction, travel limits, points that give a direction.
@@ -219,6 +239,7 @@ impl Model {
         value: &dyn Fn(FormulaId) -> Option<f64>,
         faults: &mut Faults,
     ) {
+        let mut reported: Vec<Place> = Vec::new();
         for contact in &slider.contacts {
             for side in 0..2 {
                 let (Some(mu), Some(mu_static)) = (value(contact.mu[side]), value(contact.mu_static[side]))
@@ -228,15 +249,19 @@ impl Model {
                 if mu_static < mu {
                     let kind =
                         FaultKind::StaticBelowKinetic { contact: contact.name.to_string(), mu, mu_static };
-                    faults.push(Fault::new(kind, self.formula(contact.mu_static[side]).origin.place()));
-                    break;
+                    let place = self.formula(contact.mu_static[side]).origin.place();
+                    if reported.contains(&place) {
+                        continue;
+                    }
+                    faults.push(Fault::new(kind, place.clone()));
+                    reported.push(place);
                 }
             }
         }
     }
 
     /// Joints of a body with itself, doubled joints, bodies without a way to ground.
-    fn check_connections(&self, faults: &mut Faults) {
+    fn check_connections(&self, values: &[Option<f64>], faults: &mut Faults) {
         let mut group: Vec<usize> = (0..=self.bodies.len()).collect();
         for (index, joint) in self.joints.iter().enumerate() {
             let [first, second] = joined(&joint.kind);
@@ -244,8 +269,14 @@ impl Model {
                 let kind =
                     FaultKind::SelfJoint { joint: joint.name.to_string(), body: self.frame_name(first) };
                 faults.push(Fault::new(kind, joint.place.clone()));
+                // It was meant to connect the body with something.
+                let from = group[node(first)];
+                let to = group[0];
+                group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
+                continue;
             }
-            if let Some(other) = self.joints[..index].iter().find(|other| doubles(&joint.kind, &other.kind)) {
+            let mut before = self.joints[..index].iter();
+            if let Some(other) = before.find(|other| doubles(&joint.kind, &other.kind, values)) {
                 let kind =
                     FaultKind::DoubledJoint { joint: joint.name.to_string(), other: other.name.to_string() };
                 faults.push(Fault::new(kind, joint.place.clone()));
@@ -267,6 +298,9 @@ impl Model {
     }
 }
 
+/// Places (m) nearer to each other than a rounding error of this one are the same in every mechanism.
+const SHORTEST: f64 = 1e-40;
+
 /// Two points that give a direction must differ.
 fn check_direction(
     along: &Along,
@@ -277,8 +311,9 @@ fn check_direction(
     let Along::Points(points) = along else { return };
     let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
     let [from, to] = points.as_ref();
+    let rounding = |a: [f64; 2], b: [f64; 2]| 1e-12 * a[0].hypot(a[1]).max(b[0].hypot(b[1])).max(SHORTEST);
     if let (Some(a), Some(b)) = (at(from), at(to))
-        && a == b
+        && (b[0] - a[0]).hypot(b[1] - a[1]) <= rounding(a, b)
     {
         let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
         faults.push(Fault::new(kind, place.clone()));
@@ -293,15 +328,36 @@ fn joined(joint: &JointKind) -> [Frame; 2] {
     }
 }
 
-/// Whether two hinges join the same bodies at the same point.
-fn doubles(joint: &JointKind, other: &JointKind) -> bool {
-    let (JointKind::Hinge(a), JointKind::Hinge(b)) = (joint, other) else { return false };
-    let pair = |hinge: &[super::Attachment; 2]| {
-        let mut ends = hinge.each_ref().map(|end| (end.frame, end.name.clone()));
-        ends.sort();
-        ends
-    };
-    pair(a) == pair(b)
+/// Whether two joints do the same: hinges of the same bodies at the same place, or sliding joints of the
+/// same block on the same guide at the same place in the same direction.
+fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool {
+    let place = |at: [FormulaId; 2]| Some([values[at[0].index()]?, values[at[1].index()]?]);
+    match (joint, other) {
+        (JointKind::Hinge(a), JointKind::Hinge(b)) => {
+            let mut frames = [a, b].map(|hinge| [hinge[0].frame, hinge[1].frame]);
+            for pair in &mut frames {
+                pair.sort();
+            }
+            let at = |hinge: &[super::Attachment; 2]| place(hinge[0].position);
+            frames[0] == frames[1] && at(a).is_some() && at(a) == at(b)
+        }
+        (JointKind::Slider(a), JointKind::Slider(b)) => {
+            let direction = |along: &Along| match along {
+                Along::Angle(angle) => values[angle.index()],
+                Along::Points(points) => {
+                    let [from, to] = [place(points[0].position)?, place(points[1].position)?];
+                    Some((to[1] - from[1]).atan2(to[0] - from[0]))
+                }
+            };
+            a.kind == b.kind
+                && (a.block, a.guide) == (b.block, b.guide)
+                && place(a.at).is_some()
+                && place(a.at) == place(b.at)
+                && direction(&a.along).is_some()
+                && direction(&a.along) == direction(&b.along)
+        }
+        _ => false,
+    }
 }
 
 /// Ground is node 0, body k node k + 1.

@@ -50,6 +50,9 @@ use std::sync::Arc;
 /// Largest model file that is read, in bytes.
 pub const SIZE_LIMIT: u64 = 4 << 20;
 
+/// Greatest number of bodies: the matrices are dense, and their cost grows with its third power.
+pub const BODY_LIMIT: usize = 1000;
+
 /// A checked model: what a model file says, with every reference resolved.
 #[derive(Debug, Clone)]
 pub struct Model {
@@ -407,7 +410,7 @@ impl Model {
     /// Every fault of the text, each with its place: syntax, keys, names, expressions, dimensions.
     pub fn parse(text: &str) -> Result<Self, Faults> {
         if text.len() as u64 > SIZE_LIMIT {
-            let kind = FaultKind::TooLarge { size: text.len() as u64, limit: SIZE_LIMIT };
+            let kind = FaultKind::TooLarge { limit: SIZE_LIMIT };
             return Err(Fault::general(kind).into());
         }
         if text.trim().is_empty() {
@@ -425,7 +428,8 @@ impl Model {
             Ok(text) => Self::parse(text),
             Err(error) => {
                 let offset = error.valid_up_to();
-                Err(Fault::general(FaultKind::NotUtf8 { offset }).into())
+                let kind = FaultKind::NotUtf8 { byte: bytes[offset] };
+                Err(Fault::new(kind, Place::model(offset..offset + 1)).into())
             }
         }
     }

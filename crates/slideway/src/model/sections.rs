@@ -8,6 +8,7 @@ use super::file::{
 };
 use super::quantity::{Components, Gravity, Name, Quantity};
 use super::structure::StructureCheck;
+use crate::expression::ExpressionFaultKind;
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use serde::de::DeserializeOwned;
 use std::sync::OnceLock;
@@ -51,14 +52,7 @@ pub(super) fn sections(text: &str) -> (Sections, Faults) {
     static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
     let schema = SCHEMA.get_or_init(super::json_schema);
     let (document, errors) = DeTable::parse_recoverable(text);
-    let mut faults = Faults::default();
-    let mut broken_lines = Vec::new();
-    for error in errors {
-        let span = error.span().unwrap_or(0..0);
-        broken_lines.push(line_around(text, span.start));
-        let kind = FaultKind::Syntax { message: error.message().to_owned() };
-        faults.push(Fault::new(kind, Place::model(within(text, span))));
-    }
+    let (mut faults, broken_lines) = syntax_faults(text, document.get_ref(), &errors);
     let mut check = StructureCheck::new(schema, broken_lines);
     check.root(document.get_ref());
     let mut reader = SectionReader { check, text, faults: Faults::default() };
@@ -80,6 +74,53 @@ pub(super) fn sections(text: &str) -> (Sections, Faults) {
     (sections, faults)
 }
 
+/// The faults of syntax, one for each line, and the stretches that could not be read.
+///
+/// A list that is never closed swallows what follows it: it is one fault, not one for each line.
+fn syntax_faults(
+    text: &str,
+    document: &DeTable<'_>,
+    errors: &[toml::de::Error],
+) -> (Faults, Vec<std::ops::Range<usize>>) {
+    let mut places: Vec<(std::ops::Range<usize>, &str)> =
+        errors.iter().map(|error| (within(text, error.span().unwrap_or(0..0)), error.message())).collect();
+    places.sort_by_key(|(span, _)| span.start);
+    let mut faults = Faults::default();
+    let mut broken = Vec::new();
+    let mut push = |span, message: &str| {
+        let kind = FaultKind::Syntax { message: message.to_owned() };
+        faults.push(Fault::new(kind, Place::model(span)));
+    };
+    let assignment = places.iter().find(|(_, message)| message.starts_with("unexpected `=` in array"));
+    let unclosed = assignment.and_then(|(span, _)| list_around(document, span.start));
+    let end = unclosed.as_ref().map_or(text.len(), |list| list.start);
+    for (index, (span, message)) in places.iter().enumerate() {
+        let line = line_around(text, span.start);
+        let first = !places[..index].iter().any(|(other, _)| line.start <= other.start);
+        if first && span.start <= end {
+            push(span.clone(), message);
+        }
+        broken.push(line);
+    }
+    if let Some(list) = unclosed {
+        push(list.start..list.start + 1, "this list is never closed, expected `]`");
+        broken.push(list.start..text.len());
+    }
+    (faults, broken)
+}
+
+/// The innermost list of the document around a place.
+fn list_around(table: &DeTable<'_>, place: usize) -> Option<std::ops::Range<usize>> {
+    table.values().find_map(|value| {
+        let span = value.span();
+        match value.get_ref() {
+            DeValue::Table(table) => list_around(table, place),
+            DeValue::Array(_) if span.start <= place && place <= span.end => Some(span),
+            _ => None,
+        }
+    })
+}
+
 struct SectionReader<'t, 's> {
     check: StructureCheck<'s>,
     text: &'t str,
@@ -88,8 +129,8 @@ struct SectionReader<'t, 's> {
 
 impl SectionReader<'_, '_> {
     fn single<T: DeserializeOwned>(&mut self, root: &mut DeTable<'_>, key: &str) -> Option<T> {
-        let value = root.remove(key)?;
-        if !self.check.is_sound(key) {
+        let mut value = root.remove(key)?;
+        if !self.check.mend(&[key], &mut value) {
             return None;
         }
         self.keep(deserialize(value))
@@ -104,12 +145,15 @@ impl SectionReader<'_, '_> {
     ) -> Vec<Entry<T>> {
         let Some(section) = root.remove(key) else { return Vec::new() };
         let DeValue::Table(table) = section.into_inner() else { return Vec::new() };
+        if !self.check.has_entries(key) {
+            return Vec::new();
+        }
         let mut entries: Vec<Entry<T>> = table
             .into_iter()
-            .map(|(name, value)| {
-                let sound = self.check.is_sound(&format!("{key}.{}", name.get_ref()));
+            .map(|(name, mut value)| {
+                let readable = self.check.mend(&[key, name.get_ref()], &mut value);
                 let span = within(self.text, name.span());
-                let contents = if sound { self.keep(contents(value)) } else { None };
+                let contents = if readable { self.keep(contents(value)) } else { None };
                 Entry { name: name.into_inner().into_owned(), span, contents }
             })
             .collect();
@@ -122,7 +166,14 @@ impl SectionReader<'_, '_> {
         result
             .map_err(|error| {
                 let span = error.span().unwrap_or(0..0);
-                let kind = FaultKind::Syntax { message: error.message().to_owned() };
+                if self.check.is_broken(span.start) {
+                    return;
+                }
+                let kind = if error.message().contains("overflow") {
+                    FaultKind::Expression(ExpressionFaultKind::NumberTooLarge)
+                } else {
+                    FaultKind::Syntax { message: error.message().to_owned() }
+                };
                 self.faults.push(Fault::new(kind, Place::model(within(self.text, span))));
             })
             .ok()

@@ -9,6 +9,11 @@ use serde_json::Value as Schema;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Text of the values that stand in for missing and faulty ones, so that the rest of their table can be read.
+///
+/// It means nothing but where a fault has been recorded, and no model with a fault is ever used.
+pub(super) const STAND_IN: &str = "\u{1}";
+
 /// Walks a parsed file beside its schema.
 ///
 /// Lines with a syntax error are passed over: what the parser made of them is not what was meant.
@@ -16,13 +21,33 @@ pub(super) struct StructureCheck<'s> {
     root: &'s Schema,
     broken_lines: Vec<Span>,
     faults: Faults,
-    faulty: Vec<String>,
+    /// The keys that lead to the value under examination.
+    path: Vec<String>,
+    mends: Vec<Mend>,
+}
+
+/// How the value at the end of a path of keys becomes readable.
+struct Mend {
+    path: Vec<String>,
+    with: StandIn,
+}
+
+/// What takes the place of a value.
+#[derive(Clone, Copy)]
+enum StandIn {
+    Text,
+    Pair,
+    True,
+    /// Nothing: the key is taken out.
+    Removed,
+    /// There is none: the whole entry cannot be read.
+    Impossible,
 }
 
 impl<'s> StructureCheck<'s> {
     /// A check against the whole schema `root`, in which references are looked up.
     pub(super) fn new(root: &'s Schema, broken_lines: Vec<Span>) -> Self {
-        Self { root, broken_lines, faults: Faults::default(), faulty: Vec::new() }
+        Self { root, broken_lines, faults: Faults::default(), path: Vec::new(), mends: Vec::new() }
     }
 
     /// Checks a whole file.
@@ -30,17 +55,33 @@ impl<'s> StructureCheck<'s> {
         self.table(document, &(0..0), self.root, "");
     }
 
-    /// Whether nothing at or below `place` is faulty.
-    pub(super) fn is_sound(&self, place: &str) -> bool {
-        !self.faulty.iter().any(|faulty| {
-            faulty.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    /// Puts stand-ins for what is missing or faulty in the value at the end of `path`; whether it can be read then.
+    pub(super) fn mend(&self, path: &[&str], value: &mut Spanned<DeValue<'_>>) -> bool {
+        let within = |mend: &&Mend| mend.path.iter().zip(path).all(|(key, wanted)| key == wanted);
+        self.mends.iter().filter(within).all(|mend| match mend.path.get(path.len()..) {
+            Some(keys) => mend.apply(keys, value),
+            None => false,
         })
     }
 
-    fn push(&mut self, kind: FaultKind, span: Span, place: &str) {
-        self.faulty.push(place.to_owned());
-        let broken = |line: &Span| line.start <= span.start && span.start < line.end;
-        if !self.broken_lines.iter().any(broken) {
+    /// Whether a section consists of entries, as it should.
+    pub(super) fn has_entries(&self, section: &str) -> bool {
+        !self.mends.iter().any(|mend| mend.path == [section])
+    }
+
+    /// Whether a place lies in what could not be read.
+    pub(super) fn is_broken(&self, place: usize) -> bool {
+        self.broken_lines.iter().any(|line| line.start <= place && place < line.end)
+    }
+
+    /// Records a fault, and how the value at the present path is to be mended.
+    fn push(&mut self, kind: FaultKind, span: Span, with: StandIn) {
+        self.mends.push(Mend { path: self.path.clone(), with });
+        self.record(kind, span);
+    }
+
+    fn record(&mut self, kind: FaultKind, span: Span) {
+        if !self.is_broken(span.start) {
             self.faults.push(Fault::new(kind, Place::model(span)));
         }
     }
@@ -63,20 +104,20 @@ impl<'s> StructureCheck<'s> {
             let present: Vec<_> = alternatives.iter().filter(|a| a["type"] != "null").collect();
             let kind = kind(value.get_ref());
             let fitting = present.iter().find(|a| self.kinds(a).contains(&kind));
-            return match fitting {
-                Some(fitting) => self.value(value, fitting, place),
-                None => {
-                    self.wrong_type(value, alternatives.iter().flat_map(|a| self.kinds(a)).collect(), place);
-                }
-            };
+            if let Some(fitting) = fitting {
+                return self.value(value, fitting, place);
+            }
+            let wanted = alternatives.iter().flat_map(|a| self.kinds(a)).collect();
+            return self.wrong_type(value, wanted, place, self.stand_in(schema));
         }
         let kinds = self.kinds(schema);
         let found = kind(value.get_ref());
         if !kinds.is_empty() && !kinds.contains(&found) {
-            return self.wrong_type(value, kinds, place);
+            return self.wrong_type(value, kinds, place, self.stand_in(schema));
         }
         if let Some(words) = schema.get("enum").and_then(Schema::as_array) {
-            return self.word(value, &words.iter().filter_map(Schema::as_str).collect::<Vec<_>>(), place);
+            let words: Vec<&str> = words.iter().filter_map(Schema::as_str).collect();
+            return self.word(value, &words, place, StandIn::Removed);
         }
         match value.get_ref() {
             DeValue::Table(table) => self.table(table, &value.span(), schema, place),
@@ -85,25 +126,92 @@ impl<'s> StructureCheck<'s> {
         }
     }
 
-    /// Checks the keys of a table.
+    /// Checks the keys of a table; `span` is that of its heading.
     fn table(&mut self, table: &DeTable<'_>, span: &Span, schema: &'s Schema, place: &str) {
         let schema = self.resolve(schema);
+        if self.path.len() == 1 && self.lacks_headings(table, span, schema, place) {
+            return;
+        }
         let properties = schema.get("properties").and_then(Schema::as_object);
+        let mut misspelt = Vec::new();
         for (key, value) in table {
             let name: &str = key.get_ref();
             let inner = if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") };
             let of_map = schema.get("additionalProperties").filter(|s| s.is_object());
             match properties.and_then(|properties| properties.get(name)).or(of_map) {
-                Some(schema) => self.value(value, schema, &inner),
-                None => self.unknown_key(key, properties, place),
+                Some(schema) => {
+                    self.path.push(name.to_owned());
+                    self.value(value, schema, &inner);
+                    self.path.pop();
+                }
+                None => misspelt.extend(self.unknown_key(key, properties, place)),
             }
         }
         let required = schema.get("required").and_then(Schema::as_array);
-        for key in required.into_iter().flatten().filter_map(Schema::as_str) {
-            if !table.contains_key(key) {
-                let kind = FaultKind::MissingKey { key: key.to_owned(), table: place.to_owned() };
-                self.push(kind, span.clone(), place);
+        let required = required.into_iter().flatten().filter_map(Schema::as_str);
+        let missing: Vec<&str> = required.filter(|key| !table.contains_key(*key)).collect();
+        // A mistyped key is one fault, even where the key that was meant is required.
+        let absent = missing.iter().filter(|key| !misspelt.iter().any(|meant| meant == *key));
+        for key in absent {
+            let kind = FaultKind::MissingKey { key: (*key).to_owned(), table: place.to_owned() };
+            if place.is_empty() {
+                self.faults.push(Fault::general(kind));
+            } else {
+                self.record(kind, span.clone());
             }
+        }
+        let meant = misspelt.iter().map(String::as_str);
+        for key in missing.iter().copied().chain(meant).filter(|key| !table.contains_key(*key)) {
+            let schema = properties.and_then(|properties| properties.get(key));
+            let with = schema.map_or(StandIn::Impossible, |schema| self.stand_in(schema));
+            let with = if missing.contains(&key) { with } else { with.if_text() };
+            let path = self.path.iter().cloned().chain([key.to_owned()]).collect();
+            self.mends.push(Mend { path, with });
+        }
+    }
+
+    /// Whether a section of named tables holds values of its own, as if the name were missing in its heading.
+    fn lacks_headings(&mut self, table: &DeTable<'_>, span: &Span, schema: &'s Schema, place: &str) -> bool {
+        let of_entry = schema.get("additionalProperties").filter(|s| s.is_object());
+        let is_table = |schema| {
+            let resolved = self.resolve(schema);
+            let tagged = resolved.get("oneOf").and_then(Schema::as_array).and_then(|all| tagged(all));
+            tagged.is_some() || self.kinds(schema) == ["table"]
+        };
+        let values = table.values().any(|value| value.get_ref().as_table().is_none());
+        let lacking = values && of_entry.is_some_and(is_table);
+        if lacking {
+            let kind = FaultKind::NoHeading { section: place.to_owned() };
+            self.push(kind, span.clone(), StandIn::Impossible);
+        }
+        lacking
+    }
+
+    /// What can take the place of a value of this schema.
+    fn stand_in(&self, schema: &'s Schema) -> StandIn {
+        let schema = self.resolve(schema);
+        if schema.get("enum").is_some() {
+            return StandIn::Removed;
+        }
+        let inner = schema.get("anyOf").and_then(Schema::as_array);
+        if let Some(alternatives) = inner {
+            let all = alternatives.iter().filter(|a| a["type"] != "null").map(|a| self.stand_in(a));
+            return all.reduce(StandIn::simpler).unwrap_or(StandIn::Impossible);
+        }
+        if schema.get("oneOf").is_some() {
+            let words =
+                schema["oneOf"].as_array().is_some_and(|all| all.iter().all(|a| a["const"].is_string()));
+            return if words { StandIn::Removed } else { StandIn::Impossible };
+        }
+        let kinds = self.kinds(schema);
+        if kinds.contains(&"text") {
+            StandIn::Text
+        } else if kinds.contains(&"list") && schema["minItems"] == 2 {
+            StandIn::Pair
+        } else if kinds.contains(&"true or false") {
+            StandIn::True
+        } else {
+            StandIn::Impossible
         }
     }
 
@@ -112,15 +220,17 @@ impl<'s> StructureCheck<'s> {
         key: &Spanned<std::borrow::Cow<'_, str>>,
         properties: Option<&serde_json::Map<String, Schema>>,
         place: &str,
-    ) {
+    ) -> Option<String> {
         let known: Vec<&str> = properties.into_iter().flat_map(|p| p.keys()).map(String::as_str).collect();
+        let nearest = nearest(key.get_ref(), known.iter().copied());
         let kind = FaultKind::UnknownKey {
             key: key.get_ref().to_string(),
             table: place.to_owned(),
-            nearest: nearest(key.get_ref(), known.iter().copied()),
+            nearest: nearest.clone(),
             known: known.iter().map(ToString::to_string).collect(),
         };
-        self.push(kind, key.span(), place);
+        self.record(kind, key.span());
+        nearest
     }
 
     fn array(&mut self, items: &[Spanned<DeValue<'_>>], span: &Span, schema: &'s Schema, place: &str) {
@@ -128,40 +238,44 @@ impl<'s> StructureCheck<'s> {
         let most = schema.get("maxItems").and_then(Schema::as_u64).unwrap_or(u64::MAX);
         if !(least..=most).contains(&(items.len() as u64)) {
             let kind = FaultKind::WrongLength { place: place.to_owned(), wanted: least, found: items.len() };
-            self.push(kind, span.clone(), place);
+            self.push(kind, span.clone(), self.stand_in(schema));
             return;
         }
-        let Some(schema) = schema.get("items") else { return };
+        let Some(of_item) = schema.get("items") else { return };
+        let before = self.mends.len();
         for item in items {
-            self.value(item, schema, place);
+            self.value(item, of_item, place);
         }
+        // A stand-in takes the place of the whole list.
+        let with = self.stand_in(schema);
+        self.mends[before..].iter_mut().for_each(|mend| mend.with = with);
     }
 
     fn tagged(&mut self, value: &Spanned<DeValue<'_>>, tags: &[(&'s str, &'s Schema)], place: &str) {
         let DeValue::Table(table) = value.get_ref() else {
-            return self.wrong_type(value, vec!["table"], place);
+            return self.wrong_type(value, vec!["table"], place, StandIn::Impossible);
         };
         let names: Vec<&str> = tags.iter().map(|(tag, _)| *tag).collect();
         let Some(tag) = table.get("type") else {
             let kind = FaultKind::MissingType { table: place.to_owned(), known: owned(&names) };
-            self.push(kind, value.span(), place);
+            self.push(kind, value.span(), StandIn::Impossible);
             return;
         };
         match tags.iter().find(|(name, _)| Some(*name) == tag.get_ref().as_str()) {
             Some((_, schema)) => self.table(table, &value.span(), schema, place),
-            None => self.word(tag, &names, &format!("{place}.type")),
+            None => self.word(tag, &names, &format!("{place}.type"), StandIn::Impossible),
         }
     }
 
     /// One of several words, each with its description (an enumeration with documented variants).
     fn choice(&mut self, value: &Spanned<DeValue<'_>>, alternatives: &'s [Schema], place: &str) {
         let words: Vec<&str> = alternatives.iter().filter_map(|a| a["const"].as_str()).collect();
-        self.word(value, &words, place);
+        self.word(value, &words, place, StandIn::Removed);
     }
 
-    fn word(&mut self, value: &Spanned<DeValue<'_>>, words: &[&str], place: &str) {
+    fn word(&mut self, value: &Spanned<DeValue<'_>>, words: &[&str], place: &str, with: StandIn) {
         let Some(text) = value.get_ref().as_str() else {
-            return self.wrong_type(value, vec!["text"], place);
+            return self.wrong_type(value, vec!["text"], place, with);
         };
         if words.contains(&text) {
             return;
@@ -172,18 +286,28 @@ impl<'s> StructureCheck<'s> {
             nearest: nearest(text, words.iter().copied()),
             known: owned(words),
         };
-        self.push(kind, value.span(), place);
+        self.push(kind, value.span(), with);
     }
 
-    fn wrong_type(&mut self, value: &Spanned<DeValue<'_>>, mut wanted: Vec<&'static str>, place: &str) {
-        wanted.retain(|kind| *kind != "nothing");
-        wanted.dedup();
-        let kind = FaultKind::WrongType {
-            place: place.to_owned(),
-            wanted: wanted.join(" or "),
-            found: kind(value.get_ref()),
+    fn wrong_type(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        wanted: Vec<&'static str>,
+        place: &str,
+        with: StandIn,
+    ) {
+        let mut unique: Vec<&str> = Vec::new();
+        for kind in wanted.into_iter().filter(|kind| *kind != "nothing").map(with_article) {
+            if !unique.contains(&kind) {
+                unique.push(kind);
+            }
+        }
+        let wanted = match unique.split_last() {
+            Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+            _ => unique.concat(),
         };
-        self.push(kind, value.span(), place);
+        let found = with_article(kind(value.get_ref()));
+        self.push(FaultKind::WrongType { place: place.to_owned(), wanted, found }, value.span(), with);
     }
 
     fn resolve(&self, schema: &'s Schema) -> &'s Schema {
@@ -205,6 +329,75 @@ impl<'s> StructureCheck<'s> {
             (_, Some(alternatives)) => alternatives.iter().flat_map(|a| self.kinds(a)).collect(),
             _ => vec![],
         }
+    }
+}
+
+impl StandIn {
+    /// The one that fits where both would.
+    fn simpler(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Text, _) | (_, Self::Text) => Self::Text,
+            (Self::Impossible, other) => other,
+            (first, _) => first,
+        }
+    }
+
+    /// An optional key that was mistyped gets a stand-in only if a text can be one.
+    fn if_text(self) -> Self {
+        if matches!(self, Self::Text) { self } else { Self::Removed }
+    }
+}
+
+impl Mend {
+    /// Mends the value at the end of `keys`; whether that was possible.
+    fn apply(&self, keys: &[String], value: &mut Spanned<DeValue<'_>>) -> bool {
+        let span = value.span();
+        let text = || Spanned::new(span.clone(), DeValue::String(STAND_IN.into()));
+        let stand_in = match self.with {
+            StandIn::Text => text().into_inner(),
+            StandIn::Pair => DeValue::Array([text(), text()].into_iter().collect()),
+            StandIn::True => DeValue::Boolean(true),
+            StandIn::Removed => DeValue::Boolean(false),
+            StandIn::Impossible => return false,
+        };
+        let [others @ .., last] = keys else {
+            *value = Spanned::new(span, stand_in);
+            return !matches!(self.with, StandIn::Removed);
+        };
+        let Some(DeValue::Table(table)) = inner(value, others).map(Spanned::get_mut) else { return false };
+        match table.iter_mut().find(|(key, _)| key.get_ref() == last) {
+            Some((_, value)) => *value.get_mut() = stand_in,
+            None => {
+                table.insert(Spanned::new(span.clone(), last.clone().into()), Spanned::new(span, stand_in));
+            }
+        }
+        if matches!(self.with, StandIn::Removed) {
+            table.remove(last.as_str());
+        }
+        true
+    }
+}
+
+/// The value at the end of a path of keys.
+fn inner<'v, 'i>(
+    value: &'v mut Spanned<DeValue<'i>>,
+    keys: &[String],
+) -> Option<&'v mut Spanned<DeValue<'i>>> {
+    keys.iter().try_fold(value, |value, key| match value.get_mut() {
+        DeValue::Table(table) => {
+            table.iter_mut().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value)
+        }
+        _ => None,
+    })
+}
+
+fn with_article(kind: &'static str) -> &'static str {
+    match kind {
+        "number" => "a number",
+        "date" => "a date",
+        "list" => "a list",
+        "table" => "a table",
+        other => other,
     }
 }
 

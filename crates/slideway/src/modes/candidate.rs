@@ -1,7 +1,8 @@
 //! The careful solution of a single regular pattern.
 
-use nalgebra::{DVector, Dyn, LU};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
+use super::contact_set::ContactSet;
 use super::scaling::ScaledProblem;
 use super::solutions::ContactState;
 
@@ -15,15 +16,17 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub(super) struct Candidate {
     /// `y_k`, or `lambda_k` in a gap; those that count as zero (or a share as one) are exactly that.
     pub(super) unknowns: DVector<f64>,
-    /// Contacts with `y_k = 0`, bit by bit.
-    pub(super) zero: u64,
-    /// Contacts in the gap with a share of 0 or 1, bit by bit.
-    pub(super) at_end: u64,
+    /// Contacts with `y_k = 0`.
+    pub(super) zero: ContactSet,
+    /// Contacts in the gap with a share of 0 or 1.
+    pub(super) at_end: ContactSet,
     /// No `y_k < 0`, no share outside of 0 to 1.
     pub(super) admissible: bool,
     pub(super) determinant: f64,
     /// Largest error bound among the `y_k`.
     pub(super) tolerance: f64,
+    /// Condition number of the scaled matrix, in the norm of row sums.
+    pub(super) condition: f64,
 }
 
 /// Solves the equations of a pattern by LU with partial pivoting and one step of iterative
@@ -31,7 +34,7 @@ pub(super) struct Candidate {
 pub(super) fn solve_pattern(problem: &ScaledProblem, pattern: &[ContactState]) -> Option<Candidate> {
     if pattern.is_empty() {
         // nalgebra's triangular solutions do not take empty systems.
-        return Some(judge(pattern, DVector::zeros(0), &DVector::zeros(0), problem.load_unit, 1.0));
+        return Some(judge(pattern, DVector::zeros(0), &DVector::zeros(0), problem.load_unit));
     }
     let (matrix, right_hand_side) = problem.system(pattern);
     let factors = matrix.clone().lu();
@@ -44,8 +47,9 @@ pub(super) fn solve_pattern(problem: &ScaledProblem, pattern: &[ContactState]) -
     // |delta y| <= |C^-1| (|C| |y| + |b|) eps, componentwise.
     let terms: DVector<f64> = matrix.abs() * unknowns.abs() + problem.load_size();
     let bounds: DVector<f64> = inverse.abs() * terms * ROUNDING;
-    let determinant = unscaled_determinant(problem, pattern, &factors);
-    Some(judge(pattern, unknowns, &bounds, problem.load_unit, determinant))
+    let candidate = judge(pattern, unknowns, &bounds, problem.load_unit);
+    let condition = largest_row_sum(&matrix) * largest_row_sum(&inverse);
+    Some(Candidate { determinant: unscaled_determinant(problem, pattern, &factors), condition, ..candidate })
 }
 
 fn judge(
@@ -53,35 +57,40 @@ fn judge(
     mut unknowns: DVector<f64>,
     bounds: &DVector<f64>,
     load_unit: f64,
-    determinant: f64,
 ) -> Candidate {
     let pressed = |contact: usize| pattern[contact] != ContactState::Gap;
     let largest =
         (0..pattern.len()).filter(|&k| pressed(k)).fold(0.0, |most: f64, k| most.max(unknowns[k].abs()));
-    let (mut zero, mut at_end, mut admissible, mut tolerance) = (0, 0, true, 0.0_f64);
+    let mut zero = ContactSet::none_of(pattern.len());
+    let mut at_end = zero.clone();
+    let (mut admissible, mut tolerance) = (true, 0.0_f64);
     for contact in 0..pattern.len() {
         let value = unknowns[contact];
-        let bit = 1_u64 << contact;
         if pressed(contact) {
             let bound = ZERO * largest + bounds[contact];
             tolerance = tolerance.max(bound * load_unit);
             admissible &= value >= -bound;
-            zero |= if value.abs() <= bound { bit } else { 0 };
-            unknowns[contact] = if value.abs() <= bound { 0.0 } else { value * load_unit };
+            if value.abs() <= bound {
+                zero.insert(contact);
+                unknowns[contact] = 0.0;
+            } else {
+                unknowns[contact] = value * load_unit;
+            }
         } else {
             let bound = ZERO + bounds[contact];
             admissible &= -bound <= value && value <= 1.0 + bound;
-            at_end |= if value.abs() <= bound || (value - 1.0).abs() <= bound { bit } else { 0 };
-            unknowns[contact] = if value.abs() <= bound {
-                0.0
-            } else if (value - 1.0).abs() <= bound {
-                1.0
-            } else {
-                value
-            };
+            if let Some(end) = [0.0, 1.0].into_iter().find(|end| (value - end).abs() <= bound) {
+                at_end.insert(contact);
+                unknowns[contact] = end;
+            }
         }
     }
-    Candidate { unknowns, zero, at_end, admissible, determinant, tolerance }
+    Candidate { unknowns, zero, at_end, admissible, determinant: 1.0, tolerance, condition: 1.0 }
+}
+
+/// The norm `max_i sum_k |a_ik|`.
+fn largest_row_sum(matrix: &DMatrix<f64>) -> f64 {
+    matrix.row_iter().fold(0.0, |most: f64, row| most.max(row.abs().sum()))
 }
 
 /// `det C` of the unscaled matrix, as the product of scaled pivots so that nothing overflows that

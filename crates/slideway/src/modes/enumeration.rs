@@ -19,8 +19,7 @@ pub struct Limits {
     pub contacts: usize,
     /// Largest number of patterns, `2^(r-j) 3^j` with `j` contacts at which the right-hand side jumps.
     pub patterns: u64,
-    /// Largest number of patterns that give a solution or a gap state, counting each of the
-    /// patterns that share a boundary solution.
+    /// Largest number of solutions and gap states; one that several patterns share counts once.
     pub solutions: usize,
     /// Largest number of patterns listed with one solution or one singular set.
     pub listed: usize,
@@ -258,8 +257,10 @@ impl<'a> Tree<'a> {
         if self.in_gap == 0 {
             self.findings.offer_closest(&self.pattern, self.levels[self.pattern.len()].determinant);
         }
-        if self.may_be_solution() {
-            self.findings.examine_candidate(&self.pattern)
+        if self.findings.count_unloaded(&self.pattern) {
+            Ok(())
+        } else if self.may_be_solution() {
+            self.findings.examine_candidate(&self.pattern).map(|_| ())
         } else {
             self.findings.count_no_solution(self.in_gap > 0);
             Ok(())

@@ -5,6 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use nalgebra::DVector;
 
 use super::candidate::{Candidate, solve_pattern};
+use super::contact_set::ContactSet;
 use super::degenerate::{Examined, examine, same_point, same_set};
 use super::enumeration::{EnumerationError, Limits};
 use super::problem::Side;
@@ -16,6 +17,8 @@ use super::solutions::{
 
 /// How many patterns close to locking are reported.
 const CLOSEST: usize = 4;
+/// A pattern whose matrix has a condition number above this may be singular.
+const SUSPECT_CONDITION: f64 = 1e7;
 
 /// A solution or gap state with the patterns that give it.
 struct Found {
@@ -30,7 +33,22 @@ struct Found {
 #[derive(PartialEq, Eq, Hash)]
 struct SharedPattern {
     states: Vec<ContactState>,
-    free: u64,
+    free: ContactSet,
+}
+
+/// What became of one pattern.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum PatternOutcome {
+    /// Some `y_k < 0`, or a share out of its range.
+    NoSolution,
+    /// Contacts with `y_k = 0`, then those with a share of 0 or 1.
+    Solution { on_boundary: Vec<usize> },
+    /// Singular without a solution.
+    Locked,
+    /// Singular with a solution or a continuum of them.
+    Singular,
+    /// Not within the limits.
+    NotExamined,
 }
 
 pub(super) struct Findings<'a> {
@@ -40,10 +58,9 @@ pub(super) struct Findings<'a> {
     gap_counts: PatternCounts,
     found: Vec<Found>,
     shared: HashMap<SharedPattern, usize>,
-    accepted: usize,
     singular: Vec<SingularMode>,
     /// Places in `singular` of non-empty sets, by the signs that their normal forces take.
-    singular_places: HashMap<(u64, u64), Vec<usize>>,
+    singular_places: HashMap<(ContactSet, ContactSet), Vec<usize>>,
     examined: usize,
     bases: u64,
     closest: Vec<(f64, Vec<ContactState>)>,
@@ -58,7 +75,6 @@ impl<'a> Findings<'a> {
             gap_counts: PatternCounts::default(),
             found: Vec::new(),
             shared: HashMap::new(),
-            accepted: 0,
             singular: Vec::new(),
             singular_places: HashMap::new(),
             examined: 0,
@@ -69,6 +85,17 @@ impl<'a> Findings<'a> {
 
     fn counts_of(&mut self, pattern: &[ContactState]) -> &mut PatternCounts {
         if pattern.contains(&ContactState::Gap) { &mut self.gap_counts } else { &mut self.counts }
+    }
+
+    /// How many solutions, gap states and singular sets have been found so far.
+    pub(super) fn found(&self) -> usize {
+        self.found.len() + self.singular.len()
+    }
+
+    /// Puts what was found into the order of enumeration, whatever the order it was found in.
+    pub(super) fn sort(&mut self) {
+        self.found.sort_by(|one, other| one.pattern().cmp(other.pattern()));
+        self.singular.sort_by(|one, other| one.pattern.cmp(&other.pattern));
     }
 
     pub(super) fn count_no_solution(&mut self, with_gap: bool) {
@@ -88,32 +115,95 @@ impl<'a> Findings<'a> {
     }
 
     /// Solves a pattern carefully and files its outcome.
-    pub(super) fn examine_candidate(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+    pub(super) fn examine_candidate(
+        &mut self,
+        pattern: &[ContactState],
+    ) -> Result<PatternOutcome, EnumerationError> {
         let Some(candidate) = solve_pattern(self.problem, pattern) else {
             self.counts_of(pattern).not_examined += 1;
-            return Ok(());
+            return Ok(PatternOutcome::NotExamined);
         };
+        self.file_candidate(pattern, candidate)
+    }
+
+    /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
+    pub(super) fn examine_leaf(
+        &mut self,
+        pattern: &mut [ContactState],
+    ) -> Result<PatternOutcome, EnumerationError> {
+        match solve_pattern(self.problem, pattern) {
+            Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
+                self.file_candidate(pattern, candidate)
+            }
+            _ if self.examined >= self.limits.singular => {
+                self.leave_unexamined(pattern, pattern.len());
+                Ok(PatternOutcome::NotExamined)
+            }
+            _ => self.examine_suspect(pattern),
+        }
+    }
+
+    /// A closer look at a pattern that may be singular.
+    fn examine_suspect(&mut self, pattern: &[ContactState]) -> Result<PatternOutcome, EnumerationError> {
+        self.examined += 1;
+        match examine(self.problem, pattern, &mut self.bases) {
+            Examined::Regular => self.examine_candidate(pattern),
+            Examined::Singular(set) => {
+                let outcome = match set {
+                    SolutionSet::Empty => PatternOutcome::Locked,
+                    SolutionSet::NotComputed => PatternOutcome::NotExamined,
+                    _ => PatternOutcome::Singular,
+                };
+                self.file_singular(pattern, set);
+                Ok(outcome)
+            }
+        }
+    }
+
+    fn file_candidate(
+        &mut self,
+        pattern: &[ContactState],
+        candidate: Candidate,
+    ) -> Result<PatternOutcome, EnumerationError> {
         let counts = self.counts_of(pattern);
         if !candidate.admissible {
             counts.no_solution += 1;
-            return Ok(());
+            return Ok(PatternOutcome::NoSolution);
         }
-        if candidate.zero | candidate.at_end == 0 {
+        let on_boundary: Vec<usize> = candidate.zero.iter().chain(candidate.at_end.iter()).collect();
+        if on_boundary.is_empty() {
             counts.solution += 1;
         } else {
             counts.boundary += 1;
         }
-        self.accepted += 1;
-        if self.accepted > self.limits.solutions {
+        self.file(pattern, candidate);
+        if self.found.len() > self.limits.solutions {
+            self.found.pop();
+            let known = self.found.len();
+            self.shared.retain(|_, index| *index < known);
             return Err(EnumerationError::TooManySolutions { limit: self.limits.solutions });
         }
-        self.file(pattern, candidate);
-        Ok(())
+        Ok(PatternOutcome::Solution { on_boundary })
+    }
+
+    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False if it
+    /// has not, or if there are loads.
+    pub(super) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
+        let [zero] = &mut self.found[..] else { return false };
+        if self.problem.load_size().amax() != 0.0 {
+            return false;
+        }
+        self.counts.boundary += 1;
+        zero.pattern_count += 1;
+        if zero.patterns.len() < self.limits.listed {
+            zero.patterns.push(pattern.to_vec());
+        }
+        true
     }
 
     fn file(&mut self, pattern: &[ContactState], candidate: Candidate) {
         let free = self.free_contacts(&candidate);
-        let key = SharedPattern { states: canonical(pattern, free), free };
+        let key = SharedPattern { states: canonical(pattern, &free), free };
         let signed = pattern.iter().zip(&candidate.unknowns).map(|(state, value)| state.sign() * value);
         let normal_force = DVector::from_iterator(pattern.len(), signed);
         let (patterns, pattern_count) = (vec![pattern.to_vec()], 1);
@@ -130,9 +220,11 @@ impl<'a> Findings<'a> {
     }
 
     /// Contacts with `y_k = 0` at which the right-hand side does not jump: either side will do.
-    fn free_contacts(&self, candidate: &Candidate) -> u64 {
-        let jumps = self.problem.has_jump.iter().enumerate();
-        jumps.fold(candidate.zero, |free, (contact, &jump)| free & !(u64::from(jump) << contact))
+    fn free_contacts(&self, candidate: &Candidate) -> ContactSet {
+        let mut free = candidate.zero.clone();
+        let jumps = self.problem.has_jump.iter().enumerate().filter(|(_, jump)| **jump);
+        jumps.for_each(|(contact, _)| free.remove(contact));
+        free
     }
 
     /// Examines one by one all patterns that share the states of the contacts before `first`.
@@ -152,12 +244,7 @@ impl<'a> Findings<'a> {
             }
             return Ok(());
         }
-        self.examined += 1;
-        match examine(self.problem, pattern, &mut self.bases) {
-            Examined::Regular => self.examine_candidate(pattern)?,
-            Examined::Singular(set) => self.file_singular(pattern, set),
-        }
-        Ok(())
+        self.examine_suspect(pattern).map(|_| ())
     }
 
     fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
@@ -173,7 +260,7 @@ impl<'a> Findings<'a> {
     fn file_singular(&mut self, pattern: &[ContactState], set: SolutionSet) {
         self.counts_of(pattern).count_set(&set);
         if !set.vertices().is_empty() {
-            let places = self.singular_places.entry(signs_taken(&set)).or_default();
+            let places = self.singular_places.entry(signs_taken(&set, pattern.len())).or_default();
             if let Some(&place) = places.iter().find(|&&place| same_set(&self.singular[place].set, &set)) {
                 let mode = &mut self.singular[place];
                 mode.pattern_count += 1;
@@ -240,15 +327,16 @@ impl<'a> Findings<'a> {
     /// For each finding an earlier one that it agrees with, and from which it differs only in
     /// contacts that are free in one of the two.
     fn merging_neighbours(&self) -> Vec<Option<usize>> {
-        let free: Vec<u64> = self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
-        let masks: BTreeSet<u64> = free.iter().copied().filter(|&mask| mask != 0).collect();
+        let free: Vec<ContactSet> =
+            self.found.iter().map(|found| self.free_contacts(&found.candidate)).collect();
+        let masks: BTreeSet<&ContactSet> = free.iter().filter(|mask| !mask.is_empty()).collect();
         let mut merged: Vec<Option<usize>> = vec![None; self.found.len()];
         for mask in masks {
             let mut groups: HashMap<Vec<ContactState>, Vec<usize>> = HashMap::new();
             for (index, found) in self.found.iter().enumerate() {
                 let group = groups.entry(canonical(found.pattern(), mask)).or_default();
                 let earlier = group.iter().copied().find(|&earlier| {
-                    (free[earlier] == mask || free[index] == mask) && self.found[earlier].agrees_with(found)
+                    (&free[earlier] == mask || &free[index] == mask) && self.found[earlier].agrees_with(found)
                 });
                 merged[index] = merged[index].or(earlier);
                 group.push(index);
@@ -260,7 +348,7 @@ impl<'a> Findings<'a> {
     /// Whether a gap state with a share of 0 or 1 is reported already: as a solution, as a gap state
     /// with fewer gaps, or as a vertex of what a singular pattern admits.
     fn is_known(&self, gap: &Found, ordinary: &[Found], gaps: &[Found]) -> bool {
-        if gap.candidate.at_end == 0 {
+        if gap.candidate.at_end.is_empty() {
             return false;
         }
         let mut vertices = self.singular.iter().flat_map(|mode| mode.set.vertices());
@@ -297,8 +385,8 @@ impl Found {
         self.pattern_count += other.pattern_count;
         let room = listed.saturating_sub(self.patterns.len());
         self.patterns.extend(other.patterns.into_iter().take(room));
-        for contact in bits(other.candidate.zero) {
-            self.candidate.zero |= 1 << contact;
+        for contact in other.candidate.zero.iter() {
+            self.candidate.zero.insert(contact);
             self.candidate.unknowns[contact] = 0.0;
             self.normal_force[contact] = 0.0;
         }
@@ -318,7 +406,7 @@ impl Found {
             } else {
                 ContactState::Negative
             };
-            let at_end = self.candidate.at_end >> contact & 1 == 1;
+            let at_end = self.candidate.at_end.contains(contact);
             if !at_end || face != end {
                 return false;
             }
@@ -329,7 +417,7 @@ impl Found {
 
     fn signs(&self) -> Vec<i8> {
         let sign = |(contact, state): (usize, &ContactState)| match state {
-            _ if self.candidate.zero >> contact & 1 == 1 => 0,
+            _ if self.candidate.zero.contains(contact) => 0,
             ContactState::Positive => 1,
             ContactState::Negative => -1,
             ContactState::Gap => 0,
@@ -345,7 +433,7 @@ impl Found {
             determinant: self.candidate.determinant,
             oriented_determinant: oriented(self.candidate.determinant, &pattern),
             pattern,
-            on_boundary: bits(self.candidate.zero).collect(),
+            on_boundary: self.candidate.zero.iter().collect(),
             patterns: self.patterns.iter().map(|pattern| sides(pattern)).collect(),
             pattern_count: self.pattern_count,
             tolerance: self.candidate.tolerance,
@@ -363,7 +451,7 @@ impl Found {
             signs: self.signs(),
             y: self.normal_force.abs(),
             determinant: self.candidate.determinant,
-            on_boundary: bits(self.candidate.zero).collect(),
+            on_boundary: self.candidate.zero.iter().collect(),
             patterns: self.patterns,
             pattern_count: self.pattern_count,
             tolerance: self.candidate.tolerance,
@@ -382,21 +470,23 @@ fn sides(pattern: &[ContactState]) -> Vec<Side> {
     pattern.iter().filter_map(|state| state.side()).collect()
 }
 
-fn bits(mask: u64) -> impl Iterator<Item = usize> {
-    (0..64).filter(move |contact| mask >> contact & 1 == 1)
-}
-
 /// The contacts whose normal forces are positive, and negative, somewhere in a set.
-fn signs_taken(set: &SolutionSet) -> (u64, u64) {
-    let forces =
-        set.vertices().into_iter().chain(set.directions()).flat_map(|force| force.iter().enumerate());
-    forces.fold((0, 0), |(positive, negative), (contact, &force)| {
-        (positive | u64::from(force > 0.0) << contact, negative | u64::from(force < 0.0) << contact)
-    })
+fn signs_taken(set: &SolutionSet, contacts: usize) -> (ContactSet, ContactSet) {
+    let (mut positive, mut negative) = (ContactSet::none_of(contacts), ContactSet::none_of(contacts));
+    for force in set.vertices().into_iter().chain(set.directions()) {
+        for (contact, &value) in force.iter().enumerate() {
+            if value > 0.0 {
+                positive.insert(contact);
+            } else if value < 0.0 {
+                negative.insert(contact);
+            }
+        }
+    }
+    (positive, negative)
 }
 
 /// The pattern with all free contacts on their positive side.
-fn canonical(pattern: &[ContactState], free: u64) -> Vec<ContactState> {
-    let state = |(contact, &state)| if free >> contact & 1 == 1 { ContactState::Positive } else { state };
+fn canonical(pattern: &[ContactState], free: &ContactSet) -> Vec<ContactState> {
+    let state = |(contact, &state)| if free.contains(contact) { ContactState::Positive } else { state };
     pattern.iter().enumerate().map(state).collect()
 }

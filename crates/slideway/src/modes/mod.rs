@@ -39,16 +39,24 @@
 //! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
 
 mod candidate;
+pub mod certificate;
+mod contact_set;
 mod degenerate;
 mod enumeration;
 pub mod exhaustive;
 mod findings;
 mod problem;
 mod scaling;
+mod search;
 mod solutions;
 
 pub use enumeration::{EnumerationError, Limits, enumerate};
 pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
+pub use search::{
+    Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
+    GroupReport, GroupState, Method, PatternShares, Progress, SearchOptions, SearchResult, SolutionProduct,
+    StateCounts, StateKind, StateSet, StopReason, search,
+};
 pub use solutions::{
     ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
     Solutions,

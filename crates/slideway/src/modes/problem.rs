@@ -326,6 +326,35 @@ impl ModeProblem {
         Self::new(-m, DMatrix::identity(contacts, contacts), none.clone(), none, q)
     }
 
+    /// The problem whose solutions are all `(w, z)` of the horizontal linear complementarity problem
+    /// `A w - B z = q, w >= 0, z >= 0, w^T z = 0` (the form of Sznajder and Gowda, Linear Algebra and
+    /// its Applications 223/224 (1995)). With `A = I` it is the linear complementarity problem of `B`.
+    ///
+    /// On the positive side of contact `k` the unknown `y_k` is `z_k` (column `-B_k`), on the
+    /// negative side it is `w_k` (column `A_k`), as in [`Self::from_linear_complementarity`].
+    ///
+    /// # Errors
+    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`].
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway::modes::{enumerate, Limits, ModeProblem};
+    /// // 2 w - 3 z = 6: only w = 3, z = 0.
+    /// let problem = ModeProblem::from_horizontal_complementarity(&dmatrix![2.0], &dmatrix![3.0], dvector![6.0])?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert_eq!(solutions.solutions.len(), 1);
+    /// assert_eq!(solutions.solutions[0].normal_force[0], -3.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_horizontal_complementarity(
+        a: &DMatrix<f64>,
+        b: &DMatrix<f64>,
+        q: DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let none = DMatrix::zeros(q.len(), q.len());
+        Self::new(-b, a.clone(), none.clone(), none, q)
+    }
+
     /// The number `r` of contacts.
     pub fn contacts(&self) -> usize {
         self.right_hand_side.len()

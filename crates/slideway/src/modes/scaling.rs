@@ -99,6 +99,16 @@ impl ScaledProblem {
         (matrix, right_hand_side)
     }
 
+    /// Something that adds to the problem's right-hand side, in scaled units.
+    pub(super) fn scaled_load(&self, load: &DVector<f64>) -> DVector<f64> {
+        load.component_mul(&self.row_scale) / self.load_unit
+    }
+
+    /// A combination of the scaled equations as a combination of the problem's own equations.
+    pub(super) fn unscaled_rows(&self, multipliers: &[f64]) -> Vec<f64> {
+        multipliers.iter().zip(&self.row_scale).map(|(multiplier, scale)| multiplier * scale).collect()
+    }
+
     /// The factor by which a column in the given state and the row of the same number enlarge the
     /// determinant of the unscaled matrix.
     pub(super) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {

@@ -5,12 +5,13 @@
 
 mod csv;
 mod json;
-mod number;
-mod table;
+pub(crate) mod number;
+pub(crate) mod table;
 mod text;
 
 pub use csv::to_csv;
 pub use json::to_json;
+pub(crate) use text::count;
 pub use text::{Style, to_text};
 
 use serde::Serialize;
@@ -243,6 +244,8 @@ pub struct Continuum {
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.
     pub directions: Vec<Vec<f64>>,
+    /// The guided sliders that would tip in a part of it.
+    pub tipping: Vec<String>,
 }
 
 /// A mode with a vanishing determinant and no solution.

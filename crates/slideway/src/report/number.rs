@@ -4,7 +4,7 @@
 const NOISE: f64 = 1e-13;
 
 /// A number with five significant digits; scientific where it is very large or small.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -21,7 +21,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// [`number`], with rounding errors against `scale` shown as 0.
-pub(super) fn against(value: f64, scale: f64) -> String {
+pub(crate) fn against(value: f64, scale: f64) -> String {
     if value.abs() <= NOISE * scale { "0".to_owned() } else { number(value) }
 }
 

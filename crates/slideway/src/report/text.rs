@@ -17,18 +17,18 @@ pub enum Style {
 }
 
 impl Style {
-    fn paint(self, ansi: Ansi, text: &str) -> String {
+    pub(crate) fn paint(self, ansi: Ansi, text: &str) -> String {
         match self {
             Self::Plain => text.to_owned(),
             Self::Colour => format!("{ansi}{text}{ansi:#}"),
         }
     }
 
-    fn heading(self, text: &str) -> String {
+    pub(crate) fn heading(self, text: &str) -> String {
         self.paint(Ansi::new().bold(), text)
     }
 
-    fn verdict(self, status: Status, text: &str) -> String {
+    pub(crate) fn verdict(self, status: Status, text: &str) -> String {
         let colour = match status {
             Status::One => AnsiColor::Green,
             Status::None => AnsiColor::Red,
@@ -102,7 +102,13 @@ impl Text<'_> {
     fn verdict(&mut self) {
         let report = self.report;
         let verdict = match report.status {
+            Status::None if !report.rejected.is_empty() => {
+                "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
+            }
             Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
+            Status::One if !report.complete => {
+                "One solution found; not every pattern could be decided.".to_owned()
+            }
             Status::One => "One solution.".to_owned(),
             Status::Several => format!("{} solutions, each in its own contact mode.", report.solutions.len()),
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
@@ -122,7 +128,7 @@ impl Text<'_> {
         let outcomes = [
             (counts.solution, "with a solution"),
             (counts.boundary, "on the boundary of a solution"),
-            (counts.no_solution, "without"),
+            (counts.no_solution, "without a solution"),
             (counts.singular_without_solution, "singular and locked"),
             (counts.singular_with_point, "singular with one solution"),
             (counts.singular_with_continuum, "singular with a continuum"),
@@ -133,10 +139,14 @@ impl Text<'_> {
             .filter(|(count, _)| *count > 0)
             .map(|(count, outcome)| format!("{count} {outcome}"))
             .collect();
-        let mut line = if counts.total == 1 {
-            format!("The only sign pattern was tried: {}.", parts.join(", "))
-        } else {
-            format!("All {} sign patterns were tried: {}.", counts.total, parts.join(", "))
+        let tried = match (counts.total, counts.undecided) {
+            (1, 0) => "The only sign pattern was tried".to_owned(),
+            (total, 0) => format!("All {total} sign patterns were tried"),
+            (total, undecided) => format!("{} of {total} sign patterns were decided", total - undecided),
+        };
+        let mut line = match parts.as_slice() {
+            [_] if counts.no_solution == counts.total => format!("{tried}: none has a solution."),
+            _ => format!("{tried}: {}.", parts.join(", ")),
         };
         if counts.gap_patterns > 0 {
             let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
@@ -163,9 +173,9 @@ impl Text<'_> {
         self.out.push_str(&motion);
         self.line("");
         self.line(&format!(
-            "  determinant {}, equilibrium residual {:.0e}",
+            "  determinant {}, equilibrium of every body to within {}",
             number(solution.determinant),
-            solution.residual
+            power_of_ten_above(solution.residual)
         ));
     }
 
@@ -187,6 +197,9 @@ impl Text<'_> {
             }
             for direction in &continuum.directions {
                 self.line(&format!("  along {}", vector(direction, "")));
+            }
+            if !continuum.tipping.is_empty() {
+                self.line(&format!("  In a part of it {} would tip.", continuum.tipping.join(", ")));
             }
         }
     }
@@ -306,16 +319,25 @@ fn vector(components: &[f64], unit: &str) -> String {
 }
 
 fn about_to_change(contacts: &[Contact]) -> String {
-    let names: Vec<&str> =
-        contacts.iter().filter(|contact| contact.side == 0).map(|contact| contact.name.as_str()).collect();
+    let names: Vec<&str> = contacts
+        .iter()
+        .filter(|c| c.side == 0 && c.preload_share.is_none())
+        .map(|contact| contact.name.as_str())
+        .collect();
     match names.as_slice() {
         [name] => format!("{name} is"),
         names => format!("{} are", names.join(", ")),
     }
 }
 
-fn count(number: usize, one: &str, several: &str) -> String {
+pub(crate) fn count(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
+}
+
+/// A power of ten above a residual, with room for the rounding of other machines: "1e-15".
+fn power_of_ten_above(residual: f64) -> String {
+    let exponent = residual.max(1e-16).log10().ceil();
+    format!("1e{}", exponent.max(-15.0))
 }
 
 /// "+-+" as "+ - +".

@@ -1,6 +1,8 @@
 //! From the solutions of the mode problem back to the mechanism: every force and acceleration of each solution.
 
+use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
+use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
 use crate::configuration::{Configuration, unit};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -9,9 +11,7 @@ use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Slider};
 use crate::model::{PreloadLine, SliderKind};
-use crate::modes::{
-    ClosestMode, ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet, Solutions,
-};
+use crate::modes::{ClosestMode, ContactState, SingularMode, SolutionSet, Solutions};
 use crate::report::{self, Report, Status};
 use nalgebra::DVector;
 
@@ -27,25 +27,13 @@ pub(super) struct Answer<'a> {
     pub(super) velocity_signs: &'a DVector<f64>,
 }
 
-/// A state of all contacts: a solution of the mode problem, or a vertex of a continuum.
-struct State<'s> {
-    pattern: &'s [ContactState],
-    patterns: Vec<String>,
-    normal_force: &'s DVector<f64>,
-    /// For each contact in its gap, the share of the positive face.
-    shares: Vec<Option<f64>>,
-    signs: Vec<i8>,
-    on_boundary: bool,
-    determinant: f64,
-}
-
 impl<'a> Answer<'a> {
     /// The report on all solutions.
     pub(super) fn report(&self, found: &Solutions) -> Result<Report, Faults> {
         let mut rejected = Vec::new();
         let mut rejections = 0;
         let mut keep = |state: &State<'_>| -> Option<report::Solution> {
-            let unknowns = self.influence.unknowns(&self.friction(state));
+            let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state)));
             match self.tipping(state, &unknowns) {
                 None => Some(self.solution(state, &unknowns)),
                 Some(rejection) => {
@@ -60,9 +48,17 @@ impl<'a> Answer<'a> {
             .iter()
             .filter_map(|solution| keep(&regular(solution, &pressed(&solution.pattern))))
             .collect();
-        solutions.extend(found.singular.iter().filter_map(|mode| keep(&point(mode)?)));
+        let singular: Vec<SingularMode> =
+            found.singular.iter().map(|mode| self.without_tipping(mode)).collect();
+        solutions.extend(singular.iter().filter_map(|mode| keep(&point(mode)?)));
         let gaps: Vec<_> = found.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
-        let continua: Vec<_> = found.singular.iter().filter_map(continuum).collect();
+        let solutions = distinct(solutions, &[]);
+        let gaps = distinct(gaps, &solutions);
+        let continua: Vec<_> = singular.iter().filter_map(|mode| self.continuum(mode)).collect();
+        for mode in found.singular.iter().zip(&singular).filter(|(mode, cut)| tips_everywhere(mode, cut)) {
+            rejections += mode.0.pattern_count;
+            rejected.extend(mode.0.set.vertices().first().and_then(|vertex| self.tipping_at(mode.0, vertex)));
+        }
         let complete = found.is_complete();
         let report = Report {
             schema: report::SCHEMA,
@@ -111,7 +107,7 @@ impl<'a> Answer<'a> {
 
     /// Friction forces of a state, split by the face at which they act: eq. (2) with
     /// F_k = (mu_k |N_k| + F_k0) s_k.
-    fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
+    pub(super) fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
         let one = |k: usize| {
             let contact = &self.mechanism.contacts[k];
             let sign = self.velocity_signs[k];
@@ -142,8 +138,9 @@ impl<'a> Answer<'a> {
     }
 
     /// A guided slider whose couple is more than its pressure can give: |C| <= |N| L / 2 (theory, section 1).
-    fn tipping(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Option<report::Rejection> {
-        let greatest = state.normal_force.amax();
+    pub(super) fn tipping(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Option<report::Rejection> {
+        let greatest = self.equations.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max);
+        let greatest = greatest.max(state.normal_force.amax());
         self.guided_sliders().find_map(|(joint, slider)| {
             let couple = self.couple(joint, unknowns)?;
             let normal_force = state.normal_force[slider.contacts[0].index()].abs();
@@ -159,7 +156,7 @@ impl<'a> Answer<'a> {
         })
     }
 
-    fn guided_sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
+    pub(super) fn guided_sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
         self.sliders().filter(|(_, slider)| slider.kind == SliderKind::Guided)
     }
 
@@ -176,7 +173,7 @@ impl<'a> Answer<'a> {
 
     fn solution(&self, state: &State<'_>, unknowns: &DVector<f64>) -> report::Solution {
         let friction = self.friction(state);
-        let residuals = self.residuals(unknowns, &friction);
+        let residuals = self.residuals(state, unknowns, &friction);
         let orientation: f64 = state.pattern.iter().map(|contact| contact.sign()).product();
         report::Solution {
             pattern: pattern(state.pattern),
@@ -195,7 +192,12 @@ impl<'a> Answer<'a> {
         }
     }
 
-    fn residuals(&self, unknowns: &DVector<f64>, friction: &[ContactFriction]) -> Vec<Residual> {
+    fn residuals(
+        &self,
+        state: &State<'_>,
+        unknowns: &DVector<f64>,
+        friction: &[ContactFriction],
+    ) -> Vec<Residual> {
         let balance = Balance {
             mechanism: self.mechanism,
             configuration: self.configuration,
@@ -203,6 +205,7 @@ impl<'a> Answer<'a> {
             applied: &self.equations.applied,
             layout: self.influence.layout(),
             unknowns,
+            normal_force: state.normal_force,
             friction,
         };
         balance.residuals()
@@ -219,8 +222,9 @@ impl<'a> Answer<'a> {
             report::Contact {
                 name: contact.name.to_string(),
                 side: state.signs[k],
-                normal_force: state.normal_force[k],
-                friction_force: friction[k].total(),
+                // Adding zero turns -0 into 0.
+                normal_force: state.normal_force[k] + 0.0,
+                friction_force: friction[k].total() + 0.0,
                 sliding_velocity: self.equations.contacts[k].sliding_velocity,
                 couple: self.couple(contact.joint, unknowns),
                 preload_share: state.shares[k],
@@ -299,13 +303,28 @@ impl<'a> Answer<'a> {
     }
 
     fn locked_modes(&self, singular: &[SingularMode]) -> Vec<report::LockedMode> {
-        let locked = singular.iter().filter(|mode| mode.set == SolutionSet::Empty);
+        let is_locked = |mode: &&SingularMode| {
+            mode.set == SolutionSet::Empty && !mode.pattern.contains(&ContactState::Gap)
+        };
+        let locked = singular.iter().filter(is_locked);
         locked
             .map(|mode| report::LockedMode {
                 pattern: pattern(&mode.pattern),
                 joints: self.joint_modes(&signs(&mode.pattern)),
             })
             .collect()
+    }
+
+    fn continuum(&self, mode: &SingularMode) -> Option<report::Continuum> {
+        let list = |vectors: Vec<&DVector<f64>>| {
+            vectors.into_iter().map(|vector| vector.iter().copied().collect()).collect()
+        };
+        mode.set.is_continuum().then(|| report::Continuum {
+            pattern: pattern(&mode.pattern),
+            vertices: list(mode.set.vertices()),
+            directions: list(mode.set.directions()),
+            tipping: self.tipping_in(mode),
+        })
     }
 
     fn closest_mode(&self, mode: &ClosestMode) -> report::ClosestMode {
@@ -333,93 +352,9 @@ impl<'a> Answer<'a> {
     }
 }
 
-fn pressed(pattern: &[Side]) -> Vec<ContactState> {
-    pattern.iter().map(|side| ContactState::from(*side)).collect()
-}
-
-fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState]) -> State<'s> {
-    State {
-        pattern,
-        patterns: solution.patterns.iter().map(|sides| self::pattern(&pressed(sides))).collect(),
-        normal_force: &solution.normal_force,
-        shares: vec![None; pattern.len()],
-        signs: solution.signs.clone(),
-        on_boundary: !solution.on_boundary.is_empty(),
-        determinant: solution.determinant,
-    }
-}
-
-fn in_gap(gap: &GapState) -> State<'_> {
-    let mut shares = vec![None; gap.pattern.len()];
-    for share in &gap.shares {
-        shares[share.contact] = Some(share.lambda);
-    }
-    State {
-        pattern: &gap.pattern,
-        patterns: gap.patterns.iter().map(|states| pattern(states)).collect(),
-        normal_force: &gap.normal_force,
-        shares,
-        signs: gap.signs.clone(),
-        on_boundary: !gap.on_boundary.is_empty(),
-        determinant: gap.determinant,
-    }
-}
-
-/// The single solution that a singular mode admits, unless a regular mode shares it.
-fn point(mode: &SingularMode) -> Option<State<'_>> {
-    let SolutionSet::Point(normal_force) = &mode.set else { return None };
-    let has_gap = mode.pattern.contains(&ContactState::Gap);
-    (mode.contains.is_empty() && !has_gap).then(|| State {
-        pattern: &mode.pattern,
-        patterns: mode.patterns.iter().map(|states| pattern(states)).collect(),
-        normal_force,
-        shares: vec![None; mode.pattern.len()],
-        signs: normal_force
-            .iter()
-            .map(|n| {
-                if *n == 0.0 {
-                    0
-                } else if *n > 0.0 {
-                    1
-                } else {
-                    -1
-                }
-            })
-            .collect(),
-        on_boundary: true,
-        determinant: 0.0,
-    })
-}
-
-fn continuum(mode: &SingularMode) -> Option<report::Continuum> {
-    let list = |vectors: Vec<&DVector<f64>>| {
-        vectors.into_iter().map(|vector| vector.iter().copied().collect()).collect()
-    };
-    mode.set.is_continuum().then(|| report::Continuum {
-        pattern: pattern(&mode.pattern),
-        vertices: list(mode.set.vertices()),
-        directions: list(mode.set.directions()),
-    })
-}
-
-fn signs(pattern: &[ContactState]) -> Vec<i8> {
-    pattern
-        .iter()
-        .map(|state| match state {
-            ContactState::Positive => 1,
-            ContactState::Negative => -1,
-            ContactState::Gap => 0,
-        })
-        .collect()
-}
-
-fn pattern(states: &[ContactState]) -> String {
-    let sign = |state: &ContactState| match state {
-        ContactState::Positive => '+',
-        ContactState::Negative => '-',
-        ContactState::Gap => '0',
-    };
-    states.iter().map(sign).collect()
+/// Whether nothing is left of a continuum because a guided slider would tip.
+fn tips_everywhere(mode: &SingularMode, cut: &SingularMode) -> bool {
+    mode.set.is_continuum() && cut.set == SolutionSet::Empty
 }
 
 fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
@@ -432,6 +367,7 @@ fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Sta
                 Status::Unknown
             }
         }
+        (0, _, 0) if !complete => Status::Unknown,
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,
         _ => Status::Several,
@@ -457,6 +393,17 @@ fn pattern_summary(found: &Solutions, rejected: u64) -> report::PatternSummary {
 /// No number that is printed may be infinite or undefined.
 fn check_finite(report: &Report) -> Result<(), Faults> {
     let mut faults = Faults::default();
+    let closest = report.closest_modes.iter().flat_map(|mode| mode.absolute_normal_forces.iter().copied());
+    let continua =
+        report.continua.iter().flat_map(|set| set.vertices.iter().chain(&set.directions)).flatten();
+    let influence = &report.influence;
+    let eta = influence.eta_positive.iter().chain(&influence.eta_negative).flatten();
+    let frictionless = influence.coordinate_accelerations.iter().chain(&influence.normal_forces);
+    let mut all = closest.chain(continua.chain(eta).chain(frictionless).copied()).chain([report.condition]);
+    if !all.all(f64::is_finite) {
+        let quantity = "an influence coefficient or a normal force".to_owned();
+        faults.push(Fault::general(FaultKind::Overflow { quantity }));
+    }
     for solution in report.solutions.iter().chain(&report.preload_gap_states) {
         let forces = solution
             .contacts

@@ -3,7 +3,7 @@
 //! Nothing of the kinetic equations' matrix is used: the forces are placed at their points, and their moments are
 //! taken about the origin of the world frame.
 
-use crate::configuration::{Configuration, ContactState};
+use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::ContactFriction;
 use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
@@ -17,7 +17,7 @@ pub(super) struct Residual {
     pub(super) force: f64,
     /// Left-over moment about the world origin (N m).
     pub(super) moment: f64,
-    /// The greater of both, divided by the greatest force or moment that acts on the body.
+    /// The greater of both, divided by the greatest force in the mechanism (moments: times its size).
     pub(super) relative: f64,
 }
 
@@ -25,10 +25,12 @@ pub(super) struct Residual {
 pub(super) struct Balance<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) configuration: &'a Configuration,
-    pub(super) contacts: &'a [ContactState],
+    pub(super) contacts: &'a [ContactGeometry],
     pub(super) applied: &'a [Wrench],
     pub(super) layout: &'a Layout,
     pub(super) unknowns: &'a DVector<f64>,
+    /// The normal forces as the mode problem gives them, so that the balance tests them, too.
+    pub(super) normal_force: &'a DVector<f64>,
     pub(super) friction: &'a [ContactFriction],
 }
 
@@ -36,7 +38,12 @@ impl Balance<'_> {
     /// The residual of every body.
     pub(super) fn residuals(&self) -> Vec<Residual> {
         let forces = self.forces();
-        (0..self.mechanism.bodies.len()).map(|body| self.residual(BodyId(body), &forces)).collect()
+        let size = self.mechanism.size;
+        let greatest = forces
+            .iter()
+            .map(|wrench| wrench.force.norm().max(wrench.couple.abs() / size))
+            .fold(0.0, f64::max);
+        (0..self.mechanism.bodies.len()).map(|body| self.residual(BodyId(body), &forces, greatest)).collect()
     }
 
     /// Every force and couple on every body.
@@ -69,7 +76,7 @@ impl Balance<'_> {
             Reaction::Normal(contact) => {
                 let state = &self.contacts[contact.index()];
                 let joint = self.mechanism.contacts[contact.index()].joint;
-                self.on_slider(joint, state.point, value * state.normal, 0.0)
+                self.on_slider(joint, state.point, self.normal_force[contact.index()] * state.normal, 0.0)
             }
             Reaction::Couple(joint) => self.on_slider(joint, Vector2::zeros(), Vector2::zeros(), value),
         }
@@ -100,31 +107,22 @@ impl Balance<'_> {
     }
 
     /// Sum of forces minus m a, and sum of moments about the origin minus (c x m a + J alpha).
-    fn residual(&self, body: BodyId, forces: &[Wrench]) -> Residual {
+    fn residual(&self, body: BodyId, forces: &[Wrench], greatest: f64) -> Residual {
         let first = self.layout.acceleration(body);
         let acceleration = Vector2::new(self.unknowns[first], self.unknowns[first + 1]);
         let properties = &self.mechanism.bodies[body.index()];
         let centre = self.configuration.poses[body.index()].position;
         let inertia = properties.mass * acceleration;
-        let spin = properties.moment_of_inertia * self.unknowns[first + 2];
         let mut sum = -inertia;
-        let mut moment = -(centre.perp(&inertia) + spin);
-        let (mut greatest_force, mut greatest_moment) = (inertia.norm(), moment.abs());
+        let mut moment = -(centre.perp(&inertia) + properties.moment_of_inertia * self.unknowns[first + 2]);
         for wrench in forces.iter().filter(|wrench| wrench.frame == Frame::Body(body)) {
-            let turning = wrench.place.perp(&wrench.force) + wrench.couple;
             sum += wrench.force;
-            moment += turning;
-            greatest_force = greatest_force.max(wrench.force.norm());
-            greatest_moment = greatest_moment.max(turning.abs());
+            moment += wrench.place.perp(&wrench.force) + wrench.couple;
         }
         let (force, moment) = (sum.norm(), moment.abs());
-        let greatest_moment = greatest_moment.max(greatest_force * self.mechanism.size);
-        let relative = ratio(force, greatest_force).max(ratio(moment, greatest_moment));
+        let left_over = force.max(moment / self.mechanism.size);
+        // Without any force there is nothing to be left over.
+        let relative = if left_over == 0.0 { 0.0 } else { left_over / greatest.max(inertia.norm()) };
         Residual { force, moment, relative }
     }
-}
-
-/// a / b, and zero where nothing acts at all.
-fn ratio(a: f64, b: f64) -> f64 {
-    if a == 0.0 { 0.0 } else { a / b }
 }

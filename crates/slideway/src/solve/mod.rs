@@ -18,11 +18,15 @@
 //! ```
 
 mod answer;
+mod continuum;
+mod distinct;
 mod equilibrium;
 mod mode_problem;
+mod state;
 mod words;
 
 pub use mode_problem::mode_problem;
+pub(crate) use mode_problem::{check_size, velocity_signs};
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;
@@ -49,10 +53,11 @@ pub fn solve(model: &Model) -> Result<Report, Faults> {
 /// As [`solve`].
 pub fn solve_within(model: &Model, limits: &Limits) -> Result<Report, Faults> {
     let mechanism = Mechanism::new(model)?;
+    check_size(&mechanism, limits)?;
     let configuration = Configuration::new(&mechanism)?;
     let equations = KineticEquations::new(&mechanism, &configuration)?;
     let influence = Influence::new(&equations);
-    let velocity_signs = mode_problem::velocity_signs(&mechanism, &configuration, &equations)?;
+    let velocity_signs = velocity_signs(&mechanism, &configuration)?;
     let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
     let solutions = modes::enumerate(&problem, limits).map_err(|error| mode_problem::too_large(&error))?;
     let answer = answer::Answer {

@@ -2,25 +2,33 @@
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
 use crate::influence::Influence;
-use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{PreloadLine, SliderKind};
-use crate::modes::{BySide, EnumerationError, InfluenceCoefficients, ModeProblem, ModeProblemError};
+use crate::modes::{
+    BySide, EnumerationError, InfluenceCoefficients, Limits, ModeProblem, ModeProblemError, Side,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// Sliding velocities below this multiple of the greatest velocity count as zero.
 const AT_REST: f64 = 1e-12;
 /// Versions of an influence column that differ by less than this multiple of it are the same.
 const SAME: f64 = 1e-12;
+/// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
+const NO_INFLUENCE: f64 = 1e-13;
+
+/// Coefficients of eq. (6) beyond this (mu eta of one) leave too few digits to tell a vanishing determinant.
+const GREATEST_COEFFICIENT: f64 = 1e5;
 
 /// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
-pub(super) fn velocity_signs(
+pub(crate) fn velocity_signs(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    equations: &KineticEquations,
 ) -> Result<DVector<f64>, Faults> {
-    let sliding: Vec<f64> = equations.contacts.iter().map(|contact| contact.sliding_velocity).collect();
+    let contacts = (0..mechanism.contacts.len()).map(ContactId);
+    let sliding: Vec<f64> =
+        contacts.map(|contact| configuration.contact(mechanism, contact).sliding_velocity).collect();
     let speeds =
         configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * mechanism.size));
     let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
@@ -32,7 +40,11 @@ pub(super) fn velocity_signs(
         let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
         let joint = mechanism.contacts[first].joint;
         let place = mechanism.joints[joint.index()].place.clone();
-        return Err(Fault::new(FaultKind::ZeroSlidingVelocity { contacts }, place).into());
+        let at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
+        let coordinates =
+            mechanism.coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
+        let kind = FaultKind::ZeroSlidingVelocity { contacts, coordinates, at_rest };
+        return Err(Fault::new(kind, place).into());
     }
     let sign = |velocity: &f64| if at_rest(*velocity) { 0.0 } else { velocity.signum() };
     Ok(DVector::from_iterator(sliding.len(), sliding.iter().map(sign)))
@@ -61,14 +73,22 @@ pub fn mode_problem(
         frictionless: influence.normal_forces(),
         eta,
     };
-    ModeProblem::from_influence(&coefficients).map_err(|error| overflow(&error).into())
+    let problem =
+        ModeProblem::from_influence(&coefficients).map_err(|error| Faults::from(overflow(&error)))?;
+    let greatest = [Side::Positive, Side::Negative].map(|side| problem.columns(side).amax());
+    let condition = greatest[0].max(greatest[1]);
+    if condition > GREATEST_COEFFICIENT {
+        return Err(Fault::general(FaultKind::IllConditioned { condition }).into());
+    }
+    Ok(problem)
 }
 
-/// Both versions of eta; equal where the theory says so, which rounding would hide: for guided sliders, whose
+/// Both versions of eta, without the rounding that would stand where friction has no influence; equal where the theory says so, which rounding would hide: for guided sliders, whose
 /// couple takes up the moment of friction, and wherever the moment of friction has no influence.
 fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
-    let positive = influence.eta(0);
-    let mut negative = influence.eta(1);
+    let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
+    let positive = influence.eta(0).map(without_rounding);
+    let mut negative = influence.eta(1).map(without_rounding);
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
         let difference = (positive.column(k) - negative.column(k)).amax();
@@ -92,8 +112,20 @@ fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<
     preload
 }
 
-fn overflow(error: &ModeProblemError) -> Fault {
-    Fault::general(FaultKind::Overflow { quantity: error.to_string() })
+fn overflow(_: &ModeProblemError) -> Fault {
+    Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() })
+}
+
+/// More contacts than can be enumerated are refused before any matrix is built: those would be large, too.
+///
+/// # Errors
+/// A fault that says how many contacts there are.
+pub(crate) fn check_size(mechanism: &Mechanism, limits: &Limits) -> Result<(), Faults> {
+    let (contacts, limit) = (mechanism.contacts.len(), limits.contacts);
+    if contacts > limit {
+        return Err(Fault::general(FaultKind::TooManyContacts { contacts, limit }).into());
+    }
+    Ok(())
 }
 
 /// The fault of a problem that is too large to be enumerated.

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 ///
 /// `signs` are the signs of its normal forces, 0 where one vanishes; `tangent` is the direction of its guide.
 pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
-    let guide = GuideInWords { tangent, around: slider.height < 0.0 };
+    let guide = GuideInWords { tangent, around: slider.around };
     match (slider.kind, signs) {
         (_, signs) if signs.iter().all(|sign| *sign == 0) => "no contact force".to_owned(),
         (SliderKind::Pin, [sign, ..]) => format!("on the {} side of the slot", guide.face(*sign)),

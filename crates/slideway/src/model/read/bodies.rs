@@ -26,7 +26,7 @@ impl Reader<'_> {
 
     pub(super) fn read_bodies(&mut self, entries: Vec<Entry<BodyTable>>) -> Vec<Body> {
         if entries.is_empty() && self.faults.is_empty() {
-            self.fault(FaultKind::NoBodies, &(0..0));
+            self.faults.push(crate::fault::Fault::general(FaultKind::NoBodies));
         }
         let mut bodies = Vec::new();
         for (index, entry) in entries.into_iter().enumerate() {
@@ -36,6 +36,8 @@ impl Reader<'_> {
             if let Some(table) = &entry.contents {
                 points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
                 inertia = self.inertia(table, &entry.name, &entry.span);
+            } else {
+                self.unread_bodies.push(BodyId(index));
             }
             let place = FaultPlace::model(entry.span);
             bodies.push(Body { name: Arc::from(entry.name), place, inertia, points });
@@ -46,6 +48,15 @@ impl Reader<'_> {
     fn body_points(&mut self, names: &[Name], body: BodyId) -> Vec<NamedPoint> {
         let mut points = Vec::new();
         for name in names {
+            if name.text.contains('.') {
+                let kind = FaultKind::InvalidName {
+                    what: "point of a body",
+                    name: name.text.clone(),
+                    reason: "a body lists its points without the name of a body in front",
+                };
+                self.fault(kind, &name.span);
+                continue;
+            }
             points.push(self.point(name));
             self.owners.entry(name.text.clone()).or_default().push(body);
         }
@@ -57,10 +68,18 @@ impl Reader<'_> {
         let massless = table.massless == Some(true);
         let Some(mass) = &table.mass else {
             if !massless {
-                self.fault(FaultKind::NoneOf { owner, one_of: vec!["mass", "massless"] }, span);
-            } else if table.moment_of_inertia.is_some() {
-                let kind = FaultKind::Both { owner, first: "massless", second: "moment_of_inertia" };
-                self.fault(kind, span);
+                self.fault(
+                    FaultKind::NoneOf { owner: owner.clone(), one_of: vec!["mass", "massless"] },
+                    span,
+                );
+            }
+            let beside = [
+                ("moment_of_inertia", table.moment_of_inertia.is_some()),
+                ("shape", table.shape.is_some()),
+                ("centre_of_mass", table.centre_of_mass.is_some()),
+            ];
+            for (second, _) in beside.into_iter().filter(|(_, given)| massless && *given) {
+                self.fault(FaultKind::Both { owner: owner.clone(), first: "massless", second }, span);
             }
             return Inertia::Massless;
         };
@@ -85,9 +104,9 @@ impl Reader<'_> {
     fn moment(&mut self, table: &BodyTable, name: &str, span: &Span) -> Moment {
         let owner = format!("the body {name}");
         match (&table.moment_of_inertia, &table.shape) {
-            (Some(_), Some(_)) => {
+            (Some(_), Some(shape)) => {
                 self.fault(FaultKind::Both { owner, first: "moment_of_inertia", second: "shape" }, span);
-                Moment::Given(self.zero)
+                self.shape(shape, name, span)
             }
             (None, None) => {
                 self.fault(FaultKind::NoneOf { owner, one_of: vec!["moment_of_inertia", "shape"] }, span);
@@ -139,6 +158,7 @@ impl Reader<'_> {
         let owners = self.owners.get(point).cloned().unwrap_or_default();
         if let (Frame::Body(body), true) = (frame, known)
             && !owners.contains(&body)
+            && !self.unread_bodies.contains(&body)
         {
             let kind = FaultKind::NotOwned {
                 body: self.bodies[body.index()].clone(),

@@ -106,11 +106,14 @@ impl Reader<'_> {
             self.valid_name("drive", &entry.name, &entry.span);
             let Some(table) = &entry.contents else { continue };
             let coordinate = self.coordinate(&table.coordinate);
-            if driven.contains(&coordinate) {
+            let known = self.coordinates.contains(&table.coordinate.text);
+            if known && driven.contains(&coordinate) {
                 let kind = FaultKind::DoubledDrive { coordinate: table.coordinate.text.clone() };
                 self.fault(kind, &table.coordinate.span);
             }
-            driven.push(coordinate);
+            if known {
+                driven.push(coordinate);
+            }
             let what = format!("the prescribed acceleration of {}", table.coordinate.text);
             let acceleration = table.acceleration.as_ref().map(|acceleration| {
                 let dimension = self.acceleration_dimension(&table.coordinate.text);

@@ -23,16 +23,40 @@ struct WrittenFriction<'a> {
     carried_by: Option<CarriedBy>,
 }
 
-impl<'a> WrittenFriction<'a> {
+/// The friction of one contact as it was read.
+#[derive(Clone, Copy, Default)]
+struct ReadFriction {
+    mu: Option<[FormulaId; 2]>,
+    mu_static: Option<[FormulaId; 2]>,
+    preload: Option<[FormulaId; 2]>,
+    preload_line: Option<PreloadLine>,
+    stiffness: Option<FormulaId>,
+    carried_by: Option<CarriedBy>,
+}
+
+impl ReadFriction {
     /// What is written at the end of a block wins over what is written for the joint.
-    fn at_end(self, end: Option<&'a EndTable>) -> Self {
-        let Some(end) = end else { return self };
+    fn or(self, joint: Self) -> Self {
         Self {
-            mu: end.mu.as_ref().or(self.mu),
-            mu_static: end.mu_static.as_ref().or(self.mu_static),
-            preload: end.preload.as_ref().or(self.preload),
-            preload_line: end.preload_line.or(self.preload_line),
-            stiffness: end.stiffness.as_ref().or(self.stiffness),
+            mu: self.mu.or(joint.mu),
+            mu_static: self.mu_static.or(joint.mu_static),
+            preload: self.preload.or(joint.preload),
+            preload_line: self.preload_line.or(joint.preload_line),
+            stiffness: self.stiffness.or(joint.stiffness),
+            carried_by: self.carried_by,
+        }
+    }
+}
+
+impl<'a> WrittenFriction<'a> {
+    fn at_end(end: Option<&'a EndTable>) -> Self {
+        let Some(end) = end else { return Self::default() };
+        Self {
+            mu: end.mu.as_ref(),
+            mu_static: end.mu_static.as_ref(),
+            preload: end.preload.as_ref(),
+            preload_line: end.preload_line,
+            stiffness: end.stiffness.as_ref(),
             carried_by: end.carried_by,
         }
     }
@@ -67,10 +91,14 @@ impl Reader<'_> {
             stiffness: table.stiffness.as_ref(),
             carried_by: None,
         };
-        let contacts = vec![
-            self.contact(both.at_end(table.front.as_ref()), format!("{name}.front"), span),
-            self.contact(both.at_end(table.rear.as_ref()), format!("{name}.rear"), span),
-        ];
+        let both = self.friction(both, name);
+        let contacts =
+            [("front", table.front.as_ref()), ("rear", table.rear.as_ref())].map(|(end, table)| {
+                let contact = format!("{name}.{end}");
+                let friction = self.friction(WrittenFriction::at_end(table), &contact).or(both);
+                self.contact(friction, contact, name, span)
+            });
+        let contacts = Vec::from(contacts);
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         JointKind::Slider(Box::new(Slider {
             kind: SliderKind::Block,
@@ -95,8 +123,9 @@ impl Reader<'_> {
             stiffness: table.stiffness.as_ref(),
             carried_by: None,
         };
-        let contacts = vec![self.contact(friction, name.to_owned(), span)];
-        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).not_negative();
+        let friction = self.friction(friction, name);
+        let contacts = vec![self.contact(friction, name.to_owned(), name, span)];
+        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         JointKind::Slider(Box::new(Slider {
             kind: SliderKind::Guided,
             block: self.frame(&table.block),
@@ -119,7 +148,8 @@ impl Reader<'_> {
             stiffness: table.stiffness.as_ref(),
             ..WrittenFriction::default()
         };
-        let contacts = vec![self.contact(friction, name.to_owned(), span)];
+        let friction = self.friction(friction, name);
+        let contacts = vec![self.contact(friction, name.to_owned(), name, span)];
         JointKind::Slider(Box::new(Slider {
             kind: SliderKind::Pin,
             block: self.frame(&table.block),
@@ -148,31 +178,35 @@ impl Reader<'_> {
         })
     }
 
-    fn contact(&mut self, friction: WrittenFriction<'_>, name: String, span: &Span) -> Contact {
-        let mu = if let Some(mu) = friction.mu {
-            self.sides(mu, &format!("the friction coefficient of {name}"), Dimension::NONE)
-        } else {
-            let kind = FaultKind::MissingKey { key: "mu".into(), table: format!("joints.{name}") };
-            self.fault(kind, span);
-            [self.broken(span); 2]
+    fn friction(&mut self, written: WrittenFriction<'_>, name: &str) -> ReadFriction {
+        let mut sides = |value: Option<&PerSide>, what: &str, dimension| {
+            value.map(|value| self.sides(value, &format!("the {what} of {name}"), dimension))
         };
-        let static_what = format!("the static friction coefficient of {name}");
-        let mu_static = friction.mu_static.map_or(mu, |mu| self.sides(mu, &static_what, Dimension::NONE));
-        let preload = friction.preload.map_or([None; 2], |preload| {
-            self.sides(preload, &format!("the preload of {name}"), Dimension::FORCE).map(Some)
-        });
-        let stiffness = friction.stiffness.map(|stiffness| {
+        let mu = sides(written.mu, "friction coefficient", Dimension::NONE);
+        let mu_static = sides(written.mu_static, "static friction coefficient", Dimension::NONE);
+        let preload = sides(written.preload, "preload", Dimension::FORCE);
+        let stiffness = written.stiffness.map(|stiffness| {
             let what = format!("the stiffness of the guide at {name}");
             self.formula(stiffness, Wanted::constant(what, Dimension::STIFFNESS).positive())
+        });
+        let WrittenFriction { preload_line, carried_by, .. } = written;
+        ReadFriction { mu, mu_static, preload, preload_line, stiffness, carried_by }
+    }
+
+    fn contact(&mut self, friction: ReadFriction, name: String, joint: &str, span: &Span) -> Contact {
+        let mu = friction.mu.unwrap_or_else(|| {
+            let kind = FaultKind::MissingKey { key: "mu".into(), table: format!("joints.{joint}") };
+            self.fault(kind, span);
+            [self.broken(span); 2]
         });
         Contact {
             name: Arc::from(name),
             carried_by: friction.carried_by.unwrap_or(CarriedBy::Block),
             mu,
-            mu_static,
-            preload,
+            mu_static: friction.mu_static.unwrap_or(mu),
+            preload: friction.preload.map_or([None; 2], |preload| preload.map(Some)),
             preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
-            stiffness,
+            stiffness: friction.stiffness,
         }
     }
 

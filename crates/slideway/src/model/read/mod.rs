@@ -11,6 +11,7 @@ mod loads;
 use super::formula::{Allowed, Formula, Origin, expression_start};
 use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity, Written};
 use super::sections::{JointContents, Sections, sections};
+use super::structure::STAND_IN;
 use super::{Along, Gravity, Model, NamedPoint, Parameter};
 use crate::expression::{Dimension, Expression, Names, is_reserved, is_valid_name, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
@@ -21,12 +22,16 @@ use std::sync::Arc;
 /// The model that a text describes, or all its faults.
 pub(super) fn read(text: &str) -> Result<Model, Faults> {
     let (sections, faults) = sections(text);
+    let unreadable = faults.has_syntax_fault();
     let mut reader = Reader::new(text, &sections, faults);
     let mut model = reader.model(sections);
     let mut faults = std::mem::take(&mut reader.faults);
     let complete = faults.is_empty();
     faults.append(model.check(complete));
-    faults.or(model)
+    if unreadable {
+        faults = faults.without_absences();
+    }
+    faults.without_names_of_unknown_sections().or(model)
 }
 
 /// Whether an entry is a sliding joint; one that could not be read may be one.
@@ -86,6 +91,10 @@ struct Reader<'t> {
     angles: Vec<String>,
     /// The number zero, where the file gives none.
     zero: FormulaId,
+    /// Whether values may stand in for faulty ones.
+    mended: bool,
+    /// The bodies that could not be read: what points they own is unknown.
+    unread_bodies: Vec<BodyId>,
 }
 
 impl<'t> Reader<'t> {
@@ -93,6 +102,8 @@ impl<'t> Reader<'t> {
         let mut names = Names::new();
         let mut reader = Self {
             text,
+            mended: !faults.is_empty(),
+            unread_bodies: Vec::new(),
             faults,
             names: Names::new(),
             formulas: Vec::new(),
@@ -169,6 +180,10 @@ impl<'t> Reader<'t> {
         name: &Name,
         known: impl Iterator<Item = &'a str> + Clone,
     ) {
+        // Its fault has been recorded.
+        if self.mended && name.text.split('.').any(|part| part == STAND_IN) {
+            return;
+        }
         let kind = FaultKind::UnknownName {
             what,
             name: name.text.clone(),
@@ -221,6 +236,7 @@ impl<'t> Reader<'t> {
                 self.fault(FaultKind::NotFinite { what: what.clone() }, &quantity.span);
                 None
             }
+            Written::Text(text) if self.mended && text == STAND_IN => None,
             Written::Text(text) => match parse(text, &self.names) {
                 Ok(expression) => Some(expression),
                 Err(faults) => {

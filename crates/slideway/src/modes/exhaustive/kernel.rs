@@ -5,7 +5,7 @@ use super::PatternBits;
 use super::upper::bound_below;
 
 /// Levels that the kernel takes over from the upper part.
-pub(in crate::modes) const LEAF_LEVELS: usize = 10;
+pub(super) const LEAF_LEVELS: usize = 10;
 /// Entries of a row: right-hand side and two columns for each contact, rounded up to whole vectors.
 const STRIDE: usize = 24;
 
@@ -53,7 +53,9 @@ impl Kernel {
     pub(super) fn new(contacts: usize) -> Self {
         let empty = PivotRow::new(vec![0.0; STRIDE], 1.0, 0.0);
         Self {
-            levels: (0..=LEAF_LEVELS).map(|_| Level { rows: [[0.0; STRIDE]; LEAF_LEVELS], bound: 0.0, size: 0.0 }).collect(),
+            levels: (0..=LEAF_LEVELS)
+                .map(|_| Level { rows: [[0.0; STRIDE]; LEAF_LEVELS], bound: 0.0, size: 0.0 })
+                .collect(),
             pivots: vec![empty; contacts],
             sides: vec![0; contacts],
             y: vec![0.0; contacts],
@@ -108,7 +110,8 @@ impl Kernel {
             let error_of_value =
                 bound + width * error + count * bound * (largest + error) + (count + 4.0) * UNIT * size;
             let y = value / pivot;
-            let error_of_y = 1.001 * (error_of_value + y.abs() * bound) / (pivot.abs() - bound) + 2.0 * UNIT * y.abs();
+            let error_of_y =
+                1.001 * (error_of_value + y.abs() * bound) / (pivot.abs() - bound) + 2.0 * UNIT * y.abs();
             if y < -error_of_y {
                 return true;
             }
@@ -122,6 +125,7 @@ impl Kernel {
 
 /// One elimination step at a node with `M` undecided contacts: the last of them goes to `side`. False if its pivot
 /// is too small.
+#[expect(clippy::inline_always, reason = "compiled once for each set of instructions")]
 #[inline(always)]
 fn step<const M: usize, const FUSED: bool>(kernel: &mut Kernel, side: usize) -> bool {
     let width = const { (2 * M - 1).next_multiple_of(4) };
@@ -163,19 +167,22 @@ fn step<const M: usize, const FUSED: bool>(kernel: &mut Kernel, side: usize) -> 
 }
 
 /// The last two contacts: all four patterns by Cramer's rule.
+#[expect(clippy::inline_always, reason = "compiled once for each set of instructions")]
 #[inline(always)]
 fn leaf(kernel: &mut Kernel) {
     let Level { rows: [first, second, ..], bound, .. } = &kernel.levels[2];
     let (first, second, bound) = (*first, *second, *bound);
     let cross = |i: usize, j: usize| first[i] * second[j] - first[j] * second[i];
-    let largest = first[..5].iter().chain(&second[..5]).fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-    let error = 4.0 * largest * bound + 2.0 * bound * bound + 8.0 * UNIT * largest * largest + f64::MIN_POSITIVE;
+    let largest =
+        first[..5].iter().chain(&second[..5]).fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    let error =
+        4.0 * largest * bound + 2.0 * bound * bound + 8.0 * UNIT * largest * largest + f64::MIN_POSITIVE;
     let with_second = [cross(0, 3), cross(0, 4)];
     let with_first = [cross(1, 0), cross(2, 0)];
-    for side_1 in 0..2 {
-        for side_0 in 0..2 {
+    for (side_1, with_second) in with_second.into_iter().enumerate() {
+        for (side_0, with_first) in with_first.into_iter().enumerate() {
             let determinant = cross(1 + side_0, 3 + side_1);
-            let numerators = [with_second[side_1], with_first[side_0]];
+            let numerators = [with_second, with_first];
             let sign = 1.0_f64.copysign(determinant);
             let regular = determinant.abs() > error;
             if regular && (numerators[0] * sign < -error || numerators[1] * sign < -error) {
@@ -204,7 +211,8 @@ impl Kernel {
             self.y[1] = y[1];
             self.sides[0] = sides[0];
             self.sides[1] = sides[1];
-            let error_of_y = 1.001 * error * (1.0 + largest) / (determinant.abs() - error) + 2.0 * UNIT * largest;
+            let error_of_y =
+                1.001 * error * (1.0 + largest) / (determinant.abs() - error) + 2.0 * UNIT * largest;
             if self.is_excluded(error_of_y) {
                 return;
             }
@@ -230,9 +238,7 @@ macro_rules! descent {
                     7 => step::<7, $fused>(kernel, side),
                     8 => step::<8, $fused>(kernel, side),
                     9 => step::<9, $fused>(kernel, side),
-                    10 => step::<10, $fused>(kernel, side),
-                    11 => step::<11, $fused>(kernel, side),
-                    _ => step::<12, $fused>(kernel, side),
+                    _ => step::<LEAF_LEVELS, $fused>(kernel, side),
                 };
                 if regular {
                     $name(kernel, undecided - 1);

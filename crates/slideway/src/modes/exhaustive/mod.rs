@@ -1,8 +1,10 @@
 //! Every pattern of a problem without jumps, screened at the pace of the hardware.
 //!
+//! [`screen`] excludes, [`prove`] decides what is left by proof.
+//!
 //! The elimination tree of theory, section 4, in two parts. Near the root, where nodes are few, elimination runs
-//! in double-double arithmetic ([`upper`]); the last [`LEAF_LEVELS`] levels run in `f64` with unrolled,
-//! vectorised steps ([`kernel`]). Both carry one rigorous bound on the error of all entries of a node, so that a
+//! in double-double arithmetic; the last ten levels run in `f64` with unrolled,
+//! vectorised steps. Both carry one rigorous bound on the error of all entries of a node, so that a
 //! pattern is dropped only when some `y_k` is proved to be negative: the patterns that are left hold every
 //! solution, whatever rounding did.
 //!
@@ -20,10 +22,10 @@ mod double_double;
 mod kernel;
 mod upper;
 
+use super::certificate::{Decision, Verdict, decide};
 use super::problem::ModeProblem;
+use super::solutions::ContactState;
 use rayon::prelude::*;
-
-pub(super) use kernel::LEAF_LEVELS;
 
 /// Levels of the tree that are expanded before its subtrees are shared among threads.
 const SHARED_LEVELS: usize = 7;
@@ -59,8 +61,40 @@ pub fn screen(problem: &ModeProblem) -> Screening {
     let root = upper::Node::root(problem);
     let shared = SHARED_LEVELS.min(contacts - 2);
     let subtrees = root.expand(shared);
-    let mut remaining: Vec<PatternBits> = subtrees.into_par_iter().flat_map_iter(upper::screen_subtree).collect();
+    let mut remaining: Vec<PatternBits> =
+        subtrees.into_par_iter().flat_map_iter(|node| upper::screen_subtree(&node)).collect();
     remaining.par_sort_unstable();
     let excluded = total - remaining.len() as u64;
     Screening { remaining, excluded }
+}
+
+/// Every pattern of a problem without jumps that has a solution or is singular, decided by proof; all others are
+/// proved to have none.
+///
+/// [`screen`] excludes most patterns, [`decide`] settles the rest. The list is in ascending order of the patterns and
+/// complete for the numbers given: a solution on a boundary is listed with each of its patterns.
+///
+/// # Panics
+/// As [`screen`].
+///
+/// ```
+/// use nalgebra::{DMatrix, DVector};
+/// use slideway::modes::{ModeProblem, exhaustive};
+/// // w = -z + 1 for each of three contacts: every pattern has a solution.
+/// let m = -DMatrix::identity(3, 3);
+/// let problem = ModeProblem::from_linear_complementarity(&m, DVector::from_element(3, 1.0))?;
+/// assert_eq!(exhaustive::prove(&problem).len(), 8);
+/// # Ok::<(), slideway::modes::ModeProblemError>(())
+/// ```
+pub fn prove(problem: &ModeProblem) -> Vec<(PatternBits, Verdict)> {
+    let contacts = problem.contacts();
+    let decided = screen(problem).remaining.into_par_iter().map(|bits| {
+        let state = |contact| match bits >> contact & 1 {
+            0 => ContactState::Positive,
+            _ => ContactState::Negative,
+        };
+        let pattern: Vec<ContactState> = (0..contacts).map(state).collect();
+        (bits, decide(problem, &pattern))
+    });
+    decided.filter(|(_, verdict)| !matches!(verdict.decision, Decision::NoSolution { .. })).collect()
 }

@@ -29,12 +29,16 @@ impl Node {
         let row = |i: usize| {
             let scale = power_of_two_near(positive.row(i).amax().max(negative.row(i).amax())).recip();
             let columns = (0..contacts).flat_map(|k| [positive[(i, k)], negative[(i, k)]]);
-            std::iter::once(load(problem, i)).chain(columns).map(|entry| DoubleDouble::from(entry * scale)).collect()
+            std::iter::once(problem.right_hand_side()[i])
+                .chain(columns)
+                .map(|entry| DoubleDouble::from(entry * scale))
+                .collect()
         };
         Self {
             contacts,
             rows: (0..contacts).map(row).collect(),
-            bound: 0.0,
+            // Scaling may round numbers near the least ones.
+            bound: f64::MIN_POSITIVE,
             pivots: Vec::new(),
             pattern: 0,
             irregular: false,
@@ -97,9 +101,9 @@ impl Node {
 }
 
 /// The patterns below a node that cannot be excluded.
-pub(super) fn screen_subtree(node: Node) -> Vec<PatternBits> {
+pub(super) fn screen_subtree(node: &Node) -> Vec<PatternBits> {
     let mut kernel = Kernel::new(node.contacts + node.pivots.len());
-    descend(&node, &mut kernel);
+    descend(node, &mut kernel);
     kernel.into_remaining()
 }
 
@@ -111,7 +115,8 @@ fn descend(node: &Node, kernel: &mut Kernel) {
             descend(&node.decide(side), kernel);
         }
     } else {
-        let rows: Vec<Vec<f64>> = node.rows.iter().map(|row| row.iter().map(|entry| entry.high).collect()).collect();
+        let rows: Vec<Vec<f64>> =
+            node.rows.iter().map(|row| row.iter().map(|entry| entry.high).collect()).collect();
         let bound = node.bound + f64::EPSILON * node.largest();
         kernel.screen(&rows, bound, &node.pivots, node.pattern);
     }
@@ -120,11 +125,6 @@ fn descend(node: &Node, kernel: &mut Kernel) {
 /// The bound of the module documentation.
 pub(super) fn bound_below(bound: f64, pivot: f64, row: f64, node: f64, unit: f64) -> f64 {
     2.0 * bound + (row + bound) * (2.0 * bound / (pivot - bound) + unit) + 4.0 * unit * (node + row)
-}
-
-/// N(0) with the jumps that are the same on both sides.
-fn load(problem: &ModeProblem, row: usize) -> f64 {
-    problem.right_hand_side()[row]
 }
 
 fn power_of_two_near(size: f64) -> f64 {

@@ -1,0 +1,22 @@
+//! `slideway check`
+
+use crate::Outcome;
+use crate::arguments::{CheckArguments, CheckFormat};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use slideway::check;
+
+/// Says what a model consists of, and whether it can be solved.
+pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let report = check::check(&model).map_err(|faults| input.refused(faults))?;
+    output.write(&match arguments.format {
+        CheckFormat::Text => check::to_text(&report, output.style()),
+        CheckFormat::Json => check::to_json(&report),
+    })?;
+    Ok(if report.sound { Outcome::Done } else { Outcome::Refused })
+}

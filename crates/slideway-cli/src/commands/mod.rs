@@ -1,0 +1,34 @@
+//! The commands: each reads its input, calls the library and writes the answer.
+
+mod check;
+mod models;
+mod modes;
+mod solve;
+
+pub(crate) use check::check;
+pub(crate) use models::models;
+pub(crate) use modes::modes;
+pub(crate) use solve::solve;
+
+use crate::Outcome;
+use crate::failure::Failure;
+use crate::output::Output;
+use clap_complete::Shell;
+
+/// Prints the JSON Schema of model files.
+pub(crate) fn schema(output: &Output) -> Result<Outcome, Failure> {
+    output.write(&format!("{:#}\n", slideway::model::json_schema()))?;
+    Ok(Outcome::Done)
+}
+
+/// Prints a completion script.
+pub(crate) fn completions(
+    shell: Shell,
+    mut command: clap::Command,
+    output: &Output,
+) -> Result<Outcome, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut command, "slideway", &mut script);
+    output.write(&String::from_utf8_lossy(&script))?;
+    Ok(Outcome::Done)
+}

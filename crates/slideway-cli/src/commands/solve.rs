@@ -1,0 +1,28 @@
+//! `slideway solve`
+
+use crate::Outcome;
+use crate::arguments::{Format, SolveArguments};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use slideway::report::{Status, to_csv, to_json, to_text};
+use slideway::solve;
+
+/// Finds and writes all solutions of a model.
+pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let report = solve::solve(&model).map_err(|faults| input.refused(faults))?;
+    output.write(&match arguments.format {
+        Format::Text => to_text(&report, output.style()),
+        Format::Json => to_json(&report),
+        Format::Csv => to_csv(&report),
+    })?;
+    Ok(match report.status {
+        Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
+        Status::None => Outcome::NoSolution,
+        Status::Unknown => Outcome::Unknown,
+    })
+}

@@ -1,0 +1,116 @@
+//! Why a command could not do what it was asked to do.
+
+use crate::diagnostics::{self, Note};
+use crate::input::FaultyInput;
+use slideway::raw_problem::RawFaults;
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a command could not do what it was asked to do.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// There is no such model file.
+    NotFound { path: PathBuf, gallery_name: Option<&'static str> },
+    /// The path is a directory.
+    IsDirectory { path: PathBuf },
+    /// The model file cannot be read.
+    CannotRead { path: PathBuf, error: io::Error },
+    /// The model or the settings make no sense.
+    Input(Box<FaultyInput>),
+    /// There is no such file with a problem.
+    NoProblem { path: PathBuf },
+    /// The problem makes no sense.
+    Problem { name: String, faults: RawFaults },
+    /// Numbers of the problem overflow.
+    Overflow { name: String },
+    /// There is no such model in the gallery.
+    UnknownModel { name: String, nearest: Option<String> },
+    /// Only the telescopic boom has stages.
+    NoStages { name: String },
+    /// A number of stages that makes no sense.
+    StageCount { stages: usize, most: usize },
+    /// The output file exists.
+    OutputExists { path: PathBuf },
+    /// The output would take the place of the model.
+    OverwritesModel { path: PathBuf },
+    /// The output file cannot be written.
+    CannotWrite { path: PathBuf, error: io::Error },
+    /// An answer that is no text would go to a terminal.
+    BinaryOnTerminal,
+    /// Standard output cannot be written.
+    StandardOutput { error: io::Error },
+}
+
+impl Failure {
+    /// What is wrong, where it is not the model itself.
+    fn message(&self) -> String {
+        match self {
+            Self::NotFound { path, .. } | Self::NoProblem { path } => {
+                format!("there is no file `{}`", path.display())
+            }
+            Self::IsDirectory { path } => format!("`{}` is a directory, not a file", path.display()),
+            Self::CannotRead { path, error } => {
+                format!("`{}` cannot be read: {}", path.display(), reason(error))
+            }
+            Self::Input(_) | Self::Problem { .. } => String::new(),
+            Self::Overflow { name } => {
+                format!("numbers overflow in the solutions of {name}")
+            }
+            Self::UnknownModel { name, .. } => format!("the gallery has no model `{name}`"),
+            Self::NoStages { name } => format!("`{name}` has no stages"),
+            Self::StageCount { stages, most } => {
+                format!("a telescopic boom can have 1 to {most} stages, not {stages}")
+            }
+            Self::OutputExists { path } => format!("`{}` exists already", path.display()),
+            Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
+            Self::CannotWrite { path, error } => {
+                format!("`{}` cannot be written: {}", path.display(), reason(error))
+            }
+            Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
+            Self::StandardOutput { error } => format!("the answer cannot be written: {}", reason(error)),
+        }
+    }
+
+    /// What to do about it.
+    fn hint(&self) -> Option<String> {
+        match self {
+            Self::NotFound { gallery_name: Some(name), .. } => Some(format!(
+                "`{name}` is a model of the gallery: `slideway models {name} > {name}.toml` writes it to a file"
+            )),
+            Self::NotFound { gallery_name: None, .. } => {
+                Some("`slideway models` lists models to start from".to_owned())
+            }
+            Self::NoProblem { .. } => {
+                Some("`slideway modes --help` shows what a problem looks like".to_owned())
+            }
+            Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
+            Self::Overflow { .. } => Some("look for entries of absurd magnitude".to_owned()),
+            Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
+            Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
+            Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
+            Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            _ => None,
+        }
+    }
+}
+
+/// What the system says, without its error number.
+fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    let end = text.find(" (os error").unwrap_or(text.len());
+    text[..end].to_lowercase()
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = match self {
+            Self::Input(input) => diagnostics::faults(input),
+            Self::Problem { name, faults } => diagnostics::raw_faults(name, faults),
+            other => diagnostics::note(&Note { message: other.message(), hint: other.hint() }),
+        };
+        formatter.write_str(&text)
+    }
+}
+
+impl std::error::Error for Failure {}

@@ -1,0 +1,120 @@
+//! A model file and the settings of the command line, as texts in which faults have their places.
+
+use crate::arguments::ModelArguments;
+use crate::failure::Failure;
+use slideway::fault::{Fault, FaultKind, Faults};
+use slideway::gallery;
+use slideway::model::{Model, SIZE_LIMIT, Settings};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The texts of a run.
+#[derive(Debug, Clone)]
+pub(crate) struct Input {
+    /// Name of the model file, for messages.
+    pub(crate) name: String,
+    /// Its bytes.
+    bytes: Vec<u8>,
+    /// What the command line changes in it.
+    pub(crate) settings: Settings,
+    /// Settings that could not be read.
+    malformed: Vec<Fault>,
+}
+
+/// Texts beside what is wrong with them.
+#[derive(Debug)]
+pub(crate) struct FaultyInput {
+    /// The texts.
+    pub(crate) input: Input,
+    /// Their faults.
+    pub(crate) faults: Faults,
+}
+
+impl Input {
+    /// Reads the model file; no more of it than a model may have.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is too large.
+    pub(crate) fn read(arguments: &ModelArguments) -> Result<Self, Failure> {
+        let path = arguments.file.as_path();
+        let (settings, malformed) = arguments.settings();
+        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed };
+        match read_bytes(path, SIZE_LIMIT)? {
+            Some(bytes) => Ok(Self { bytes, ..input }),
+            None => Err(input.refused(Fault::general(FaultKind::TooLarge { limit: SIZE_LIMIT }).into())),
+        }
+    }
+
+    /// The model with its settings.
+    ///
+    /// # Errors
+    /// All faults of both.
+    pub(crate) fn model(&self) -> Result<Model, Failure> {
+        let model = Model::parse_bytes(&self.bytes);
+        let with_settings = match model {
+            Ok(model) => model.with(&self.settings),
+            Err(faults) => Err(faults),
+        };
+        match with_settings {
+            Ok(model) if self.malformed.is_empty() => Ok(model),
+            found => {
+                let mut faults = found.err().unwrap_or_default();
+                self.malformed.iter().for_each(|fault| faults.push(fault.clone()));
+                Err(self.refused(faults))
+            }
+        }
+    }
+
+    /// The failure that these faults are.
+    pub(crate) fn refused(&self, faults: Faults) -> Failure {
+        Failure::Input(Box::new(FaultyInput { input: self.clone(), faults }))
+    }
+
+    /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in place.
+    pub(crate) fn text(&self) -> String {
+        String::from_utf8_lossy(&self.bytes).into_owned()
+    }
+}
+
+/// The name of an input in messages.
+pub(crate) fn name(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".to_owned() } else { path.display().to_string() }
+}
+
+/// The bytes of a file, or of standard input for `-`; none if there are more than `limit`, and no more
+/// than that are read.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Option<Vec<u8>>, Failure> {
+    let cannot_read = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            Failure::NotFound { path: path.to_owned(), gallery_name: gallery_name(path) }
+        }
+        io::ErrorKind::IsADirectory => Failure::IsDirectory { path: path.to_owned() },
+        _ => Failure::CannotRead { path: path.to_owned(), error },
+    };
+    let (source, size): (Box<dyn Read>, u64) = if path == Path::new("-") {
+        (Box::new(io::stdin().lock()), 0)
+    } else {
+        let file = File::open(path).map_err(cannot_read)?;
+        let metadata = file.metadata().map_err(cannot_read)?;
+        if metadata.is_dir() {
+            return Err(Failure::IsDirectory { path: path.to_owned() });
+        }
+        (Box::new(file), metadata.len())
+    };
+    let mut bytes = Vec::new();
+    if size <= limit {
+        source.take(limit + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
+    }
+    let size = size.max(bytes.len() as u64);
+    Ok((size <= limit).then_some(bytes))
+}
+
+/// The model of the gallery that was meant by the path of a file that does not exist.
+fn gallery_name(path: &Path) -> Option<&'static str> {
+    let name = path.file_name()?.to_str()?;
+    gallery::find(name.strip_suffix(".toml").unwrap_or(name)).map(|model| model.name)
+}

@@ -1,0 +1,187 @@
+//! Every kind of bad input and its message. Files with one kind of fault each are in `bad/`.
+
+#![allow(clippy::unwrap_used)]
+
+mod command;
+
+use command::{command, slideway, slideway_reading, top};
+use std::path::Path;
+
+/// One golden file for each model in `bad/`; each is refused with exit code 2 and nothing on standard output.
+#[test]
+fn every_file_is_refused_with_its_message() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad");
+    let mut names: Vec<String> = std::fs::read_dir(&directory)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert!(names.len() > 40, "the files are gone");
+    for name in names {
+        let output = command(&["solve", &name]).current_dir(&directory).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        assert!(output.stdout.is_empty(), "{name}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(!message.contains("NaN") || name == "not-finite.toml", "{name}: {message}");
+        insta::with_settings!({ description => name.clone(), omit_expression => true }, {
+            insta::assert_snapshot!(format!("bad__{}", name.trim_end_matches(".toml")), message);
+        });
+    }
+}
+
+macro_rules! refused {
+    ($($name:ident: [$($argument:expr),* $(,)?];)*) => {$(
+        #[test]
+        fn $name() {
+            let run = slideway(&[$($argument),*]);
+            assert_eq!(run.code, 2);
+            assert_eq!(run.stdout, "");
+            insta::with_settings!({ omit_expression => true }, {
+                insta::assert_snapshot!(run.stderr);
+            });
+        }
+    )*};
+}
+
+const DRAWER: &str = "models/drawer.toml";
+const KLEPP: &str = "models/klepp-2002.toml";
+
+refused! {
+    absent_file: ["solve", "nowhere/drawing.toml"];
+    name_of_a_gallery_model: ["solve", "drawer"];
+    directory: ["solve", "models"];
+    massless_bracket: ["solve", "models/bracket-on-pole.toml"];
+    overlap_vanished: ["solve", DRAWER, "--at", "x=-0.5 m"];
+    overlap_of_the_boom_vanished: ["solve", "models/telescopic-boom.toml", "--at", "s_2=70 cm"];
+    at_rest: ["solve", KLEPP, "--rate", "q=0"];
+    dead_centre: ["solve", "models/slider-crank.toml", "--at", "phi=0"];
+    rod_too_short: ["solve", "models/slider-crank.toml", "--set", "l=45 mm", "--at", "phi=90 deg"];
+    malformed_settings: ["solve", DRAWER, "--set", "mu", "--set", "=1", "--at", "x="];
+    unknown_setting: ["solve", KLEPP, "--set", "mu1=0.2"];
+    several_settings: [
+        "solve", DRAWER, "--set", "nu=3", "--set", "m=3 m", "--set", "a=a+", "--at", "y=1", "--rate", "x=1 kg"
+    ];
+    negative_by_setting: ["solve", DRAWER, "--set", "mu=-0.1"];
+    settings_in_a_circle: ["solve", DRAWER, "--set", "L=a", "--set", "a=2*L"];
+    infinite_setting: ["solve", DRAWER, "--set", "mu=1e400"];
+    setting_without_value: ["solve", DRAWER, "--set"];
+    unknown_model_of_the_gallery: ["models", "telescpic-boom"];
+    no_stages: ["models", "telescopic-boom", "--stages", "0"];
+    too_many_stages: ["models", "telescopic-boom", "--stages", "1001"];
+    stages_of_a_drawer: ["models", "drawer", "--stages", "2"];
+    output_exists: ["models", "drawer", "--output", "Cargo.toml"];
+    output_nowhere: ["models", "drawer", "--output", "nowhere/drawer.toml"];
+    unknown_command: ["sovle", DRAWER];
+}
+
+#[test]
+fn settings_and_model_together() {
+    let run = slideway(&["solve", "crates/slideway-cli/tests/bad/zero-mass.toml", "--set", "mu"]);
+    assert_eq!(run.code, 2);
+    insta::assert_snapshot!(run.stderr);
+}
+
+#[test]
+fn too_many_contacts_are_refused_at_once() {
+    let boom = slideway(&["models", "telescopic-boom", "--stages", "40"]);
+    let run = slideway_reading(&["solve", "-"], boom.stdout.as_bytes());
+    assert_eq!(run.code, 2);
+    insta::assert_snapshot!(run.stderr);
+}
+
+#[test]
+fn too_many_bodies_are_refused_at_once() {
+    use std::fmt::Write;
+    let mut model = "[points]\nA = [0, 0]\n".to_owned();
+    for body in 0..1001 {
+        write!(
+            model,
+            "[bodies.b{body}]\npoints = [\"A\"]\nmassless = true\n\
+             [joints.j{body}]\ntype = \"hinge\"\nbetween = [\"b{body}.A\", \"ground.A\"]\n"
+        )
+        .unwrap();
+    }
+    let run = slideway_reading(&["solve", "-"], model.as_bytes());
+    assert_eq!(run.code, 2);
+    insta::assert_snapshot!(run.stderr);
+}
+
+#[test]
+fn a_huge_file_is_not_read_whole() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("huge.toml");
+    // 8 GiB that take no space on the disk.
+    std::fs::File::create(&path).unwrap().set_len(8 << 30).unwrap();
+    let output = command(&["solve", "huge.toml"]).current_dir(directory.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    insta::assert_snapshot!(String::from_utf8(output.stderr).unwrap());
+
+    let run = slideway_reading(&["check", "-"], &vec![b' '; 5 << 20]);
+    assert_eq!(run.code, 2);
+    insta::assert_snapshot!(run.stderr);
+}
+
+#[test]
+fn an_endless_file_is_not_read_whole() {
+    if Path::new("/dev/zero").exists() {
+        let run = slideway(&["solve", "/dev/zero"]);
+        assert_eq!(run.code, 2);
+        assert!(run.stderr.contains("larger than 4 MiB"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn colours_are_for_terminals_unless_forced() {
+    let bad = "crates/slideway-cli/tests/bad/zero-mass.toml";
+    let escape = '\u{1b}';
+    assert!(!slideway(&["solve", bad]).stderr.contains(escape));
+    assert!(slideway(&["solve", bad, "--color", "always"]).stderr.contains(escape));
+    let forced = |arguments: &[&str]| {
+        let output = command(arguments).env("CLICOLOR_FORCE", "1").output().unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert!(forced(&["solve", bad]).contains(escape));
+    assert!(!forced(&["solve", bad, "--color", "never"]).contains(escape));
+}
+
+/// Bytes of the gallery's files deleted, inserted and replaced: never a panic, never NaN.
+#[test]
+fn mutated_files_never_panic() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let original = std::fs::read(top().join(DRAWER)).unwrap();
+    for _ in 0..25 {
+        let mut bytes = original.clone();
+        for _ in 0..=random.below(4) {
+            let at = random.below(bytes.len());
+            match random.below(3) {
+                0 => drop(bytes.remove(at)),
+                1 => bytes.insert(at, random.byte()),
+                _ => bytes[at] = random.byte(),
+            }
+        }
+        let run = slideway_reading(&["solve", "-"], &bytes);
+        assert!(run.code <= 3, "{}", run.stderr);
+        assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+        assert!(!run.stdout.contains("NaN"), "{}", run.stdout);
+    }
+}
+
+/// Xorshift: a few pseudo-random numbers that are the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, limit: usize) -> usize {
+        usize::try_from(self.next() % limit as u64).unwrap()
+    }
+
+    fn byte(&mut self) -> u8 {
+        self.next().to_le_bytes()[0]
+    }
+}

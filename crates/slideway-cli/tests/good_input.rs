@@ -1,0 +1,202 @@
+//! What the commands answer when nothing is wrong.
+
+#![allow(clippy::unwrap_used)]
+
+mod command;
+
+use command::{command, slideway, slideway_reading, top};
+use serde_json::Value;
+use std::process::Stdio;
+
+const KLEPP: &str = "models/klepp-2002.toml";
+
+macro_rules! golden {
+    ($($name:ident: $code:literal [$($argument:expr),* $(,)?];)*) => {$(
+        #[test]
+        fn $name() {
+            let run = slideway(&[$($argument),*]);
+            assert_eq!((run.code, run.stderr.as_str()), ($code, ""));
+            insta::with_settings!({ omit_expression => true }, {
+                insta::assert_snapshot!(run.stdout);
+            });
+        }
+    )*};
+}
+
+golden! {
+    klepp: 0 ["solve", KLEPP];
+    no_solution: 1 ["solve", KLEPP, "--set", "F_20=0", "--set", "direction=-1"];
+    preload_gap: 0 ["solve", KLEPP, "--set", "mu_1=0.24", "--set", "F_30=0.5*m*g", "--set", "F_20=0"];
+    driven_drawer: 0 ["solve", "models/drawer.toml"];
+    csv: 0 ["solve", "models/drawer.toml", "--format", "csv"];
+    check_drawer: 0 ["check", "models/drawer.toml"];
+    check_bracket: 2 ["check", "models/bracket-on-pole.toml"];
+    check_bracket_json: 2 ["check", "models/bracket-on-pole.toml", "--format", "json"];
+    check_redundant: 2 ["check", "crates/slideway-cli/tests/bad/redundant.toml"];
+    check_not_assembled: 2 ["check", "crates/slideway-cli/tests/bad/short-rod.toml"];
+    check_at_rest: 2 ["check", KLEPP, "--rate", "q=0"];
+    list_of_models: 0 ["models"];
+    help: 0 ["--help"];
+    help_of_solve: 0 ["solve", "--help"];
+    help_of_check: 0 ["check", "-h"];
+    help_of_models: 0 ["models", "-h"];
+}
+
+fn json(arguments: &[&str]) -> (i32, Value) {
+    let run = slideway(arguments);
+    (run.code, serde_json::from_str(&run.stdout).unwrap())
+}
+
+#[test]
+fn json_has_the_fields_that_are_promised() {
+    let (code, report) = json(&["solve", KLEPP, "--format", "json"]);
+    assert_eq!(code, 0);
+    assert_eq!(report["schema"], "slideway/solve/1");
+    assert_eq!(report["status"], "several");
+    let solutions = report["solutions"].as_array().unwrap();
+    assert_eq!(solutions.len(), 3);
+    for solution in solutions {
+        let contacts = solution["contacts"].as_array().unwrap();
+        let names: Vec<&str> = contacts.iter().map(|contact| contact["name"].as_str().unwrap()).collect();
+        assert_eq!(names, ["upper", "lower.front", "lower.rear"]);
+        for contact in contacts {
+            let normal = contact["normal_force"].as_f64().unwrap();
+            assert_eq!(contact["side"].as_i64().unwrap() as f64, normal.signum());
+            assert!(contact["friction_force"].as_f64().unwrap() > 0.0);
+        }
+    }
+}
+
+#[test]
+fn every_status_has_its_exit_code() {
+    let no_solution = ["solve", KLEPP, "--format", "json", "--set", "F_20=0", "--set", "direction=-1"];
+    let (code, report) = json(&no_solution);
+    assert_eq!((code, report["status"].as_str().unwrap()), (1, "none"));
+    let gap = [
+        "solve",
+        KLEPP,
+        "--format",
+        "json",
+        "--set",
+        "mu_1=0.24",
+        "--set",
+        "F_30=0.5*m*g",
+        "--set",
+        "F_20=0",
+    ];
+    let (code, report) = json(&gap);
+    assert_eq!((code, report["status"].as_str().unwrap()), (0, "preload_gap"));
+    let (code, report) = json(&["solve", "models/drawer.toml", "--format", "json"]);
+    assert_eq!((code, report["status"].as_str().unwrap()), (0, "one"));
+}
+
+#[test]
+fn settings_may_be_negative_and_have_blanks_and_units() {
+    let (code, report) = json(&[
+        "solve",
+        "models/slider-crank.toml",
+        "--at",
+        "phi=-75 deg",
+        "--rate",
+        "phi = -1e2 rad/s",
+        "--set",
+        "mu = 0.1*2",
+        "--format=json",
+    ]);
+    assert_eq!(code, 0);
+    let state = &report["state"][0];
+    assert!((state["value"].as_f64().unwrap() + 75_f64.to_radians()).abs() < 1e-12);
+    assert_eq!(state["rate"], -100.0);
+}
+
+#[test]
+fn every_model_of_the_gallery_passes_through_standard_input() {
+    for model in slideway::gallery::MODELS {
+        let text = slideway(&["models", model.name]);
+        assert_eq!(text.stdout, model.text);
+        let check = slideway_reading(&["check", "-", "--format", "json"], text.stdout.as_bytes());
+        let report: Value = serde_json::from_str(&check.stdout).unwrap();
+        assert_eq!(report["schema"], "slideway/check/1");
+        let sound = model.name != "bracket-on-pole";
+        assert_eq!((check.code, report["sound"].as_bool().unwrap()), (if sound { 0 } else { 2 }, sound));
+    }
+}
+
+#[test]
+fn the_generated_boom_is_the_one_of_the_gallery() {
+    let boom = slideway(&["models", "telescopic-boom", "--stages", "3"]).stdout;
+    assert_eq!(boom, std::fs::read_to_string(top().join("models/telescopic-boom.toml")).unwrap());
+    for stages in ["1", "5"] {
+        let boom = slideway(&["models", "telescopic-boom", "--stages", stages]).stdout;
+        assert_eq!(slideway_reading(&["solve", "-"], boom.as_bytes()).code, 0);
+    }
+}
+
+#[test]
+fn output_files_are_written_whole_and_not_overwritten() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let output = command(arguments).current_dir(directory.path()).output().unwrap();
+        output.status.code().unwrap()
+    };
+    assert_eq!(run(&["models", "drawer", "--output", "mine.toml"]), 0);
+    let path = directory.path().join("mine.toml");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), slideway::gallery::find("drawer").unwrap().text);
+    assert_eq!(run(&["models", "klepp-2002", "--output", "mine.toml"]), 2);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), slideway::gallery::find("drawer").unwrap().text);
+    assert_eq!(run(&["models", "klepp-2002", "--output", "mine.toml", "--force"]), 0);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), slideway::gallery::find("klepp-2002").unwrap().text);
+    // The answer goes to the file, its exit code stays.
+    let arguments = ["solve", "mine.toml", "--set", "F_20=0", "--set", "direction=-1", "-o", "answer.txt"];
+    assert_eq!(run(&arguments), 1);
+    assert!(std::fs::read_to_string(directory.path().join("answer.txt")).unwrap().contains("No solution"));
+    // Nothing takes the place of the model that it was made from, and `-` is no file.
+    assert_eq!(run(&["solve", "mine.toml", "-o", "mine.toml", "--force"]), 2);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), slideway::gallery::find("klepp-2002").unwrap().text);
+    assert_eq!(run(&["check", "mine.toml", "-o", "-"]), 0);
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 2, "no temporary file is left");
+}
+
+#[test]
+fn a_closed_pipe_is_no_fault() {
+    let mut child = command(&["schema"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn colours_are_for_terminals_unless_forced() {
+    let escape = '\u{1b}';
+    assert!(!slideway(&["solve", KLEPP]).stdout.contains(escape));
+    assert!(slideway(&["solve", KLEPP, "--color", "always"]).stdout.contains(escape));
+    let forced = command(&["solve", KLEPP]).env("CLICOLOR_FORCE", "1").output().unwrap();
+    assert!(String::from_utf8(forced.stdout).unwrap().contains(escape));
+    let refused =
+        command(&["solve", KLEPP]).env("CLICOLOR_FORCE", "1").env("NO_COLOR", "1").output().unwrap();
+    assert!(!String::from_utf8(refused.stdout).unwrap().contains(escape));
+}
+
+/// A rod of 1 mm in a mechanism of 1 km is no singular position; nor is a state close to one.
+#[test]
+fn short_bodies_and_near_positions_are_not_singular() {
+    let short =
+        ["check", "models/slider-crank.toml", "--format", "json", "--set", "l=1 km", "--set", "r=1 mm"];
+    let (code, report) = json(&short);
+    assert_eq!((code, &report["findings"]), (0, &Value::Array(vec![])));
+    let near = ["solve", "models/elliptic-trammel.toml", "--at", "theta=90.001 deg", "--format", "json"];
+    assert_eq!(json(&near).0, 0);
+}
+
+#[test]
+fn schema_and_completions_are_printed() {
+    let schema: Value = serde_json::from_str(&slideway(&["schema"]).stdout).unwrap();
+    assert_eq!(schema["title"], "Slideway model");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let run = slideway(&["completions", shell]);
+        assert_eq!(run.code, 0);
+        assert!(run.stdout.contains("slideway"));
+    }
+    assert!(slideway(&["--version"]).stdout.starts_with("slideway "));
+}

@@ -1,0 +1,156 @@
+//! `slideway modes`: good and bad problems, and every form of the answer. The files are in `raw/`.
+
+#![allow(clippy::unwrap_used)]
+
+mod command;
+
+use command::{command, slideway, slideway_reading, top};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/raw").join(name)
+}
+
+/// The answer to a file of a folder, for a golden test.
+fn transcript(directory: &Path, name: &str) -> (i32, String) {
+    let output = command(&["modes", name]).current_dir(directory).output().unwrap();
+    let code = output.status.code().unwrap();
+    let (stdout, stderr) =
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert!(stdout.is_empty() || stderr.is_empty(), "{name}: both streams");
+    (code, format!("exit code {code}\n{stdout}{stderr}"))
+}
+
+fn names(directory: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(directory).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn golden(name: &str, text: &str) {
+    insta::with_settings!({ omit_expression => true }, {
+        insta::assert_snapshot!(name.replace('.', "_"), text);
+    });
+}
+
+#[test]
+fn good_problems_are_answered() {
+    let directory = folder("good");
+    let names = names(&directory);
+    assert!(names.len() > 8, "the files are gone");
+    for name in names {
+        let (code, text) = transcript(&directory, &name);
+        assert_eq!(code, i32::from(name == "none.json"), "{name}");
+        golden(&format!("good__{name}"), &text);
+    }
+}
+
+#[test]
+fn bad_problems_are_refused() {
+    for folder in [folder("bad"), folder("npz")] {
+        let mut names = names(&folder);
+        names.retain(|name| folder.ends_with("bad") || name.starts_with("bad"));
+        assert!(names.len() > 6, "the files are gone");
+        for name in names {
+            let (code, text) = transcript(&folder, &name);
+            assert_eq!(code, 2, "{name}");
+            golden(&format!("bad__{name}"), &text);
+        }
+    }
+}
+
+/// Archives written by NumPy with entries of every kind hold the same problem.
+#[test]
+fn archives_of_numpy_are_read() {
+    let directory = folder("npz");
+    let mut answers = Vec::new();
+    for name in names(&directory).iter().filter(|name| !name.starts_with("bad")) {
+        let (code, text) = transcript(&directory, name);
+        assert_eq!(code, 0, "{name}");
+        answers.push(text);
+    }
+    assert_eq!(answers.len(), 7);
+    assert!(answers.iter().all(|answer| *answer == answers[0]));
+    // z = (1, 0, 2): w = M z + q = (0, 2, 0).
+    assert!(answers[0].contains("signs + - +"), "{}", answers[0]);
+}
+
+const RAY: &str = "crates/slideway-cli/tests/raw/good/ray.json";
+const EIGHT: &str = "crates/slideway-cli/tests/raw/good/eight.json";
+
+fn json(arguments: &[&str]) -> (i32, Value) {
+    let run = slideway(arguments);
+    (run.code, serde_json::from_str(&run.stdout).unwrap())
+}
+
+#[test]
+fn json_has_the_fields_that_are_promised() {
+    let (code, report) = json(&["modes", RAY, "--format", "json"]);
+    assert_eq!(
+        (code, &report["schema"], &report["status"]),
+        (0, &"slideway/modes/1".into(), &"continuum".into())
+    );
+    assert_eq!((&report["complete"], &report["count"]), (&"proven".into(), &"1".into()));
+    assert_eq!(report["solutions"][0]["z"], serde_json::json!([1.0, 0.0]));
+    assert_eq!(report["solutions"][0]["signs"], serde_json::json!([1, 0]));
+    assert_eq!(report["continua"][0]["directions"][0]["z"], serde_json::json!([1.0, 1.0]));
+}
+
+#[test]
+fn fewer_solutions_are_listed_than_counted() {
+    let (code, report) = json(&["modes", EIGHT, "--format", "json", "--max-solutions", "3"]);
+    assert_eq!((code, &report["count"]), (0, &"8".into()));
+    assert_eq!(report["solutions"].as_array().unwrap().len(), 3);
+    let run = slideway(&["modes", EIGHT, "--max-solutions", "1"]);
+    assert!(run.stdout.contains("Listed: the first 1 of 8"), "{}", run.stdout);
+}
+
+#[test]
+fn an_early_end_is_told() {
+    for limit in [["--max-nodes", "0"], ["--time-limit", "0s"]] {
+        let run = slideway(&["modes", EIGHT, limit[0], limit[1]]);
+        assert_eq!(run.code, 3, "{}", run.stdout);
+        golden(&format!("early_end{}", limit[0]), &run.stdout);
+    }
+}
+
+#[test]
+fn the_ending_of_the_output_file_tells_its_form() {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str| {
+        let path = directory.path().join(name);
+        let run = slideway(&["modes", RAY, "--output", path.to_str().unwrap()]);
+        assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+        std::fs::read(path).unwrap()
+    };
+    assert!(write("ray.npz").starts_with(b"PK"));
+    assert!(write("ray.json").starts_with(b"{"));
+    assert!(write("ray.txt").starts_with(b"Linear"));
+    let again = slideway(&["modes", RAY, "--output", directory.path().join("ray.npz").to_str().unwrap()]);
+    assert_eq!(again.code, 2);
+}
+
+#[test]
+fn problems_come_from_standard_input() {
+    let text = std::fs::read(top().join(RAY)).unwrap();
+    assert_eq!(slideway_reading(&["modes", "-"], &text).stdout, slideway(&["modes", RAY]).stdout);
+    let archive = std::fs::read(folder("npz").join("plain.npz")).unwrap();
+    assert_eq!(slideway_reading(&["modes", "-"], &archive).code, 0);
+}
+
+#[test]
+fn faulty_arguments_are_refused() {
+    for (name, arguments) in [
+        ("absent", vec!["modes", "nowhere.json"]),
+        ("time", vec!["modes", RAY, "--time-limit", "3 days"]),
+        ("directory", vec!["modes", "models"]),
+    ] {
+        let run = slideway(&arguments);
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""));
+        golden(&format!("arguments__{name}"), &run.stderr);
+    }
+    golden("help", &slideway(&["modes", "--help"]).stdout);
+}

@@ -1,0 +1,76 @@
+//! Time of every stage from a model file to its report.
+
+use divan::Bencher;
+use slideway::configuration::Configuration;
+use slideway::gallery;
+use slideway::influence::Influence;
+use slideway::kinetics::KineticEquations;
+use slideway::mechanism::Mechanism;
+use slideway::model::Model;
+use slideway::solve::solve;
+
+/// A few bodies with three contacts, a closed loop, and a chain with six contacts.
+const NAMES: [&str; 3] = ["klepp-2002", "slider-crank", "telescopic-boom"];
+
+fn main() {
+    divan::main();
+}
+
+fn text(name: &str) -> &'static str {
+    gallery::find(name).expect("in the gallery").text
+}
+
+fn model(name: &str) -> Model {
+    Model::parse(text(name)).expect("a sound model")
+}
+
+fn mechanism(name: &str) -> Mechanism {
+    Mechanism::new(&model(name)).expect("allowed values")
+}
+
+fn configuration(mechanism: &Mechanism) -> Configuration {
+    Configuration::new(mechanism).expect("a state within reach")
+}
+
+fn equations(mechanism: &Mechanism) -> KineticEquations {
+    KineticEquations::new(mechanism, &configuration(mechanism)).expect("regular equations")
+}
+
+#[divan::bench(args = NAMES)]
+fn parse_model(bencher: Bencher<'_, '_>, name: &str) {
+    let text = text(name);
+    bencher.bench_local(|| Model::parse(text));
+}
+
+#[divan::bench(args = NAMES)]
+fn evaluate_mechanism(bencher: Bencher<'_, '_>, name: &str) {
+    let model = model(name);
+    bencher.bench_local(|| Mechanism::new(&model));
+}
+
+#[divan::bench(args = NAMES)]
+fn assemble_configuration(bencher: Bencher<'_, '_>, name: &str) {
+    let mechanism = mechanism(name);
+    bencher.bench_local(|| Configuration::new(&mechanism));
+}
+
+/// Includes the factorization.
+#[divan::bench(args = NAMES)]
+fn kinetic_equations(bencher: Bencher<'_, '_>, name: &str) {
+    let mechanism = mechanism(name);
+    let configuration = configuration(&mechanism);
+    bencher.bench_local(|| KineticEquations::new(&mechanism, &configuration));
+}
+
+#[divan::bench(args = NAMES)]
+fn influence_coefficients(bencher: Bencher<'_, '_>, name: &str) {
+    let equations = equations(&mechanism(name));
+    bencher.bench_local(|| Influence::new(&equations));
+}
+
+/// From the parsed model to the report.
+#[divan::bench(args = NAMES)]
+fn whole_solve(bencher: Bencher<'_, '_>, name: &str) {
+    let model = model(name);
+    bencher.bench_local(|| solve(&model));
+}

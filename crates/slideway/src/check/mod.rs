@@ -1,0 +1,346 @@
+//! What a model consists of, and whether it can be solved: degrees of freedom, determinacy, inertia, sliding.
+//!
+//! Stands beside [`crate::solve`]: where that stops at the first thing that makes no sense, a check goes on as far
+//! as it can and gathers what it finds.
+//!
+//! ```
+//! use slideway::{check, gallery, model::Model};
+//!
+//! let bracket = Model::parse(gallery::find("bracket-on-pole").expect("in the gallery").text)?;
+//! let report = check::check(&bracket)?;
+//! assert!(!report.sound);
+//! assert_eq!(report.inertia.motions_without, ["bracket moves along (0, 1)"]);
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
+
+mod text;
+
+pub use text::to_text;
+
+use crate::configuration::{Configuration, Mobility, free_motions, motion_in_words, unit};
+use crate::fault::{FaultKind, Faults};
+use crate::ids::ContactId;
+use crate::influence::Influence;
+use crate::kinetics::KineticEquations;
+use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
+use crate::model::{Model, SliderKind};
+use crate::modes::Limits;
+use crate::solve::{check_size, mode_problem, velocity_signs};
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+/// Version of the layout of a [`CheckReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/check/1";
+
+/// Kinetic energies below this multiple of the greatest count as none.
+const NO_INERTIA: f64 = 1e-12;
+
+/// What a model consists of, and what stands in the way of solving it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CheckReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// The model's title.
+    pub title: Option<String>,
+    /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings. (What
+    /// only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
+    pub sound: bool,
+    /// Everything for which it would be refused.
+    pub findings: Vec<Finding>,
+    /// Degrees of freedom and determinacy.
+    pub mobility: MobilitySummary,
+    /// Inertia of the motions that the joints leave.
+    pub inertia: InertiaSummary,
+    /// Ratio of the greatest to the least pivot of the kinetic equations, if they can be solved.
+    pub condition: Option<f64>,
+    /// Whether the state could be assembled; if not, what depends on it is told of the drawing.
+    pub assembled: bool,
+    /// The bodies.
+    pub bodies: Vec<BodySummary>,
+    /// The joints.
+    pub joints: Vec<JointSummary>,
+    /// The contacts of the sliding joints.
+    pub contacts: Vec<ContactSummary>,
+    /// Names of the loads.
+    pub loads: Vec<String>,
+    /// The drives.
+    pub drives: Vec<DriveSummary>,
+    /// The chosen coordinates.
+    pub coordinates: Vec<CoordinateSummary>,
+}
+
+/// Something for which the model would be refused.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub hint: Option<String>,
+}
+
+/// Degrees of freedom and determinacy.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MobilitySummary {
+    /// Coordinates of all bodies: 3 b.
+    pub body_coordinates: usize,
+    /// Scalar constraints of the joints.
+    pub constraints: usize,
+    /// How many of them are independent.
+    pub independent: usize,
+    /// Motions that the joints leave.
+    pub degrees_of_freedom: usize,
+    /// Whether all constraints are independent, so that the reactions are determinate.
+    pub determinate: bool,
+    /// Whether dependent constraints are so in this position only.
+    pub singular_position: bool,
+    /// The joints among which the excess lies.
+    pub joints_in_excess: Vec<String>,
+    /// What would make the structure determinate.
+    pub suggestion: Option<String>,
+}
+
+/// Inertia of the motions that the joints leave.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InertiaSummary {
+    /// Whether the mass matrix is regular on them: every motion has kinetic energy.
+    pub regular: bool,
+    /// The motions that have none.
+    pub motions_without: Vec<String>,
+}
+
+/// A body.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodySummary {
+    /// Its name.
+    pub name: String,
+    /// Mass (kg); 0 for a massless body.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass (kg m^2).
+    pub moment_of_inertia: f64,
+}
+
+/// A joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointSummary {
+    /// Its name.
+    pub name: String,
+    /// "hinge", "block slider", "guided slider" or "pin in slot".
+    pub kind: &'static str,
+    /// The bodies it joins; of a sliding joint first the block, then the guide.
+    pub joins: [String; 2],
+    /// Scalar constraints.
+    pub constraints: usize,
+    /// Displacement of a sliding joint (m).
+    pub displacement: Option<f64>,
+    /// Supported length of a block slider (m).
+    pub overlap: Option<f64>,
+}
+
+/// A contact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactSummary {
+    /// "joint", "joint.front" or "joint.rear".
+    pub name: String,
+    /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
+    pub mu: [f64; 2],
+    /// Static friction coefficient, likewise.
+    pub mu_static: [f64; 2],
+    /// Preload (N), likewise.
+    pub preload: [f64; 2],
+    /// Sliding velocity (m/s), if the state could be assembled.
+    pub sliding_velocity: Option<f64>,
+}
+
+/// A drive.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DriveSummary {
+    /// Its name.
+    pub name: String,
+    /// The coordinate whose motion it prescribes.
+    pub coordinate: String,
+}
+
+/// A chosen coordinate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoordinateSummary {
+    /// Its name.
+    pub name: String,
+    /// "slide", "rotation" or "displacement".
+    pub kind: &'static str,
+    /// "m" or "rad".
+    pub unit: &'static str,
+    /// Its value in the state.
+    pub value: f64,
+    /// Its rate.
+    pub rate: f64,
+}
+
+/// What a model consists of, and everything that stands in the way of solving it.
+///
+/// # Errors
+/// Values that are not finite or not allowed: then there is nothing to check.
+pub fn check(model: &Model) -> Result<CheckReport, Faults> {
+    let mechanism = Mechanism::new(model)?;
+    let mut faults = Faults::default();
+    let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
+    // What is too large to be solved is too large to be analysed further.
+    check_size(&mechanism, &Limits::default())?;
+    let drawing = Configuration::drawing(&mechanism);
+    let state = Configuration::new(&mechanism);
+    keep(state.as_ref().map(|_| ()).map_err(Clone::clone));
+    let assembled = state.is_ok();
+    let configuration = state.unwrap_or(drawing);
+    let mobility = Mobility::of(&mechanism, &configuration);
+    let mut condition = None;
+    if assembled {
+        let signs = velocity_signs(&mechanism, &configuration);
+        match KineticEquations::new(&mechanism, &configuration) {
+            Ok(equations) => {
+                condition = Some(equations.condition());
+                if let Ok(signs) = &signs {
+                    keep(mode_problem(&mechanism, &Influence::new(&equations), signs).map(|_| ()));
+                }
+            }
+            Err(found) => keep(Err(found)),
+        }
+        keep(signs.map(|_| ()));
+    }
+    let inertia = inertia(&mechanism, &configuration);
+    Ok(CheckReport {
+        schema: SCHEMA,
+        title: mechanism.title.clone(),
+        sound: faults.is_empty(),
+        findings: faults.sorted().iter().map(|fault| finding(&fault.kind)).collect(),
+        mobility: mobility_summary(&mechanism, &mobility),
+        inertia,
+        condition,
+        assembled,
+        bodies: bodies(&mechanism),
+        joints: joints(&mechanism, &configuration),
+        contacts: contacts(&mechanism, &configuration, assembled),
+        loads: mechanism.loads.iter().map(|load| load.name.to_string()).collect(),
+        drives: drives(&mechanism),
+        coordinates: coordinates(&mechanism),
+    })
+}
+
+/// The report as indented JSON, ending in a line end.
+pub fn to_json(report: &CheckReport) -> String {
+    let mut text =
+        serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
+    text.push('\n');
+    text
+}
+
+fn finding(kind: &FaultKind) -> Finding {
+    Finding { message: kind.to_string(), hint: kind.hint() }
+}
+
+fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySummary {
+    let redundancy = mobility.redundancy.as_ref();
+    let name = |joint: &crate::ids::JointId| mechanism.joints[joint.index()].name.to_string();
+    MobilitySummary {
+        body_coordinates: mobility.body_coordinates,
+        constraints: mobility.constraints,
+        independent: mobility.independent,
+        degrees_of_freedom: mobility.degrees_of_freedom(),
+        determinate: redundancy.is_none(),
+        singular_position: redundancy.is_some_and(|redundancy| redundancy.only_here),
+        joints_in_excess: redundancy.map_or(vec![], |r| r.joints.iter().map(name).collect()),
+        suggestion: redundancy.and_then(|redundancy| redundancy.suggestion.clone()),
+    }
+}
+
+/// The motions z = Z x with x^T Z^T M Z x = 0.
+fn inertia(mechanism: &Mechanism, configuration: &Configuration) -> InertiaSummary {
+    let motions = free_motions(mechanism, configuration);
+    if motions.ncols() == 0 {
+        return InertiaSummary { regular: true, motions_without: Vec::new() };
+    }
+    let masses = mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]);
+    let masses = DVector::from_iterator(motions.nrows(), masses);
+    let energy = motions.transpose() * DMatrix::from_diagonal(&masses) * &motions;
+    let eigen = energy.symmetric_eigen();
+    let greatest = eigen.eigenvalues.amax();
+    let motions_without: Vec<String> = (0..motions.ncols())
+        .filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest)
+        .map(|index| {
+            let mut motion = &motions * eigen.eigenvectors.column(index);
+            // Of both directions the one whose greatest component is positive.
+            if motion[motion.icamax()] < 0.0 {
+                motion = -motion;
+            }
+            motion_in_words(mechanism, configuration, &motion)
+        })
+        .collect();
+    InertiaSummary { regular: motions_without.is_empty(), motions_without }
+}
+
+fn bodies(mechanism: &Mechanism) -> Vec<BodySummary> {
+    let one = |body: &crate::mechanism::Body| BodySummary {
+        name: body.name.to_string(),
+        mass: body.mass,
+        moment_of_inertia: body.moment_of_inertia,
+    };
+    mechanism.bodies.iter().map(one).collect()
+}
+
+fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSummary> {
+    let one = |joint: &crate::mechanism::Joint| {
+        let (kind, frames, constraints, slider) = match &joint.kind {
+            JointKind::Hinge([first, second]) => ("hinge", [first.frame, second.frame], 2, None),
+            JointKind::Slider(slider) => {
+                let (kind, constraints) = match slider.kind {
+                    SliderKind::Block => ("block slider", 2),
+                    SliderKind::Guided => ("guided slider", 2),
+                    SliderKind::Pin => ("pin in slot", 1),
+                };
+                (kind, [slider.block, slider.guide], constraints, Some(slider))
+            }
+        };
+        JointSummary {
+            name: joint.name.to_string(),
+            kind,
+            joins: frames.map(|frame| mechanism.frame_name(frame).to_owned()),
+            constraints,
+            displacement: slider.map(|slider| configuration.slide(mechanism, slider).displacement),
+            overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
+        }
+    };
+    mechanism.joints.iter().map(one).collect()
+}
+
+fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: bool) -> Vec<ContactSummary> {
+    let one = |(index, contact): (usize, &crate::mechanism::Contact)| ContactSummary {
+        name: contact.name.to_string(),
+        mu: contact.mu,
+        mu_static: contact.mu_static,
+        preload: contact.preload,
+        sliding_velocity: assembled
+            .then(|| configuration.contact(mechanism, ContactId(index)).sliding_velocity),
+    };
+    mechanism.contacts.iter().enumerate().map(one).collect()
+}
+
+fn drives(mechanism: &Mechanism) -> Vec<DriveSummary> {
+    let one = |drive: &crate::mechanism::Drive| DriveSummary {
+        name: drive.name.to_string(),
+        coordinate: mechanism.coordinates[drive.coordinate.index()].name.to_string(),
+    };
+    mechanism.drives.iter().map(one).collect()
+}
+
+fn coordinates(mechanism: &Mechanism) -> Vec<CoordinateSummary> {
+    let one = |coordinate: &crate::mechanism::Coordinate| CoordinateSummary {
+        name: coordinate.name.to_string(),
+        kind: match coordinate.kind {
+            CoordinateKind::Slide(_) => "slide",
+            CoordinateKind::Rotation(..) => "rotation",
+            CoordinateKind::Displacement(..) => "displacement",
+        },
+        unit: unit(&coordinate.kind),
+        value: coordinate.value,
+        rate: coordinate.rate,
+    };
+    mechanism.coordinates.iter().map(one).collect()
+}

@@ -1,0 +1,176 @@
+//! The findings of a check as text for people.
+
+use super::{CheckReport, ContactSummary};
+use crate::report::number::number;
+use crate::report::table::table;
+use crate::report::{Style, count};
+use anstyle::AnsiColor;
+
+/// The report as text: the verdict first, then what the model consists of.
+pub fn to_text(report: &CheckReport, style: Style) -> String {
+    let mut text = Text { report, style, out: String::new() };
+    text.heading();
+    text.verdict();
+    text.mobility();
+    text.inertia();
+    text.tables();
+    text.out
+}
+
+struct Text<'r> {
+    report: &'r CheckReport,
+    style: Style,
+    out: String,
+}
+
+impl Text<'_> {
+    fn line(&mut self, line: &str) {
+        self.out.push_str(line);
+        self.out.push('\n');
+    }
+
+    fn heading(&mut self) {
+        let report = self.report;
+        if let Some(title) = &report.title {
+            self.line(&self.style.heading(title));
+        }
+        let parts = [
+            count(report.bodies.len(), "body", "bodies"),
+            count(report.joints.len(), "joint", "joints"),
+            count(report.contacts.len(), "contact", "contacts"),
+            count(report.loads.len(), "load", "loads"),
+            count(report.drives.len(), "drive", "drives"),
+        ];
+        self.line(&parts.join(", "));
+        self.line("");
+    }
+
+    fn verdict(&mut self) {
+        let report = self.report;
+        let (colour, verdict) = if report.sound {
+            (AnsiColor::Green, "Sound: it can be solved in this state.".to_owned())
+        } else {
+            let findings = count(report.findings.len(), "finding", "findings");
+            (AnsiColor::Red, format!("It cannot be solved in this state: {findings}."))
+        };
+        self.line(&self.style.paint(colour.on_default().bold(), &verdict));
+        for finding in &report.findings {
+            self.line(&format!("  - {}", finding.message));
+            if let Some(hint) = &finding.hint {
+                self.line(&format!("    help: {hint}"));
+            }
+        }
+        self.line("");
+    }
+
+    fn mobility(&mut self) {
+        let mobility = &self.report.mobility;
+        self.line(&format!(
+            "{} of the bodies, {}: {}.",
+            count(mobility.body_coordinates, "coordinate", "coordinates"),
+            count(mobility.independent, "independent constraint", "independent constraints"),
+            count(mobility.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+        ));
+        let determinacy = if mobility.determinate {
+            "Determinate: no constraint is in excess.".to_owned()
+        } else {
+            let excess = mobility.constraints - mobility.independent;
+            let excess = count(excess, "constraint is", "constraints are");
+            let joints = mobility.joints_in_excess.join(", ");
+            if mobility.singular_position {
+                format!("Singular position: {excess} lost there, among {joints}.")
+            } else {
+                format!("Indeterminate: {excess} in excess, among {joints}.")
+            }
+        };
+        self.line(&determinacy);
+    }
+
+    fn inertia(&mut self) {
+        let report = self.report;
+        if report.mobility.degrees_of_freedom == 0 {
+            // Nothing can move.
+        } else if report.inertia.regular {
+            self.line("Mass matrix on the free motions: regular.");
+        } else {
+            self.line("Mass matrix on the free motions: singular. These motions have no inertia:");
+            for motion in &report.inertia.motions_without {
+                self.line(&format!("  {motion}"));
+            }
+            if report.condition.is_some() {
+                self.line("  The drives prescribe them, so that the equations can be solved all the same.");
+            }
+        }
+        if let Some(condition) = report.condition {
+            self.line(&format!("Condition of the kinetic equations: {}.", number(condition)));
+        }
+        if !report.assembled {
+            self.line("What is told here holds for the drawing, not for the state.");
+        }
+    }
+
+    fn tables(&mut self) {
+        let report = self.report;
+        let bodies = report
+            .bodies
+            .iter()
+            .map(|body| vec![body.name.clone(), number(body.mass), number(body.moment_of_inertia)]);
+        self.table(&["body", "mass in kg", "moment of inertia in kg m^2"], &bodies.collect::<Vec<_>>(), 1);
+        let optional = |value: Option<f64>| value.map_or(String::new(), number);
+        let joints = report.joints.iter().map(|joint| {
+            vec![
+                joint.name.clone(),
+                joint.kind.to_owned(),
+                joint.joins.join(", "),
+                joint.constraints.to_string(),
+                optional(joint.overlap),
+            ]
+        });
+        let header = ["joint", "kind", "joins", "constraints", "overlap in m"];
+        self.table(&header, &joints.collect::<Vec<_>>(), 3);
+        let contacts = report.contacts.iter().map(contact_row);
+        let header = ["contact", "mu", "mu_static", "preload in N", "sliding in m/s"];
+        self.table(&header, &contacts.collect::<Vec<_>>(), 1);
+        let coordinates = report.coordinates.iter().map(|coordinate| {
+            vec![
+                coordinate.name.clone(),
+                coordinate.kind.to_owned(),
+                driven_by(report, &coordinate.name),
+                format!("{} {}", number(coordinate.value), coordinate.unit),
+                format!("{} {}/s", number(coordinate.rate), coordinate.unit),
+            ]
+        });
+        self.table(&["coordinate", "kind", "drive", "value", "rate"], &coordinates.collect::<Vec<_>>(), 3);
+    }
+
+    fn table(&mut self, header: &[&str], rows: &[Vec<String>], words: usize) {
+        if !rows.is_empty() {
+            self.line("");
+            self.out.push_str(&table(header, rows, words));
+        }
+    }
+}
+
+fn driven_by(report: &CheckReport, coordinate: &str) -> String {
+    let drive = report.drives.iter().find(|drive| drive.coordinate == coordinate);
+    drive.map_or(String::new(), |drive| drive.name.clone())
+}
+
+fn contact_row(contact: &ContactSummary) -> Vec<String> {
+    vec![
+        contact.name.clone(),
+        sides(contact.mu),
+        sides(contact.mu_static),
+        sides(contact.preload),
+        contact.sliding_velocity.map_or("unknown".to_owned(), number),
+    ]
+}
+
+/// One number, or both where the sides differ.
+fn sides([positive, negative]: [f64; 2]) -> String {
+    if positive == negative {
+        number(positive)
+    } else {
+        format!("{} (+), {} (-)", number(positive), number(negative))
+    }
+}

@@ -1,0 +1,48 @@
+//! Proofs about the patterns of a mode problem.
+//!
+//! Everything here is rigorous for the numbers given: no tolerance decides anything. Rounding is
+//! enclosed by intervals, and what intervals leave in doubt is decided in exact rational arithmetic
+//! (every `f64` is a rational number).
+//!
+//! - [`decide`] tells what one pattern of
+//!   `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` admits: a solution with its
+//!   enclosure, none, a solution on the boundary with the `y_k` that are exactly zero, or a singular
+//!   system and the exact set of its solutions (theory, section 3).
+//! - [`proves_empty`], [`propagate`] and [`proves_at_most_one`] verify the arguments by which a
+//!   search leaves out whole sets of patterns (theory, section 4).
+//!
+//! Each of them takes a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact, or an
+//! [`IntervalModeProblem`], whose numbers lie anywhere within bounds. In the second case a result
+//! holds for all values within the bounds, and what differs between them is
+//! [`Decision::Undecided`].
+//!
+//! Contacts in their gap have the column `-(d_k^+ - d_k^-)`, and their unknown is the share
+//! `lambda_k`, `0 <= lambda_k <= 1`. A jump is any difference between `d_k^+` and `d_k^-`, however
+//! small, unlike in [`ModeProblem::has_jump`](super::ModeProblem::has_jump).
+
+mod data;
+mod decision;
+mod elimination;
+mod enclosure;
+mod exact;
+mod exclusion;
+mod influence;
+mod interval;
+mod matrix;
+mod norm;
+mod polyhedron;
+mod preconditioned;
+mod propagation;
+mod system;
+
+pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
+pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
+pub use enclosure::{LinearEnclosure, enclose_solution};
+pub use exact::{ExactOutcome, solve_exactly};
+pub use exclusion::proves_empty;
+pub use influence::IntervalInfluence;
+pub use interval::{Interval, Sign};
+pub use matrix::IntervalMatrix;
+pub use norm::proves_at_most_one;
+pub use polyhedron::ExactSet;
+pub use propagation::{Propagation, propagate};

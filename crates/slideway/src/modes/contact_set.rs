@@ -1,0 +1,52 @@
+//! Sets of contacts, of any number.
+
+/// A set of contacts, bit by bit.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct ContactSet {
+    words: Vec<u64>,
+}
+
+impl ContactSet {
+    /// No contact, out of the given number of contacts.
+    pub(super) fn none_of(contacts: usize) -> Self {
+        Self { words: vec![0; contacts.div_ceil(64)] }
+    }
+
+    pub(super) fn insert(&mut self, contact: usize) {
+        self.words[contact / 64] |= 1 << (contact % 64);
+    }
+
+    pub(super) fn remove(&mut self, contact: usize) {
+        self.words[contact / 64] &= !(1 << (contact % 64));
+    }
+
+    pub(super) fn contains(&self, contact: usize) -> bool {
+        self.words[contact / 64] >> (contact % 64) & 1 == 1
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.iter().all(|&word| word == 0)
+    }
+
+    /// The contacts of the set in increasing order.
+    pub(super) fn iter(&self) -> impl Iterator<Item = usize> {
+        (0..64 * self.words.len()).filter(|&contact| self.contains(contact))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn holds_contacts_beyond_one_word() {
+        let mut set = ContactSet::none_of(130);
+        assert!(set.is_empty());
+        for contact in [129, 0, 64] {
+            set.insert(contact);
+        }
+        set.remove(64);
+        assert_eq!(set.iter().collect::<Vec<_>>(), [0, 129]);
+        assert!(set.contains(129) && !set.contains(64));
+    }
+}

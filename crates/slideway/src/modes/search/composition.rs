@@ -1,0 +1,194 @@
+//! Solves groups of contacts one after the other and puts their solutions together.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use super::group::{GroupAnswer, search_group};
+use super::groups::Groups;
+use super::load::{Load, LoadedProblem};
+use super::monitor::Monitor;
+use super::product::{Alternative, Factor, GroupState, SolutionProduct};
+use super::report::{GroupReport, SearchOptions};
+use crate::modes::certificate::Interval;
+use crate::modes::problem::{ModeProblem, ModeProblemError};
+use crate::modes::solutions::{SolutionSet, Solutions};
+
+/// A group's contacts and the right-hand side of its equations, bit by bit.
+type GroupKey = (Vec<usize>, Vec<u64>);
+
+pub(super) struct Composer<'p, 'm, 'c> {
+    problem: &'p ModeProblem,
+    options: &'p SearchOptions,
+    groups: Groups,
+    monitor: &'m mut Monitor<'c>,
+    solved: HashMap<GroupKey, Rc<GroupAnswer>>,
+    /// Reports of all groups, those of one group with several right-hand sides added up.
+    pub(super) reports: Vec<GroupReport>,
+    /// Whether every solution that other groups depend on is enclosed by proof.
+    pub(super) chain_proven: bool,
+    pub(super) all_examined: bool,
+}
+
+impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
+    pub(super) fn new(
+        problem: &'p ModeProblem,
+        options: &'p SearchOptions,
+        monitor: &'m mut Monitor<'c>,
+    ) -> Self {
+        let groups = if options.arguments.groups { Groups::new(problem) } else { Groups::whole(problem) };
+        Self {
+            problem,
+            options,
+            groups,
+            monitor,
+            solved: HashMap::new(),
+            reports: Vec::new(),
+            chain_proven: true,
+            all_examined: true,
+        }
+    }
+
+    /// All solutions of the problem.
+    pub(super) fn solve(&mut self) -> Result<SolutionProduct, ModeProblemError> {
+        let all: Vec<usize> = (0..self.groups.members.len()).collect();
+        let mut product = self.solve_groups(&all, &Load::exact(self.problem), (0.0, 1.0))?;
+        product.prune();
+        Ok(product)
+    }
+
+    /// The solutions of some groups, given in increasing order, where `load` is the right-hand side
+    /// with everything that acts on them. They are the work from `work.0` on, of size `work.1`.
+    fn solve_groups(
+        &mut self,
+        groups: &[usize],
+        load: &Load,
+        work: (f64, f64),
+    ) -> Result<SolutionProduct, ModeProblemError> {
+        let contacts = |part: &[usize]| -> usize { part.iter().map(|&g| self.groups.members[g].len()).sum() };
+        let total = contacts(groups).max(1) as f64;
+        let parts: Vec<(Vec<usize>, f64)> = self
+            .groups
+            .independent_parts(groups)
+            .into_iter()
+            .map(|part| {
+                let share = work.1 * contacts(&part) as f64 / total;
+                (part, share)
+            })
+            .collect();
+        let mut product = SolutionProduct::default();
+        let mut done = work.0;
+        for (part, share) in parts {
+            product.factors.push(self.solve_part(&part, load, (done, share))?);
+            done += share;
+        }
+        Ok(product)
+    }
+
+    /// The solutions of groups that hang together: those of the first, and for each of them those of
+    /// the others.
+    fn solve_part(
+        &mut self,
+        part: &[usize],
+        load: &Load,
+        work: (f64, f64),
+    ) -> Result<Factor, ModeProblemError> {
+        let rest = &part[1..];
+        let first = self.groups.members[part[0]].clone();
+        let part_size: usize = part.iter().map(|&group| self.groups.members[group].len()).sum();
+        let own = work.1 * first.len() as f64 / part_size.max(1) as f64;
+        self.monitor.start_group(work.0, own);
+        let answer = self.solve_group(&first, load)?;
+        if rest.is_empty() {
+            return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts: first });
+        }
+        if admits_singular_sets(&answer.solutions) {
+            // The others would have to be solved for a whole set of loads: solve all together.
+            let mut contacts: Vec<usize> =
+                part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
+            contacts.sort_unstable();
+            self.monitor.start_group(work.0 + own, work.1 - own);
+            let answer = self.solve_group(&contacts, load)?;
+            return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts });
+        }
+        let mut alternatives = alternatives(&answer.solutions);
+        let share = (work.1 - own) / alternatives.len().max(1) as f64;
+        let mut done = work.0 + own;
+        for alternative in &mut alternatives {
+            let load = self.load_with(&first, &answer, &alternative.state, load);
+            alternative.dependents = self.solve_groups(rest, &load, (done, share))?;
+            done += share;
+        }
+        Ok(Factor { contacts: first, alternatives })
+    }
+
+    /// The solutions of one group's equations, each right-hand side solved once.
+    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Result<Rc<GroupAnswer>, ModeProblemError> {
+        let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
+        let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
+        if let Some(answer) = self.solved.get(&key) {
+            return Ok(Rc::clone(answer));
+        }
+        let restricted = LoadedProblem::restricted(self.problem, contacts, load)?;
+        let mut answer = search_group(&restricted, self.options, self.monitor);
+        self.monitor.count_found(answer.solutions.solutions.len() + answer.solutions.gaps.len());
+        answer.report.contacts = contacts.to_vec();
+        self.all_examined &= answer.solutions.is_complete();
+        self.file_report(&answer.report);
+        let answer = Rc::new(answer);
+        self.solved.insert(key, Rc::clone(&answer));
+        Ok(answer)
+    }
+
+    fn file_report(&mut self, report: &GroupReport) {
+        let same = |known: &&mut GroupReport| known.contacts == report.contacts;
+        match self.reports.iter_mut().rev().find(same) {
+            Some(known) => known.add(report),
+            None => self.reports.push(report.clone()),
+        }
+    }
+
+    /// The right-hand side with `sum_k d_k - c_k y_k` of a group's contacts.
+    fn load_with(
+        &mut self,
+        contacts: &[usize],
+        answer: &GroupAnswer,
+        state: &GroupState,
+        load: &Load,
+    ) -> Load {
+        let mut load = load.clone();
+        let Some(force) = state.normal_force() else { return load };
+        let pattern = state.pattern();
+        let enclosure = answer.enclosures.get(&pattern);
+        self.chain_proven &= enclosure.is_some();
+        for (at, (&contact, &state)) in contacts.iter().zip(&pattern).enumerate() {
+            let y = force[at].abs();
+            let radius = enclosure.map_or(0.0, |unknowns| distance(unknowns[at], y));
+            load.add_contact(self.problem, contact, state, y, radius);
+        }
+        load
+    }
+}
+
+/// How far a number within bounds may be from `y`, rounded up.
+fn distance(bounds: Interval, y: f64) -> f64 {
+    let largest = (bounds.upper() - y).max(y - bounds.lower());
+    if largest > 0.0 { largest.next_up() } else { 0.0 }
+}
+
+/// What a group admits, as alternatives without dependents.
+fn alternatives(solutions: &Solutions) -> Vec<Alternative> {
+    let singular = solutions.singular.iter().filter(|mode| match mode.set {
+        SolutionSet::Empty | SolutionSet::NotComputed => false,
+        // A point that is a solution of its own already.
+        SolutionSet::Point(_) => mode.contains.is_empty(),
+        _ => true,
+    });
+    let states = solutions.solutions.iter().cloned().map(GroupState::Solution);
+    let states = states.chain(solutions.gaps.iter().cloned().map(GroupState::Gap));
+    let states = states.chain(singular.cloned().map(GroupState::Singular));
+    states.map(|state| Alternative { state, dependents: SolutionProduct::default() }).collect()
+}
+
+fn admits_singular_sets(solutions: &Solutions) -> bool {
+    solutions.singular.iter().any(|mode| mode.set != SolutionSet::Empty)
+}

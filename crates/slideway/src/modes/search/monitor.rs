@@ -1,0 +1,64 @@
+//! Limits, progress and cancellation of a search.
+
+use std::ops::ControlFlow;
+
+use super::report::{Progress, StopReason};
+
+/// Counts nodes, tells the caller, and notes why the search ends early.
+pub(super) struct Monitor<'a> {
+    progress: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    node_limit: u64,
+    nodes: u64,
+    states_found: u64,
+    /// The part of the work that is done, and the part that the group at hand makes up.
+    done: f64,
+    share: f64,
+    stopped: Option<StopReason>,
+}
+
+impl<'a> Monitor<'a> {
+    pub(super) fn new(node_limit: u64, progress: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Self {
+        Self { progress, node_limit, nodes: 0, states_found: 0, done: 0.0, share: 1.0, stopped: None }
+    }
+
+    pub(super) fn stopped(&self) -> Option<StopReason> {
+        self.stopped
+    }
+
+    pub(super) fn stop(&mut self, reason: StopReason) {
+        self.stopped.get_or_insert(reason);
+    }
+
+    /// The group that follows makes up this share of the work.
+    pub(super) fn start_group(&mut self, done: f64, share: f64) {
+        self.done = done;
+        self.share = share;
+    }
+
+    pub(super) fn count_found(&mut self, states: usize) {
+        self.states_found += states as u64;
+    }
+
+    /// Counts a node; false if the search must end before it. `fraction` is the part of the group's
+    /// patterns that is dealt with.
+    pub(super) fn visit(&mut self, fraction: f64, found_in_group: usize) -> bool {
+        if self.stopped.is_some() {
+            return false;
+        }
+        if self.nodes >= self.node_limit {
+            self.stop(StopReason::NodeLimit);
+            return false;
+        }
+        self.nodes += 1;
+        let progress = Progress {
+            nodes: self.nodes,
+            fraction: (self.done + self.share * fraction).min(1.0),
+            states_found: self.states_found + found_in_group as u64,
+        };
+        if (self.progress)(&progress).is_break() {
+            self.stop(StopReason::Cancelled);
+            return false;
+        }
+        true
+    }
+}

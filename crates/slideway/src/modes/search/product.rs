@@ -1,0 +1,235 @@
+//! Solutions in product form: what independent groups of contacts find multiplies.
+
+use nalgebra::DVector;
+
+use super::count::BigCount;
+use crate::modes::solutions::{ContactState, GapState, ModeSolution, SingularMode, SolutionSet};
+
+/// All solutions of a set of contacts: one alternative of every factor, in any combination.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SolutionProduct {
+    /// Independent factors; without any there is exactly one (empty) solution.
+    pub factors: Vec<Factor>,
+}
+
+/// A group of contacts and its alternatives. None means that there is no solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// The contacts of the group, from 0, in increasing order.
+    pub contacts: Vec<usize>,
+    /// What the group admits.
+    pub alternatives: Vec<Alternative>,
+}
+
+/// One solution of a group, with the solutions of the groups that depend on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// The state of the group's own contacts.
+    pub state: GroupState,
+    /// The solutions of the contacts that this group acts on.
+    pub dependents: SolutionProduct,
+}
+
+/// A solution of one group; numbered as the contacts of its factor are.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GroupState {
+    /// Every contact is pressed on a side, or about to change it.
+    Solution(ModeSolution),
+    /// Some contact rests in its gap.
+    Gap(GapState),
+    /// What a singular pattern admits; not empty.
+    Singular(SingularMode),
+}
+
+/// How many solutions there are of each kind.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct StateCounts {
+    /// Solutions with every contact pressed on a side or on a boundary.
+    pub solutions: BigCount,
+    /// States with some contact in its gap.
+    pub gap_states: BigCount,
+    /// Combinations with the set of a singular pattern.
+    pub singular: BigCount,
+}
+
+/// A combination of solutions of all groups.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CombinedState<'a> {
+    /// Each group's contacts and what they do.
+    pub parts: Vec<(&'a [usize], &'a GroupState)>,
+}
+
+impl GroupState {
+    /// The kind of the state.
+    pub fn kind(&self) -> StateKind {
+        match self {
+            Self::Solution(_) => StateKind::Solution,
+            Self::Gap(_) => StateKind::Gap,
+            Self::Singular(_) => StateKind::Singular,
+        }
+    }
+
+    /// The state of each contact of the group.
+    pub fn pattern(&self) -> Vec<ContactState> {
+        match self {
+            Self::Solution(solution) => solution.pattern.iter().map(|&side| side.into()).collect(),
+            Self::Gap(gap) => gap.pattern.clone(),
+            Self::Singular(mode) => mode.pattern.clone(),
+        }
+    }
+
+    /// The signed normal forces of the group; none for a continuum.
+    pub fn normal_force(&self) -> Option<&DVector<f64>> {
+        match self {
+            Self::Solution(solution) => Some(&solution.normal_force),
+            Self::Gap(gap) => Some(&gap.normal_force),
+            Self::Singular(SingularMode { set: SolutionSet::Point(point), .. }) => Some(point),
+            Self::Singular(_) => None,
+        }
+    }
+}
+
+/// The kind of a state, in increasing order of what has to be said about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum StateKind {
+    /// Every contact is pressed on a side, or about to change it.
+    Solution,
+    /// Some contact rests in its gap.
+    Gap,
+    /// Some group is in a singular pattern.
+    Singular,
+}
+
+/// Cumulated counts: solutions; with gap states; with singular sets.
+type Cumulated = [BigCount; 3];
+
+impl SolutionProduct {
+    /// The numbers of solutions, gap states and combinations with singular sets.
+    pub fn counts(&self) -> StateCounts {
+        let [solutions, with_gaps, all] = self.cumulated();
+        StateCounts { gap_states: with_gaps.minus(&solutions), singular: all.minus(&with_gaps), solutions }
+    }
+
+    /// All combinations one after the other. There may be very many: take what is needed.
+    pub fn states(&self) -> impl Iterator<Item = CombinedState<'_>> {
+        Combinations { product: self, choices: Vec::new(), state: Walk::Start }
+    }
+
+    fn cumulated(&self) -> Cumulated {
+        let mut product = [1, 1, 1].map(BigCount::from);
+        for factor in &self.factors {
+            let mut sums = Cumulated::default();
+            for alternative in &factor.alternatives {
+                let counts = alternative.dependents.cumulated();
+                for kind in alternative.state.kind() as usize..3 {
+                    sums[kind] = sums[kind].plus(&counts[kind]);
+                }
+            }
+            product = [0, 1, 2].map(|kind| product[kind].times(&sums[kind]));
+        }
+        product
+    }
+
+    /// Drops alternatives whose dependents have no solution. False if nothing is left.
+    pub(super) fn prune(&mut self) -> bool {
+        self.factors.iter_mut().all(|factor| {
+            factor.alternatives.retain_mut(|alternative| alternative.dependents.prune());
+            !factor.alternatives.is_empty()
+        })
+    }
+}
+
+impl CombinedState<'_> {
+    /// The kind of the combination: that of the part of which most has to be said.
+    pub fn kind(&self) -> StateKind {
+        self.parts.iter().map(|(_, state)| state.kind()).max().unwrap_or(StateKind::Solution)
+    }
+
+    /// The state of every contact, given their number.
+    pub fn pattern(&self, contacts: usize) -> Vec<ContactState> {
+        let mut pattern = vec![ContactState::Positive; contacts];
+        for (members, state) in &self.parts {
+            for (&contact, state) in members.iter().zip(state.pattern()) {
+                pattern[contact] = state;
+            }
+        }
+        pattern
+    }
+
+    /// The signed normal forces of all contacts, given their number; none if a group has a
+    /// continuum of them.
+    pub fn normal_force(&self, contacts: usize) -> Option<DVector<f64>> {
+        let mut force = DVector::zeros(contacts);
+        for (members, state) in &self.parts {
+            for (&contact, &value) in members.iter().zip(state.normal_force()?) {
+                force[contact] = value;
+            }
+        }
+        Some(force)
+    }
+}
+
+enum Walk {
+    Start,
+    Under,
+    End,
+}
+
+/// Combinations in the order of the alternatives, the last group changing fastest.
+struct Combinations<'a> {
+    product: &'a SolutionProduct,
+    /// The factors in the order in which they are met, with the alternative taken.
+    choices: Vec<(&'a Factor, usize)>,
+    state: Walk,
+}
+
+impl<'a> Combinations<'a> {
+    /// Extends the choices by the first alternative of every factor that is left; false if some
+    /// factor has none.
+    fn complete(&mut self) -> bool {
+        let mut pending: Vec<&'a Factor> = self.product.factors.iter().rev().collect();
+        let mut known = 0;
+        while let Some(factor) = pending.pop() {
+            if known == self.choices.len() {
+                self.choices.push((factor, 0));
+            }
+            let taken = self.choices[known].1;
+            let Some(alternative) = factor.alternatives.get(taken) else { return false };
+            pending.extend(alternative.dependents.factors.iter().rev());
+            known += 1;
+        }
+        true
+    }
+
+    /// Takes the next alternative of the last factor that has one; false if none has.
+    fn advance(&mut self) -> bool {
+        while let Some((factor, taken)) = self.choices.pop() {
+            if taken + 1 < factor.alternatives.len() {
+                self.choices.push((factor, taken + 1));
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl<'a> Iterator for Combinations<'a> {
+    type Item = CombinedState<'a>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let more = match self.state {
+            Walk::Start => true,
+            Walk::Under => self.advance(),
+            Walk::End => false,
+        };
+        if !more || !self.complete() {
+            self.state = Walk::End;
+            return None;
+        }
+        self.state = Walk::Under;
+        let part = |&(factor, taken): &(&'a Factor, usize)| {
+            (factor.contacts.as_slice(), &factor.alternatives[taken].state)
+        };
+        Some(CombinedState { parts: self.choices.iter().map(part).collect() })
+    }
+}

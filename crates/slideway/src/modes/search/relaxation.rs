@@ -1,0 +1,203 @@
+//! The linear relaxation of a node: undecided contacts may press on both sides at once.
+//!
+//! ```text
+//! sum_k c_k^+ y_k^+ + c_k^- y_k^- - (d_k^+ - d_k^-) lambda_k = N(0) + sum_k d_k^-
+//! y_k^+, y_k^- >= 0,   0 <= lambda_k <= 1
+//! ```
+//!
+//! (theory, section 4 (b)), where `y_k^-` is zero and `lambda_k = 1` once contact `k` is known to be
+//! on its positive side, and so on; in its gap both `y` are zero. What is dropped is that one of
+//! `y_k^+` and `y_k^-` is zero. If this has no solution the node has none.
+
+use nalgebra::DVector;
+
+use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
+use super::states::StateSet;
+use crate::modes::scaling::ScaledProblem;
+use crate::modes::solutions::ContactState;
+
+/// A Farkas vector must exclude by this fraction of the size of its terms, which is what solutions
+/// on a boundary are tolerated by.
+const MARGIN: f64 = 1e-11;
+/// How often a Farkas vector is shifted to make its verification strict.
+const SHIFTS: usize = 2;
+/// Relative difference that [`ModeProblem`](crate::modes::ModeProblem) does not take for a jump.
+const IGNORED_JUMP: f64 = 1e-12;
+
+pub(super) struct Relaxation {
+    program: LinearProgram,
+    /// The variable `y_k^+` of each contact; `y_k^-` follows, and `lambda_k` where there is a jump.
+    first: Vec<usize>,
+    has_jump: Vec<bool>,
+    /// The power of two that multiplies each column of the program.
+    column_scale: Vec<f64>,
+    /// Size of the terms of the right-hand side, and how much of them rounding may have changed.
+    load_size: Vec<f64>,
+    load_error: Vec<f64>,
+    /// Bounds of `y_k` that hold for every solution.
+    largest: Vec<f64>,
+}
+
+/// What the relaxation says of one contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RelaxedContact {
+    pub(super) positive: f64,
+    pub(super) negative: f64,
+    pub(super) share: f64,
+}
+
+/// What the relaxation says of a node.
+pub(super) enum Relaxed {
+    Feasible(Vec<RelaxedContact>),
+    /// The node has no solution, as a vector `v` proves with `v . (left side) < v . (right side)`
+    /// for everything that its states allow.
+    Excluded(Vec<f64>),
+    Undecided,
+}
+
+impl Relaxation {
+    /// The relaxation with `y_k <= largest_k` for every solution, for all right-hand sides within
+    /// `load_radius`.
+    pub(super) fn new(problem: &ScaledProblem, load_radius: &DVector<f64>, largest: Vec<f64>) -> Self {
+        let contacts = problem.contacts();
+        let (mut columns, mut cost, mut first) = (Vec::new(), Vec::new(), Vec::new());
+        let mut column_scale = Vec::new();
+        for contact in 0..contacts {
+            first.push(columns.len());
+            for &state in problem.states(contact) {
+                let column = problem.column(contact, state);
+                let scale = power_of_two_below(column.amax()).recip();
+                columns.push((column * scale).as_slice().to_vec());
+                column_scale.push(scale);
+                cost.push(uneven_cost(cost.len()) * if state == ContactState::Gap { 0.01 } else { 1.0 });
+            }
+        }
+        let load_size = problem.load_size().as_slice().to_vec();
+        let load_error =
+            rounding_of_load(problem).iter().zip(load_radius).map(|(error, radius)| error + radius).collect();
+        Self {
+            program: LinearProgram::new(&columns, problem.base().as_slice().to_vec(), cost),
+            first,
+            has_jump: problem.has_jump.clone(),
+            column_scale,
+            load_size,
+            load_error,
+            largest,
+        }
+    }
+
+    pub(super) fn first_basis(&self) -> Basis {
+        self.program.artificial_basis()
+    }
+
+    /// Solves the relaxation of a node from the basis of its parent.
+    pub(super) fn solve(&self, states: &[StateSet], basis: &mut Basis, iterations: &mut u64) -> Relaxed {
+        let bounds = self.bounds(states);
+        match self.program.solve(basis, &bounds, iterations) {
+            LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values)),
+            LinearOutcome::Infeasible(farkas) => {
+                self.verified(farkas, &bounds, basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
+            }
+            LinearOutcome::Undecided => Relaxed::Undecided,
+        }
+    }
+
+    fn bounds(&self, states: &[StateSet]) -> Bounds {
+        let mut bounds =
+            Bounds { lower: vec![0.0; self.program.columns()], upper: vec![0.0; self.program.columns()] };
+        for (contact, &set) in states.iter().enumerate() {
+            let at = self.first[contact];
+            for (offset, state) in ContactState::PRESSED.into_iter().enumerate() {
+                if set.contains(state) {
+                    bounds.upper[at + offset] = self.largest[contact] / self.column_scale[at + offset];
+                }
+            }
+            if self.has_jump[contact] {
+                let (least, most) = set.share();
+                bounds.lower[at + 2] = least / self.column_scale[at + 2];
+                bounds.upper[at + 2] = most / self.column_scale[at + 2];
+            }
+        }
+        bounds
+    }
+
+    fn contacts(&self, values: &[f64]) -> Vec<RelaxedContact> {
+        let value = |variable: usize| values[variable] * self.column_scale[variable];
+        let relaxed = |(&at, &jump): (&usize, &bool)| RelaxedContact {
+            positive: value(at),
+            negative: value(at + 1),
+            share: if jump { value(at + 2) } else { 0.0 },
+        };
+        self.first.iter().zip(&self.has_jump).map(relaxed).collect()
+    }
+
+    /// A Farkas vector that excludes the node with rounding errors accounted for. The columns of
+    /// basic variables, which the vector meets at exactly zero, are moved to the safe side.
+    fn verified(&self, mut farkas: Vec<f64>, bounds: &Bounds, basis: &Basis) -> Option<Vec<f64>> {
+        let mut combined = Vec::new();
+        for _ in 0..=SHIFTS {
+            self.program.row_combination(&farkas, &mut combined);
+            let sizes: Vec<f64> = farkas.iter().map(|entry| entry.abs()).collect();
+            let rounding = (self.first.len() + 4) as f64 * f64::EPSILON;
+            let mut shifted = false;
+            let (mut most, mut size) = (0.0, 0.0);
+            let mut shift = vec![0.0; farkas.len()];
+            for (variable, &entry) in combined.iter().enumerate() {
+                if bounds.lower[variable] == 0.0 && bounds.upper[variable] == 0.0 {
+                    continue;
+                }
+                let error = rounding * size_of_terms(self.program.column(variable), &sizes);
+                let (low, high) = (entry - error, entry + error);
+                if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
+                    let row = basis.row_of(variable)?;
+                    super::simplex::add_multiple(&mut shift, -2.0 * high, row);
+                    shifted = true;
+                } else if high > 0.0 {
+                    most += high * bounds.upper[variable];
+                    size += (high - low) * bounds.upper[variable];
+                }
+                if high <= 0.0 && bounds.lower[variable] > 0.0 {
+                    most += high * bounds.lower[variable];
+                }
+            }
+            if !shifted {
+                return self.excludes(&farkas, &sizes, most, size, rounding).then_some(farkas);
+            }
+            super::simplex::add_multiple(&mut farkas, 1.0, &shift);
+        }
+        None
+    }
+
+    /// `v . b` exceeds what the left side can reach.
+    fn excludes(&self, farkas: &[f64], sizes: &[f64], most: f64, size: f64, rounding: f64) -> bool {
+        let load = super::simplex::dot(farkas, self.program.right_hand_side());
+        let terms = size_of_terms(&self.load_size, sizes);
+        let error = size_of_terms(&self.load_error, sizes);
+        let slack = 2.0 * error + (rounding + MARGIN) * (terms + size + most.abs());
+        load - most > slack
+    }
+}
+
+/// `sum |a_i| s_i` with sizes `s_i >= 0`.
+fn size_of_terms(values: &[f64], sizes: &[f64]) -> f64 {
+    values.iter().zip(sizes).map(|(value, size)| value.abs() * size).sum()
+}
+
+/// What rounding (and jumps too small to count) can have changed in `N(0) + sum d^-` and in the jumps.
+fn rounding_of_load(problem: &ScaledProblem) -> Vec<f64> {
+    let terms = problem.base().iter().zip(problem.load_size());
+    let jumps_contribute = terms.clone().any(|(base, &size)| base.abs() != size);
+    let share =
+        if jumps_contribute { IGNORED_JUMP + (problem.contacts() + 4) as f64 * f64::EPSILON } else { 0.0 };
+    terms.map(|(_, size)| share * size).collect()
+}
+
+/// Costs that differ from variable to variable, so that the dual program is not degenerate.
+fn uneven_cost(variable: usize) -> f64 {
+    // The fractional parts of multiples of the golden ratio are spread evenly.
+    1.0 + 0.2 * (variable as f64 * 0.618_033_988_749_895).fract()
+}
+
+fn power_of_two_below(size: f64) -> f64 {
+    if size == 0.0 { 1.0 } else { size.log2().floor().clamp(-1000.0, 1000.0).exp2() }
+}

@@ -1,0 +1,78 @@
+//! Cheap proofs that there is exactly one solution.
+//!
+//! Without jumps the problem is `N = e - G |N|` (see [`Propagation`]). The map on the right is a
+//! contraction if the spectral radius of `|G|` is below 1, or if the largest singular value of `G`
+//! is (theory, section 4 (a) and (c)): then there is exactly one solution for every load.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::propagation::Propagation;
+use super::report::Method;
+use crate::modes::scaling::ScaledProblem;
+use crate::modes::solutions::ContactState;
+
+/// Singular values are compared with 1 less this.
+const MARGIN: f64 = 1e-8;
+/// Steps of the contraction before Newton's method starts.
+const CONTRACTIONS: usize = 60;
+/// Steps of Newton's method.
+const NEWTON_STEPS: usize = 60;
+
+/// The argument that proves exactly one solution, if one of the cheap ones does.
+pub(super) fn proof(problem: &ScaledProblem, propagation: &Propagation) -> Option<Method> {
+    if problem.has_jump.iter().any(|&jump| jump) {
+        return None;
+    }
+    if propagation.is_contraction() {
+        return Some(Method::Contraction);
+    }
+    singular_values_below_one(propagation).then_some(Method::SingularValue)
+}
+
+/// `(1 - delta)^2 I - G^T G` is positive definite, where `delta` covers how far `G` may be off.
+fn singular_values_below_one(propagation: &Propagation) -> bool {
+    let contacts = propagation.frictionless.len();
+    let coupling = &propagation.coupling;
+    // sigma_max is at least the norm of any column.
+    if coupling.column_iter().any(|column| column.norm() >= 1.0) {
+        return false;
+    }
+    let delta = MARGIN + 2.0 * propagation.slip.norm();
+    if delta >= 1.0 {
+        return false;
+    }
+    let bound = DMatrix::from_diagonal_element(contacts, contacts, (1.0 - delta).powi(2));
+    (bound - coupling.transpose() * coupling).cholesky().is_some()
+}
+
+/// The pattern of the only solution: the contraction `N <- e - G |N|`, then Newton's method on the
+/// pattern. None if that does not settle.
+pub(super) fn only_pattern(problem: &ScaledProblem, propagation: &Propagation) -> Option<Vec<ContactState>> {
+    let mut normal_force = propagation.frictionless.clone();
+    for _ in 0..CONTRACTIONS {
+        normal_force = &propagation.frictionless - &propagation.coupling * normal_force.abs();
+    }
+    let mut pattern = pattern_of(&normal_force);
+    for _ in 0..NEWTON_STEPS {
+        let (matrix, right_hand_side) = problem.system(&pattern);
+        let y = matrix.lu().solve(&right_hand_side)?;
+        let size = y.amax();
+        // Where y is negative beyond rounding the contact is on its other side.
+        let wrong: Vec<usize> = (0..pattern.len()).filter(|&k| y[k] < -1e-12 * size).collect();
+        if wrong.is_empty() {
+            return Some(pattern);
+        }
+        for contact in wrong {
+            pattern[contact] = match pattern[contact] {
+                ContactState::Positive => ContactState::Negative,
+                _ => ContactState::Positive,
+            };
+        }
+    }
+    None
+}
+
+fn pattern_of(normal_force: &DVector<f64>) -> Vec<ContactState> {
+    let state = |&force: &f64| if force >= 0.0 { ContactState::Positive } else { ContactState::Negative };
+    normal_force.iter().map(state).collect()
+}

@@ -1,0 +1,168 @@
+//! Raw problems as JSON text.
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde_json::Value;
+
+use super::assemble::{Given, GivenType};
+use super::fault::RawFault;
+use super::shape::Array;
+
+/// The names and arrays of a JSON text; what is wrong with single arrays goes to `faults`.
+pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, RawFault> {
+    let object = match serde_json::from_slice(bytes) {
+        Ok(Top::Object(entries)) => entries,
+        Ok(Top::Other(value)) => return Err(RawFault::NotAnObject { found: word(&value) }),
+        Err(error) => return Err(syntax(bytes, &error)),
+    };
+    let mut given = Given::default();
+    for (key, value) in object {
+        if given.has(&key) {
+            faults.push(RawFault::DuplicateKey { key });
+        } else if key == "type" {
+            given.kind = match value {
+                Value::String(text) => GivenType::Text(text),
+                other => GivenType::Other(word(&other).to_owned()),
+            };
+        } else {
+            match array(&key, &value) {
+                Ok(array) => given.arrays.push((key, Some(array))),
+                Err(fault) => given.set_faulty(key, fault, faults),
+            }
+        }
+    }
+    Ok(given)
+}
+
+/// The top of the text: the entries of an object in their order, repeated names included.
+enum Top {
+    Object(Vec<(String, Value)>),
+    Other(Value),
+}
+
+impl<'de> Deserialize<'de> for Top {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+
+        impl<'de> Visitor<'de> for Entries {
+            type Value = Top;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Top, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Top::Object(entries))
+            }
+
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, mut seq: A) -> Result<Top, A::Error> {
+                while seq.next_element::<serde::de::IgnoredAny>()?.is_some() {}
+                Ok(Top::Other(Value::Array(Vec::new())))
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<Top, E> {
+                Ok(Top::Other(text.into()))
+            }
+
+            fn visit_unit<E>(self) -> Result<Top, E> {
+                Ok(Top::Other(Value::Null))
+            }
+
+            fn visit_bool<E>(self, truth: bool) -> Result<Top, E> {
+                Ok(Top::Other(truth.into()))
+            }
+
+            fn visit_u64<E>(self, number: u64) -> Result<Top, E> {
+                Ok(Top::Other(number.into()))
+            }
+
+            fn visit_i64<E>(self, number: i64) -> Result<Top, E> {
+                Ok(Top::Other(number.into()))
+            }
+
+            fn visit_f64<E>(self, number: f64) -> Result<Top, E> {
+                Ok(Top::Other(number.into()))
+            }
+        }
+
+        deserializer.deserialize_any(Entries)
+    }
+}
+
+/// A number, a vector or a matrix.
+fn array(key: &str, value: &Value) -> Result<Array, RawFault> {
+    let not_an_array = || RawFault::NotAnArray { key: key.to_owned(), found: word(value).to_owned() };
+    let entries = match value {
+        Value::Number(number) => {
+            let number = number.as_f64().ok_or_else(not_an_array)?;
+            return Ok(Array { sizes: Vec::new(), values: vec![number] });
+        }
+        Value::Array(entries) => entries,
+        _ => return Err(not_an_array()),
+    };
+    if !entries.iter().any(Value::is_array) {
+        let values = numbers(key, entries, None)?;
+        return Ok(Array { sizes: vec![values.len()], values });
+    }
+    let mut values = Vec::new();
+    let mut columns = None;
+    for (row, entry) in entries.iter().enumerate() {
+        let Value::Array(entry) = entry else {
+            let found = word(entry);
+            return Err(RawFault::NotAnArray { key: format!("{key}[{row}]"), found: found.to_owned() });
+        };
+        let expected = *columns.get_or_insert(entry.len());
+        if entry.len() != expected {
+            return Err(RawFault::Ragged { key: key.to_owned(), row, expected, found: entry.len() });
+        }
+        values.extend(numbers(key, entry, Some(row))?);
+    }
+    Ok(Array { sizes: vec![entries.len(), columns.unwrap_or(0)], values })
+}
+
+/// The numbers of a vector, or of one row of a matrix.
+fn numbers(key: &str, entries: &[Value], row: Option<usize>) -> Result<Vec<f64>, RawFault> {
+    let number = |(at, entry): (usize, &Value)| {
+        entry.as_f64().ok_or_else(|| RawFault::NotANumber {
+            key: key.to_owned(),
+            row: row.unwrap_or(at),
+            column: row.map(|_| at),
+            found: word(entry),
+        })
+    };
+    entries.iter().enumerate().map(number).collect()
+}
+
+fn word(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "a truth value",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "an object",
+    }
+}
+
+/// What a parser's error says; the words that Python writes for numbers JSON does not have get a
+/// message of their own.
+fn syntax(bytes: &[u8], error: &serde_json::Error) -> RawFault {
+    let (line, column) = (error.line(), error.column());
+    let text = bytes.split(|&byte| byte == b'\n').nth(line.saturating_sub(1)).unwrap_or_default();
+    let near = text.get(column.saturating_sub(2)..).unwrap_or_default();
+    for word in ["NaN", "Infinity", "-Infinity", "nan", "inf", "-inf"] {
+        let here =
+            [0, 1].iter().any(|&skip| near.get(skip..).is_some_and(|near| near.starts_with(word.as_bytes())));
+        if here {
+            return RawFault::NotFiniteWord { line, word };
+        }
+    }
+    let message = error.to_string();
+    let end = message.rfind(" at line ").unwrap_or(message.len());
+    RawFault::Json { line, column, message: message[..end].to_owned() }
+}

@@ -1,0 +1,72 @@
+//! Raw problems as NumPy archives (`numpy.savez`), and archives of answers.
+
+use std::io::{Cursor, Read, Write};
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use super::assemble::{Given, GivenType};
+use super::fault::RawFault;
+use super::kind::RawKind;
+use super::{GREATEST_SIZE, npy};
+
+/// A matrix has at most so many entries.
+const MOST_ENTRIES: usize = GREATEST_SIZE * GREATEST_SIZE;
+/// Its bytes and those of its header.
+const MOST_BYTES: u64 = MOST_ENTRIES as u64 * 8 + 65536;
+
+/// The names and arrays of an archive; what is wrong with single arrays goes to `faults`.
+pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, RawFault> {
+    let broken = |error: &dyn ToString| RawFault::Archive { reason: error.to_string() };
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| broken(&error))?;
+    let mut given = Given::default();
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index).map_err(|error| broken(&error))?;
+        let name = file.name().map_err(|error| broken(&error))?.into_owned();
+        let key = name.strip_suffix(".npy").unwrap_or(&name).to_owned();
+        if given.has(&key) {
+            faults.push(RawFault::DuplicateKey { key });
+            continue;
+        }
+        let known = RawKind::ALL.iter().any(|kind| kind.names().contains(&key.as_str()));
+        if !known && key != "type" {
+            // A name of no problem: told later, without a look inside.
+            given.arrays.push((key, None));
+            continue;
+        }
+        let mut content = Vec::new();
+        file.by_ref().take(MOST_BYTES + 1).read_to_end(&mut content).map_err(|error| broken(&error))?;
+        if content.len() as u64 > MOST_BYTES {
+            let fault = RawFault::Npy { key: key.clone(), reason: "it has too many entries" };
+            given.set_faulty(key, fault, faults);
+        } else if key == "type" {
+            match npy::text(&key, &content) {
+                Ok(Some(text)) => given.kind = GivenType::Text(text),
+                Ok(None) => given.kind = GivenType::Other("an array of something else".to_owned()),
+                Err(fault) => faults.push(fault),
+            }
+        } else {
+            match npy::numbers(&key, &content, MOST_ENTRIES) {
+                Ok(array) => given.arrays.push((key, Some(array))),
+                Err(fault) => given.set_faulty(key, fault, faults),
+            }
+        }
+    }
+    Ok(given)
+}
+
+/// An archive of arrays that are written already.
+pub(super) fn write(arrays: &[(&str, Vec<u8>)]) -> Vec<u8> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(zip::DateTime::default());
+    for (name, bytes) in arrays {
+        let options = options.large_file(bytes.len() as u64 > u64::from(u32::MAX) / 2);
+        archive
+            .start_file(format!("{name}.npy"), options)
+            .and_then(|()| Ok(archive.write_all(bytes)?))
+            .expect("writing to memory cannot fail");
+    }
+    archive.finish().expect("writing to memory cannot fail").into_inner()
+}

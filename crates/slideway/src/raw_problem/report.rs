@@ -1,0 +1,189 @@
+//! What is told of a raw problem: plain data, which are the JSON output.
+
+use serde::Serialize;
+
+use super::kind::RawKind;
+use crate::report::Status;
+
+/// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/modes/1";
+
+/// All solutions of a raw problem.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// Type of the problem.
+    #[serde(rename = "type")]
+    pub kind: RawKind,
+    /// Number n of unknowns (of pairs of them in a complementarity problem).
+    pub size: usize,
+    /// How many solutions there are; of those that were found if the search ended early.
+    pub status: Status,
+    /// "proven" or "not proven": whether these are certainly all solutions.
+    pub complete: &'static str,
+    /// Whether the search ended before every possibility was dealt with.
+    pub partial: bool,
+    /// What remains open, in words; empty if `complete` is "proven".
+    pub open: Vec<String>,
+    /// Number of solutions found, as decimal text: it may be beyond any integer type. Continua and
+    /// gap states are not among them.
+    pub count: String,
+    /// Number of states with an unknown in its preload gap, likewise.
+    pub gap_state_count: String,
+    /// Number of continua, likewise.
+    pub continuum_count: String,
+    /// The solutions, not more than was asked for.
+    pub solutions: Vec<RawSolution>,
+    /// States with an unknown in its preload gap, likewise (theory, section 3).
+    pub gap_states: Vec<RawSolution>,
+    /// Infinite sets of solutions, likewise.
+    pub continua: Vec<RawContinuum>,
+    /// How they were found: groups of unknowns and methods, in words.
+    pub strategy: String,
+    /// Nodes of the search that were visited.
+    pub nodes: u64,
+    /// The groups of unknowns that were searched one by one.
+    pub groups: Vec<RawGroup>,
+}
+
+/// The unknowns by the names that the problem's type has for them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Unknowns {
+    /// Of a linear or horizontal complementarity problem.
+    Complementary {
+        /// `z`.
+        z: Vec<f64>,
+        /// `w`.
+        w: Vec<f64>,
+    },
+    /// Of an absolute value equation.
+    AbsoluteValue {
+        /// `x`.
+        x: Vec<f64>,
+    },
+    /// Of a mode problem.
+    Modes {
+        /// Signed normal forces `N_k = sigma_k y_k`.
+        normal_forces: Vec<f64>,
+        /// `y_k = |N_k|`.
+        y: Vec<f64>,
+    },
+}
+
+impl Unknowns {
+    /// The unknowns that have these signed values `N`, which are `z - w`, or `x`.
+    pub(super) fn new(kind: RawKind, signed: &[f64]) -> Self {
+        // Without the sign of a zero.
+        let positive = |value: &f64| if *value > 0.0 { *value } else { 0.0 };
+        match kind {
+            RawKind::Lcp | RawKind::Hlcp => Self::Complementary {
+                z: signed.iter().map(positive).collect(),
+                w: signed.iter().map(|value| positive(&-value)).collect(),
+            },
+            RawKind::Ave => Self::AbsoluteValue { x: signed.iter().map(|value| value + 0.0).collect() },
+            RawKind::Modes => Self::Modes {
+                normal_forces: signed.iter().map(|value| value + 0.0).collect(),
+                y: signed.iter().map(|value| value.abs()).collect(),
+            },
+        }
+    }
+
+    /// Names and values.
+    pub fn named(&self) -> Vec<(&'static str, &[f64])> {
+        match self {
+            Self::Complementary { z, w } => vec![("z", z), ("w", w)],
+            Self::AbsoluteValue { x } => vec![("x", x)],
+            Self::Modes { normal_forces, y } => vec![("normal_forces", normal_forces), ("y", y)],
+        }
+    }
+}
+
+/// One solution, or one state with an unknown in its gap.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawSolution {
+    /// The unknowns.
+    #[serde(flatten)]
+    pub unknowns: Unknowns,
+    /// Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes.
+    pub signs: Vec<i8>,
+    /// Whether some sign is 0 outside of a gap: the solution is on the boundary between patterns.
+    pub on_boundary: bool,
+    /// No unknown is farther than this from the exact solution of the numbers given; absent if that
+    /// was not established.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enclosure_radius: Option<f64>,
+    /// What is left over in the problem's equations, relative to the largest sum of sizes of terms
+    /// in an equation.
+    pub residual: f64,
+    /// The continuum of the list `continua`, from 0, of which this is a vertex; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_of_continuum: Option<usize>,
+    /// Unknowns in their gap.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<GapShare>,
+}
+
+/// An unknown in its preload gap.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct GapShare {
+    /// Which unknown, from 0.
+    pub index: usize,
+    /// The share lambda of `jumps_positive`, from 0 to 1.
+    pub lambda: f64,
+}
+
+/// Infinitely many solutions: all convex combinations of the vertices plus all non-negative multiples
+/// of the directions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawContinuum {
+    /// "+", "-" or "0" (in the gap) for every unknown.
+    pub pattern: String,
+    /// The vertices: the ends of a segment, the end of a ray.
+    pub vertices: Vec<Unknowns>,
+    /// Directions in which the set is unbounded.
+    pub directions: Vec<Unknowns>,
+    /// Whether all vertices are listed.
+    pub all_vertices: bool,
+}
+
+/// A group of unknowns that was searched by itself.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawGroup {
+    /// Its unknowns, from 0.
+    pub indices: Vec<usize>,
+    /// The method, in words.
+    pub method: String,
+    /// Nodes visited.
+    pub nodes: u64,
+    /// The fractions of its patterns that each argument dealt with; they add up to 1.
+    pub patterns: RawShares,
+    /// Whether every exclusion and every outcome is proven.
+    pub proven: bool,
+}
+
+/// Fractions of the patterns of a group.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RawShares {
+    /// Excluded by a proof that there is exactly one solution.
+    pub uniqueness: f64,
+    /// Excluded because they are no cell of an arrangement of hyperplanes.
+    pub cells: f64,
+    /// Excluded by interval propagation.
+    pub propagation: f64,
+    /// Excluded by a linear relaxation.
+    pub relaxation: f64,
+    /// Solved one by one.
+    pub examined: f64,
+    /// Not dealt with.
+    pub unexplored: f64,
+}
+
+/// The report as indented JSON, ending in a line end; the layout is that of [`RawReport`].
+pub fn to_json(report: &RawReport) -> String {
+    let mut text =
+        serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
+    text.push('\n');
+    text
+}

@@ -1,0 +1,164 @@
+//! The report as a NumPy archive.
+
+use super::report::{RawReport, RawSolution, Unknowns};
+use super::{npy, npz};
+
+/// The report as a NumPy archive (`.npz`).
+///
+/// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and
+/// `y`; likewise `signs`, `on_boundary`, `residual` and `enclosure_radius` (NaN where it was not
+/// established). States in preload gaps are in arrays with the prefix `gap_`, `gap_shares` being NaN
+/// outside of a gap. The rows of `vertex_...` and `direction_...` belong to the continua whose numbers
+/// are in `vertex_continuum` and `direction_continuum`. `status`, `complete`, `partial`, `open`, `type`,
+/// `count`, `gap_state_count`, `continuum_count` and `schema` are those of [`RawReport`].
+pub fn to_npz(report: &RawReport) -> Vec<u8> {
+    let mut archive = Archive { size: report.size, arrays: Vec::new() };
+    let status = serde_json::to_value(report.status).ok();
+    let status = status.as_ref().and_then(serde_json::Value::as_str).unwrap_or_default();
+    for (name, text) in [
+        ("schema", report.schema),
+        ("type", report.kind.word()),
+        ("status", status),
+        ("complete", report.complete),
+        ("count", &report.count),
+        ("gap_state_count", &report.gap_state_count),
+        ("continuum_count", &report.continuum_count),
+        ("strategy", &report.strategy),
+    ] {
+        archive.push(name, npy::write_texts(&[], &[text]));
+    }
+    archive.push("partial", npy::write_truths(&[], &[report.partial]));
+    let open: Vec<&str> = report.open.iter().map(String::as_str).collect();
+    archive.push("open", npy::write_texts(&[open.len()], &open));
+    archive.solutions(report);
+    archive.gap_states(&report.gap_states);
+    archive.continua(report);
+    let arrays: Vec<(&str, Vec<u8>)> =
+        archive.arrays.iter().map(|(name, bytes)| (name.as_str(), bytes.clone())).collect();
+    npz::write(&arrays)
+}
+
+struct Archive {
+    size: usize,
+    arrays: Vec<(String, Vec<u8>)>,
+}
+
+impl Archive {
+    fn push(&mut self, name: &str, bytes: Vec<u8>) {
+        self.arrays.push((name.to_owned(), bytes));
+    }
+
+    /// One row for each list of unknowns, in an array for each name.
+    fn unknowns<'r>(
+        &mut self,
+        report: &RawReport,
+        prefix: &str,
+        rows: &(impl Iterator<Item = &'r Unknowns> + Clone),
+    ) {
+        let names: Vec<&str> =
+            Unknowns::new(report.kind, &[]).named().iter().map(|(name, _)| *name).collect();
+        for (at, name) in names.into_iter().enumerate() {
+            let values: Vec<f64> = rows.clone().flat_map(|row| row.named()[at].1.to_vec()).collect();
+            let sizes = [values.len() / self.size.max(1), self.size];
+            self.push(&format!("{prefix}{name}"), npy::write_numbers(&sizes, &values));
+        }
+    }
+
+    fn solutions(&mut self, report: &RawReport) {
+        let solutions = &report.solutions;
+        self.unknowns(report, "", &solutions.iter().map(|solution| &solution.unknowns));
+        self.push("signs", self.signs(solutions));
+        let on_boundary: Vec<bool> = solutions.iter().map(|solution| solution.on_boundary).collect();
+        self.push("on_boundary", npy::write_truths(&[solutions.len()], &on_boundary));
+        let column = |value: fn(&RawSolution) -> f64| {
+            npy::write_numbers(&[solutions.len()], &solutions.iter().map(value).collect::<Vec<_>>())
+        };
+        let radius = column(|solution| solution.enclosure_radius.unwrap_or(f64::NAN));
+        let residual = column(|solution| solution.residual);
+        self.push("enclosure_radius", radius);
+        self.push("residual", residual);
+    }
+
+    fn signs(&self, solutions: &[RawSolution]) -> Vec<u8> {
+        let signs: Vec<i64> = solutions
+            .iter()
+            .flat_map(|solution| solution.signs.iter().map(|&sign| i64::from(sign)))
+            .collect();
+        npy::write_integers(&[solutions.len(), self.size], &signs)
+    }
+
+    fn gap_states(&mut self, states: &[RawSolution]) {
+        if states.is_empty() {
+            return;
+        }
+        for (at, (name, _)) in states[0].unknowns.named().into_iter().enumerate() {
+            let values: Vec<f64> =
+                states.iter().flat_map(|state| state.unknowns.named()[at].1.to_vec()).collect();
+            self.push(&format!("gap_{name}"), npy::write_numbers(&[states.len(), self.size], &values));
+        }
+        self.push("gap_signs", self.signs(states));
+        let mut shares = vec![f64::NAN; states.len() * self.size];
+        for (row, state) in states.iter().enumerate() {
+            for gap in &state.gaps {
+                shares[row * self.size + gap.index] = gap.lambda;
+            }
+        }
+        self.push("gap_shares", npy::write_numbers(&[states.len(), self.size], &shares));
+    }
+
+    fn continua(&mut self, report: &RawReport) {
+        let continua = &report.continua;
+        if continua.is_empty() {
+            return;
+        }
+        self.unknowns(report, "vertex_", &continua.iter().flat_map(|continuum| &continuum.vertices));
+        self.unknowns(report, "direction_", &continua.iter().flat_map(|continuum| &continuum.directions));
+        let numbers = |length: fn(&super::RawContinuum) -> usize| {
+            let numbers: Vec<i64> = (0_i64..)
+                .zip(continua)
+                .flat_map(|(at, continuum)| std::iter::repeat_n(at, length(continuum)))
+                .collect();
+            npy::write_integers(&[numbers.len()], &numbers)
+        };
+        let (vertices, directions) = (numbers(|c| c.vertices.len()), numbers(|c| c.directions.len()));
+        self.push("vertex_continuum", vertices);
+        self.push("direction_continuum", directions);
+        let patterns: Vec<&str> = continua.iter().map(|continuum| continuum.pattern.as_str()).collect();
+        self.push("continuum_pattern", npy::write_texts(&[patterns.len()], &patterns));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Read};
+    use std::ops::ControlFlow;
+
+    use super::super::{RawProblem, npy, solve};
+    use super::to_npz;
+    use crate::modes::SearchOptions;
+
+    #[test]
+    fn an_archive_holds_the_solutions_row_by_row() {
+        let problem = RawProblem::from_json(br#"{"M": [[-1, 0], [0, -1]], "q": [1, 2]}"#).expect("a problem");
+        let report = solve(&problem, &SearchOptions::default(), 3, &mut |_| ControlFlow::Continue(()))
+            .expect("finite");
+        let bytes = to_npz(&report);
+        let mut archive = zip::ZipArchive::new(Cursor::new(&bytes)).expect("an archive");
+        let mut content = |name: &str| {
+            let mut content = Vec::new();
+            archive.by_name(name).expect(name).read_to_end(&mut content).expect(name);
+            content
+        };
+        let z = npy::numbers("z", &content("z.npy"), 100).expect("numbers");
+        let w = npy::numbers("w", &content("w.npy"), 100).expect("numbers");
+        assert_eq!(z.sizes, [3, 2]);
+        for (at, (z, w)) in z.values.iter().zip(&w.values).enumerate() {
+            assert_eq!(*w, [1.0, 2.0][at % 2] - z);
+        }
+        for (name, text) in [("count", "4"), ("complete", "proven"), ("type", "lcp"), ("status", "several")] {
+            assert_eq!(npy::text(name, &content(&format!("{name}.npy"))), Ok(Some(text.to_owned())));
+        }
+        // What is written has no time in it.
+        assert_eq!(bytes, to_npz(&report));
+    }
+}

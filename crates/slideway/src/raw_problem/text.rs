@@ -1,0 +1,261 @@
+//! The report of a raw problem as text for people.
+
+use super::RawKind;
+use super::report::{RawReport, RawShares, RawSolution, Unknowns};
+use crate::report::number::{against, number};
+use crate::report::table::table;
+use crate::report::{Status, Style, count};
+
+/// Groups that are told one by one.
+const GROUPS: usize = 8;
+/// Signs that are told in one line.
+const SIGNS: usize = 64;
+
+/// The report as text: the verdict first, then the solutions, then how they were found.
+pub fn to_text(report: &RawReport, style: Style) -> String {
+    let mut text = Text { report, style, out: String::new() };
+    text.heading();
+    text.verdict();
+    text.solutions("Solution", &report.count, &report.solutions);
+    text.solutions("Preload gap", &report.gap_state_count, &report.gap_states);
+    text.continua();
+    text.strategy();
+    text.out
+}
+
+struct Text<'r> {
+    report: &'r RawReport,
+    style: Style,
+    out: String,
+}
+
+impl Text<'_> {
+    fn line(&mut self, line: &str) {
+        self.out.push_str(line);
+        self.out.push('\n');
+    }
+
+    fn heading(&mut self) {
+        let kind = self.report.kind;
+        self.line(&self.style.heading(kind.title()));
+        self.line(&format!("{},  n = {}", kind.equation(), self.report.size));
+        self.line("");
+    }
+
+    fn verdict(&mut self) {
+        let report = self.report;
+        let found = if report.partial { " found so far" } else { "" };
+        let single = match report.count.as_str() {
+            "0" => "No single solution".to_owned(),
+            "1" => "One solution".to_owned(),
+            count => format!("{count} solutions"),
+        };
+        let single = format!("{single}{found}");
+        let verdict = match report.status {
+            Status::None => "No solution.".to_owned(),
+            Status::Unknown => {
+                "Nothing found, but not every pattern of signs could be dealt with.".to_owned()
+            }
+            Status::Continuum => {
+                let continua = match report.continuum_count.as_str() {
+                    "1" => "one continuum".to_owned(),
+                    count => format!("{count} continua"),
+                };
+                format!("Infinitely many solutions: {continua}{found}.")
+            }
+            Status::PreloadGap => "No solution, but a state with an unknown in its preload gap.".to_owned(),
+            Status::One | Status::Several => format!("{single}."),
+        };
+        self.line(&self.style.verdict(report.status, &verdict));
+        if report.status == Status::Continuum {
+            self.line(&format!("{single} by a regular pattern; ends of continua may be among such."));
+        }
+        self.line(&format!("complete: {}", report.complete));
+        for open in &report.open {
+            self.line(&format!("  open: {open}"));
+        }
+    }
+
+    fn solutions(&mut self, title: &str, all: &str, solutions: &[RawSolution]) {
+        for (at, solution) in solutions.iter().enumerate() {
+            self.line("");
+            let title = self.style.heading(&format!("{title} {} of {all}", at + 1));
+            let signs = if solution.signs.len() > SIGNS { String::new() } else { signs(solution) };
+            self.line(format!("{title}   {signs}").trim_end());
+            self.boundary(solution);
+            if let Some(continuum) = solution.end_of_continuum {
+                self.line(&format!("  An end of continuum {}", continuum + 1));
+            }
+            let rows = rows(self.report.kind, &[&solution.unknowns]);
+            self.out.push_str(&rows);
+            for gap in &solution.gaps {
+                self.line(&format!("  N_{} is in its gap, share {}", gap.index + 1, number(gap.lambda)));
+            }
+            if let Some(radius) = solution.enclosure_radius {
+                let bound = power_of_ten_above(radius);
+                self.line(&if radius == 0.0 {
+                    "  exact".to_owned()
+                } else {
+                    format!("  proven to within {bound}")
+                });
+            }
+        }
+        if !solutions.is_empty() && solutions.len().to_string() != all {
+            self.line("");
+            self.line(&format!(
+                "Listed: the first {} of {all}; --max-solutions lists more.",
+                solutions.len()
+            ));
+        }
+    }
+
+    fn boundary(&mut self, solution: &RawSolution) {
+        if !solution.on_boundary {
+            return;
+        }
+        let in_gap = |at: usize| solution.gaps.iter().any(|gap| gap.index == at);
+        let zero: Vec<String> = (0..solution.signs.len())
+            .filter(|&at| solution.signs[at] == 0 && !in_gap(at))
+            .map(|at| (at + 1).to_string())
+            .collect();
+        let what = match self.report.kind {
+            RawKind::Lcp | RawKind::Hlcp => "z_k = w_k = 0",
+            RawKind::Ave => "x_k = 0",
+            RawKind::Modes => "N_k = 0",
+        };
+        self.line(&format!("  On the boundary between patterns: {what} for k = {}", zero.join(", ")));
+    }
+
+    fn continua(&mut self) {
+        let report = self.report;
+        for (at, continuum) in report.continua.iter().enumerate() {
+            self.line("");
+            let title = format!("Continuum {} of {}", at + 1, report.continuum_count);
+            let (points, rays) = (continuum.vertices.len(), continuum.directions.len());
+            let shape = match (points, rays) {
+                (2, 0) => "a segment between two ends".to_owned(),
+                (1, 1) => "a ray: its end, and its direction".to_owned(),
+                _ => format!(
+                    "{} and {}: all mixtures of the ends, plus any positive multiples of the directions",
+                    count(points, "end", "ends"),
+                    count(rays, "direction", "directions")
+                ),
+            };
+            self.line(&format!("{}   {shape}", self.style.heading(&title)));
+            let columns: Vec<&Unknowns> = continuum.vertices.iter().chain(&continuum.directions).collect();
+            for (at, chunk) in columns.chunks(4).enumerate() {
+                let label = |offset: usize| {
+                    let number = at * 4 + offset;
+                    if number < points {
+                        format!("end {}", number + 1)
+                    } else {
+                        format!("direction {}", number - points + 1)
+                    }
+                };
+                let labels: Vec<String> = (0..chunk.len()).map(label).collect();
+                self.out.push_str(&labelled_rows(report.kind, chunk, &labels));
+            }
+            if !continuum.all_vertices {
+                self.line("  There are more ends.");
+            }
+        }
+    }
+
+    fn strategy(&mut self) {
+        let report = self.report;
+        self.line("");
+        let nodes = format!("{} {}", report.nodes, if report.nodes == 1 { "node" } else { "nodes" });
+        self.line(&format!("How: {}; {nodes}.", report.strategy));
+        for group in report.groups.iter().take(GROUPS) {
+            let whose = if report.groups.len() == 1 {
+                format!("Of the patterns of {}", count(group.indices.len(), "unknown", "unknowns"))
+            } else {
+                format!("Of the patterns of unknowns {}", ranges(&group.indices))
+            };
+            self.line(&format!("  {whose}: {}.", shares(&group.patterns)));
+        }
+        if report.groups.len() > GROUPS {
+            self.line(&format!("  ... and {} more groups", report.groups.len() - GROUPS));
+        }
+    }
+}
+
+/// "signs + - 0"
+fn signs(solution: &RawSolution) -> String {
+    let signs = solution.signs.iter().map(|sign| match sign {
+        1 => " +",
+        -1 => " -",
+        _ => " 0",
+    });
+    format!("signs{}", signs.collect::<String>())
+}
+
+fn rows(kind: RawKind, columns: &[&Unknowns]) -> String {
+    labelled_rows(kind, columns, &[String::new()])
+}
+
+/// One row for each index, with the unknowns of each column.
+fn labelled_rows(kind: RawKind, columns: &[&Unknowns], labels: &[String]) -> String {
+    let named: Vec<_> = columns.iter().map(|unknowns| shown(kind, unknowns)).collect();
+    let mut header = vec!["k".to_owned()];
+    for (column, label) in named.iter().zip(labels) {
+        header.extend(column.iter().map(|(name, _)| format!("{name} {label}").trim_end().to_owned()));
+    }
+    let scale = |values: &[f64]| values.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
+    let size = named.first().map_or(0, |column| column[0].1.len());
+    let row = |at: usize| {
+        let mut row = vec![(at + 1).to_string()];
+        for column in &named {
+            let scale = column.iter().map(|(_, values)| scale(values)).fold(0.0, f64::max);
+            row.extend(column.iter().map(|(_, values)| against(values[at], scale)));
+        }
+        row
+    };
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    table(&header, &(0..size).map(row).collect::<Vec<_>>(), 0)
+}
+
+/// What a person wants to see: of a mode problem the normal forces alone, whose sizes are the `y`.
+fn shown(kind: RawKind, unknowns: &Unknowns) -> Vec<(&'static str, &[f64])> {
+    let named = unknowns.named();
+    if kind == RawKind::Modes { vec![("N", named[0].1)] } else { named }
+}
+
+/// "75 % excluded by interval propagation, 25 % solved one by one"
+fn shares(shares: &RawShares) -> String {
+    let parts = [
+        (shares.uniqueness, "excluded by a proof that there is one solution"),
+        (shares.cells, "excluded as no cell of an arrangement"),
+        (shares.propagation, "excluded by interval propagation"),
+        (shares.relaxation, "excluded by linear relaxation"),
+        (shares.examined, "solved one by one"),
+        (shares.unexplored, "not dealt with"),
+    ];
+    let parts: Vec<String> = parts
+        .iter()
+        .filter(|(share, _)| *share > 0.0)
+        .map(|(share, what)| format!("{} % {what}", number(100.0 * share)))
+        .collect();
+    parts.join(", ")
+}
+
+/// "1-4, 7", counted from 1
+fn ranges(indices: &[usize]) -> String {
+    let mut parts: Vec<(usize, usize)> = Vec::new();
+    for &index in indices {
+        match parts.last_mut() {
+            Some((_, last)) if *last + 1 == index => *last = index,
+            _ => parts.push((index, index)),
+        }
+    }
+    let words = parts.iter().map(|&(first, last)| match last - first {
+        0 => (first + 1).to_string(),
+        _ => format!("{}-{}", first + 1, last + 1),
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// A power of ten above a bound, with room for the rounding of other machines: "1e-15".
+fn power_of_ten_above(bound: f64) -> String {
+    format!("1e{}", bound.log10().ceil().max(-15.0))
+}

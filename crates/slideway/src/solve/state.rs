@@ -1,0 +1,94 @@
+//! A solution of the mode problem as the answer sees it: what every contact does, and the normal forces.
+
+use crate::modes::{ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet};
+use nalgebra::DVector;
+
+/// A state of all contacts: a solution of the mode problem, or a vertex of a continuum.
+pub(super) struct State<'s> {
+    pub(super) pattern: &'s [ContactState],
+    pub(super) patterns: Vec<String>,
+    pub(super) normal_force: &'s DVector<f64>,
+    /// For each contact in its gap, the share of the positive face.
+    pub(super) shares: Vec<Option<f64>>,
+    pub(super) signs: Vec<i8>,
+    pub(super) on_boundary: bool,
+    pub(super) determinant: f64,
+}
+
+pub(super) fn pressed(pattern: &[Side]) -> Vec<ContactState> {
+    pattern.iter().map(|side| ContactState::from(*side)).collect()
+}
+
+pub(super) fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState]) -> State<'s> {
+    State {
+        pattern,
+        patterns: solution.patterns.iter().map(|sides| self::pattern(&pressed(sides))).collect(),
+        normal_force: &solution.normal_force,
+        shares: vec![None; pattern.len()],
+        signs: solution.signs.clone(),
+        on_boundary: !solution.on_boundary.is_empty(),
+        determinant: solution.determinant,
+    }
+}
+
+pub(super) fn in_gap(gap: &GapState) -> State<'_> {
+    let mut shares = vec![None; gap.pattern.len()];
+    for share in &gap.shares {
+        shares[share.contact] = Some(share.lambda);
+    }
+    State {
+        pattern: &gap.pattern,
+        patterns: gap.patterns.iter().map(|states| pattern(states)).collect(),
+        normal_force: &gap.normal_force,
+        shares,
+        signs: gap.signs.clone(),
+        on_boundary: !gap.on_boundary.is_empty(),
+        determinant: gap.determinant,
+    }
+}
+
+/// The single solution that a singular mode admits, unless a regular mode shares it.
+pub(super) fn point(mode: &SingularMode) -> Option<State<'_>> {
+    let SolutionSet::Point(normal_force) = &mode.set else { return None };
+    let has_gap = mode.pattern.contains(&ContactState::Gap);
+    (mode.contains.is_empty() && !has_gap).then(|| State {
+        pattern: &mode.pattern,
+        patterns: mode.patterns.iter().map(|states| pattern(states)).collect(),
+        normal_force,
+        shares: vec![None; mode.pattern.len()],
+        signs: normal_force
+            .iter()
+            .map(|n| {
+                if *n == 0.0 {
+                    0
+                } else if *n > 0.0 {
+                    1
+                } else {
+                    -1
+                }
+            })
+            .collect(),
+        on_boundary: true,
+        determinant: 0.0,
+    })
+}
+
+pub(super) fn signs(pattern: &[ContactState]) -> Vec<i8> {
+    pattern
+        .iter()
+        .map(|state| match state {
+            ContactState::Positive => 1,
+            ContactState::Negative => -1,
+            ContactState::Gap => 0,
+        })
+        .collect()
+}
+
+pub(super) fn pattern(states: &[ContactState]) -> String {
+    let sign = |state: &ContactState| match state {
+        ContactState::Positive => '+',
+        ContactState::Negative => '-',
+        ContactState::Gap => '0',
+    };
+    states.iter().map(sign).collect()
+}

@@ -1,0 +1,7 @@
+//! Proofs about patterns, against an elimination in rational numbers that shares no code with them.
+
+mod decisions;
+mod degenerate;
+mod exclusions;
+mod intervals;
+mod oracle;

@@ -1,0 +1,155 @@
+//! Inputs at the edge: nothing presses, nothing acts, numbers far too large or small. Each gets an answer that
+//! names the case; none a wrong status, a panic or a long wait.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use slideway::check::check;
+use slideway::fault::{FaultKind, Faults};
+use slideway::gallery::{find, telescopic_boom};
+use slideway::model::{Model, Settings};
+use slideway::report::{Report, Status};
+use slideway::solve::solve;
+
+/// A weightless block pulled along its guide through its centre: nothing presses on the guide.
+fn pulled_along(kind: &str, angle: f64) -> Report {
+    let text = format!(
+        r#"
+        [parameters]
+        beta = "{angle} deg"
+        [points]
+        C = [0.3, -0.2]
+        [bodies.block]
+        points = ["C"]
+        mass = 2
+        centre_of_mass = "C"
+        moment_of_inertia = 0.1
+        [joints.guide]
+        type = "{kind}"
+        block = "block"
+        at = "C"
+        along = "beta"
+        length = 0.2
+        mu = 0.3
+        [loads.pull]
+        type = "force"
+        at = "block.C"
+        magnitude = 10
+        direction = "beta"
+        [coordinates.x]
+        slide = "guide"
+        rate = 1
+        "#
+    );
+    solve(&Model::parse(&text).unwrap()).unwrap()
+}
+
+#[test]
+fn without_side_load_there_is_one_solution_without_contact_force_at_any_angle() {
+    for kind in ["guided_slider", "block_slider"] {
+        for angle in 0..90 {
+            let report = pulled_along(kind, f64::from(angle));
+            assert_eq!(report.status, Status::One, "{kind} at {angle} degrees");
+            let solution = &report.solutions[0];
+            assert!(solution.on_boundary, "{kind} at {angle} degrees");
+            assert!(solution.contacts.iter().all(|contact| contact.normal_force == 0.0 && contact.side == 0));
+            assert!((solution.coordinates[0].acceleration - 5.0).abs() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn an_unloaded_mechanism_has_one_solution_however_many_contacts_it_has() {
+    let unloaded = Settings::default().parameter("g", "0").parameter("W", "0").parameter("F", "0");
+    let model = Model::parse(&telescopic_boom(7).unwrap()).unwrap().with(&unloaded).unwrap();
+    let report = solve(&model).unwrap();
+    assert_eq!((report.status, report.solutions.len()), (Status::One, 1));
+    assert_eq!(report.patterns.boundary, 1 << 14);
+    assert!(report.solutions[0].contacts.iter().all(|contact| contact.normal_force == 0.0));
+}
+
+fn faults(name: &str, settings: &Settings) -> Faults {
+    let model = Model::parse(find(name).unwrap().text).unwrap();
+    model.with(settings).and_then(|model| solve(&model)).unwrap_err()
+}
+
+fn only(faults: &Faults) -> FaultKind {
+    let sorted = faults.sorted();
+    assert_eq!(sorted.len(), 1, "{faults}");
+    sorted[0].kind.clone()
+}
+
+#[test]
+fn states_far_from_the_drawing_are_refused_at_once() {
+    let turned = faults("slider-crank", &Settings::default().position("phi", "1e5 rad"));
+    assert!(matches!(only(&turned), FaultKind::TooFar { .. }), "{turned}");
+    let pushed = faults("drawer", &Settings::default().position("x", "1e9 m"));
+    assert!(matches!(only(&pushed), FaultKind::TooFar { .. }), "{pushed}");
+}
+
+#[test]
+fn numbers_that_would_overflow_are_named() {
+    for (name, settings) in [
+        ("elliptic-trammel", Settings::default().parameter("l", "1e160 m")),
+        ("elliptic-trammel", Settings::default().parameter("l", "1e-160 m")),
+        ("elliptic-trammel", Settings::default().parameter("m", "1e-300 kg")),
+        ("elliptic-trammel", Settings::default().rate("theta", "1e200")),
+        ("drawer", Settings::default().parameter("mu", "1e300")),
+    ] {
+        let faults = faults(name, &settings);
+        let sorted = faults.sorted();
+        assert!(
+            sorted.iter().all(|fault| matches!(fault.kind, FaultKind::Overflow { .. })),
+            "{name}: {faults}"
+        );
+    }
+}
+
+#[test]
+fn points_that_all_but_coincide_give_no_direction() {
+    let text =
+        find("sleeve-on-arm").unwrap().text.replace("along = [\"O\", \"tip\"]", "along = [\"O\", \"near\"]");
+    for near in ["[0, 0]", "[0, 1e-170]"] {
+        let text = text.replace("[points]", &format!("[points]\nnear = {near}"));
+        let faults = Model::parse(&text).and_then(|model| solve(&model)).unwrap_err();
+        assert!(matches!(only(&faults), FaultKind::CoincidentPoints { .. }), "{near}: {faults}");
+    }
+}
+
+#[test]
+fn what_is_too_large_to_be_solved_is_refused_before_it_is_analysed() {
+    let model = Model::parse(&telescopic_boom(300).unwrap()).unwrap();
+    for faults in [solve(&model).unwrap_err(), check(&model).unwrap_err()] {
+        assert!(matches!(only(&faults), FaultKind::TooManyContacts { contacts: 600, .. }), "{faults}");
+    }
+}
+
+#[test]
+fn friction_beyond_what_rounding_can_tell_is_no_jam() {
+    let strong = faults("klepp-2002", &Settings::default().parameter("mu_1", "1e8"));
+    assert!(matches!(only(&strong), FaultKind::IllConditioned { .. }), "{strong}");
+    let load = faults("drawer", &Settings::default().parameter("Q", "1e308 N"));
+    assert!(matches!(only(&load), FaultKind::Overflow { .. }), "{load}");
+}
+
+/// The Painleve-Klein apparatus at its critical friction without loads: a ray of solutions N = t (-1, 1), t >= 0.
+/// With the hinge of the upper slider at the distance `offset` from its middle, the couple is C = offset N, and the
+/// slider can take up N L/2 with L = 60 mm.
+fn unloaded_at_critical_friction(offset: &str) -> Report {
+    let text = find("painleve-klein").unwrap().text.replace(
+        "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\nat = \"B\"",
+        &format!(
+            "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\n\
+             at = [\"l*cos(phi) + {offset}\", \"l*sin(phi)\"]"
+        ),
+    );
+    let settings = Settings::default().parameter("mu", "2/tan(phi)").parameter("P_2", "0 N");
+    solve(&Model::parse(&text).unwrap().with(&settings).unwrap()).unwrap()
+}
+
+#[test]
+fn a_continuum_is_cut_to_where_no_guided_slider_tips() {
+    let slack = unloaded_at_critical_friction("10 mm");
+    assert_eq!((slack.status, slack.continua.len()), (Status::Continuum, 1));
+    let tips = unloaded_at_critical_friction("50 mm");
+    assert_eq!((tips.status, tips.solutions.len(), tips.continua.len()), (Status::One, 1, 0));
+    assert!(tips.solutions[0].contacts.iter().all(|contact| contact.normal_force == 0.0));
+}

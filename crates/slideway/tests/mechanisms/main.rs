@@ -1,0 +1,20 @@
+//! Mechanisms through the whole pipeline, from the model file to the report.
+
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
+mod answers;
+mod brute_force;
+mod drawing;
+mod random_mechanisms;
+
+mod configuration;
+mod gallery;
+mod gallery_frictionless;
+mod guided_slider;
+mod klepp_2002;
+mod loads;
+mod preload_gap;
+mod properties;
+mod symmetries;
+mod textbook;
+mod words;

@@ -1,0 +1,187 @@
+//! Raw problems: the solutions solve them, all are found, and the readers survive anything.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use slideway::modes::SearchOptions;
+use slideway::raw_problem::{RawProblem, RawReport, Unknowns, solve, to_json, to_npz, to_text};
+use slideway::report::{Status, Style};
+use std::ops::ControlFlow;
+
+fn solved(problem: &RawProblem) -> RawReport {
+    solve(problem, &SearchOptions::default(), 1000, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// A size with numbers for two matrices and a vector. Random ones, so that no pattern is degenerate.
+fn numbers() -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f64>, DVector<f64>)> {
+    let entries = |count| prop::collection::vec(-1.0..1.0_f64, count);
+    (1_usize..6).prop_flat_map(move |n| {
+        (entries(n * n), entries(n * n), entries(n)).prop_map(move |(a, b, q)| {
+            (DMatrix::from_vec(n, n, a), DMatrix::from_vec(n, n, b), DVector::from_vec(q))
+        })
+    })
+}
+
+/// The number of solutions of `A w - B z = q` by one factorization for each pattern.
+fn brute_force(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DVector<f64>) -> usize {
+    let n = q.len();
+    let admits = |pattern: &usize| {
+        let column = |k: usize| if pattern >> k & 1 == 1 { -b.column(k) } else { a.column(k).into_owned() };
+        let matrix = DMatrix::from_columns(&(0..n).map(column).collect::<Vec<_>>());
+        matrix.full_piv_lu().solve(q).is_some_and(|y| y.iter().all(|&y| y >= 0.0))
+    };
+    (0..1_usize << n).filter(admits).count()
+}
+
+fn text(matrix: &DMatrix<f64>) -> String {
+    let row = |row: usize| format!("{:?}", matrix.row(row).iter().collect::<Vec<_>>());
+    format!("[{}]", (0..matrix.nrows()).map(row).collect::<Vec<_>>().join(", "))
+}
+
+fn vector(vector: &DVector<f64>) -> String {
+    format!("{:?}", vector.as_slice())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn solutions_of_an_lcp_are_all_of_them((m, _, q) in numbers()) {
+        let json = format!(r#"{{"type": "lcp", "M": {}, "q": {}}}"#, text(&m), vector(&q));
+        let problem = RawProblem::from_json(json.as_bytes()).unwrap();
+        // Every digit of the numbers arrives.
+        prop_assert_eq!(&problem, &RawProblem::LinearComplementarity { m: m.clone(), q: q.clone() });
+        let report = solved(&problem);
+        let identity = DMatrix::identity(q.len(), q.len());
+        prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&identity, &m, &q));
+        prop_assert_eq!(report.complete, "proven");
+        for solution in &report.solutions {
+            let Unknowns::Complementary { z, w } = &solution.unknowns else { panic!("z and w") };
+            let largest = z.iter().chain(w).fold(1.0_f64, |largest, value| largest.max(*value));
+            let left = &m * DVector::from_column_slice(z) + &q - DVector::from_column_slice(w);
+            prop_assert!(left.amax() <= 1e-12 * largest);
+            prop_assert!(solution.residual <= 1e-13);
+            prop_assert!(solution.enclosure_radius.is_some_and(|radius| radius <= 1e-8 * largest));
+            for (z, w) in z.iter().zip(w) {
+                prop_assert!(*z >= 0.0 && *w >= 0.0 && z * w == 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn solutions_of_an_absolute_value_equation_are_all_of_them((a, b, q) in numbers()) {
+        let json = format!(r#"{{"A": {}, "B": {}, "b": {}}}"#, text(&a), text(&b), vector(&q));
+        let report = solved(&RawProblem::from_json(json.as_bytes()).unwrap());
+        // x = z - w, |x| = z + w: (B - A) w - (-A - B) z = b
+        prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&(&b - &a), &(-&a - &b), &q));
+        prop_assert_eq!(report.complete, "proven");
+        for solution in &report.solutions {
+            let Unknowns::AbsoluteValue { x } = &solution.unknowns else { panic!("x") };
+            let x = DVector::from_column_slice(x);
+            prop_assert!((&a * &x + &b * x.abs() - &q).amax() <= 1e-12 * x.amax().max(1.0));
+        }
+    }
+
+    #[test]
+    fn solutions_of_a_horizontal_lcp_are_all_of_them((a, b, q) in numbers()) {
+        let json = format!(r#"{{"A": {}, "B": {}, "q": {}}}"#, text(&a), text(&b), vector(&q));
+        let report = solved(&RawProblem::from_json(json.as_bytes()).unwrap());
+        prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&a, &b, &q));
+        for solution in &report.solutions {
+            let Unknowns::Complementary { z, w } = &solution.unknowns else { panic!("z and w") };
+            let (z, w) = (DVector::from_column_slice(z), DVector::from_column_slice(w));
+            prop_assert!((&a * &w - &b * &z - &q).amax() <= 1e-12 * z.amax().max(w.amax()).max(1.0));
+        }
+    }
+
+    #[test]
+    fn degenerate_problems_are_told_in_every_form(entries in prop::collection::vec(-1..=1_i8, 12)) {
+        let number = |at: usize| f64::from(entries[at]);
+        let m = DMatrix::from_fn(3, 3, |row, column| number(3 * row + column));
+        let problem = RawProblem::LinearComplementarity { m: m.clone(), q: DVector::from_fn(3, |row, _| number(9 + row)) };
+        let report = solved(&problem);
+        prop_assert!(!report.partial);
+        for solution in &report.solutions {
+            prop_assert!(solution.residual <= 1e-14);
+        }
+        for continuum in &report.continua {
+            prop_assert!(!continuum.vertices.is_empty());
+            for direction in &continuum.directions {
+                let Unknowns::Complementary { z, w } = direction else { panic!("z and w") };
+                prop_assert!((&m * DVector::from_column_slice(z) - DVector::from_column_slice(w)).amax() <= 1e-12);
+            }
+        }
+        prop_assert!(to_json(&report).contains("slideway/modes/1"));
+        prop_assert!(to_text(&report, Style::Plain).contains("complete: "));
+        prop_assert!(to_npz(&report).starts_with(b"PK"));
+    }
+
+    #[test]
+    fn random_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let _ = RawProblem::from_json(&bytes);
+        let _ = RawProblem::from_npz(&bytes);
+        let _ = RawProblem::from_bytes(&bytes);
+    }
+
+    #[test]
+    fn problems_with_changed_bytes_are_read_or_refused(
+        archive in any::<bool>(), changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)
+    ) {
+        let npz = include_bytes!("../../slideway-cli/tests/raw/npz/plain.npz").as_slice();
+        let json = br#"{"type": "lcp", "M": [[1, -1], [-1, 1e0]], "q": [-1, 1]}"#.as_slice();
+        let mut bytes = if archive { npz } else { json }.to_vec();
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        let solved = RawProblem::from_bytes(&bytes)
+            .ok()
+            .and_then(|problem| solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(())).ok());
+        prop_assert!(solved.is_none_or(|report| to_text(&report, Style::Plain).contains("complete: ")));
+    }
+}
+
+#[test]
+fn independent_unknowns_multiply() {
+    let n = 100;
+    let problem =
+        RawProblem::LinearComplementarity { m: -DMatrix::identity(n, n), q: DVector::from_element(n, 1.0) };
+    let report = solved(&problem);
+    assert_eq!(report.count, "1267650600228229401496703205376");
+    assert_eq!((report.solutions.len(), report.status), (1000, Status::Several));
+}
+
+#[test]
+fn continua_among_very_many_solutions_are_listed() {
+    // One unknown with w = 0 for all z >= 0 beside 70 with two solutions each.
+    let n = 71;
+    let mut m = -DMatrix::identity(n, n);
+    m[(n / 2, n / 2)] = 0.0;
+    let mut q = DVector::from_element(n, 1.0);
+    q[n / 2] = 0.0;
+    let report = solved(&RawProblem::LinearComplementarity { m, q });
+    assert_eq!(report.status, Status::Continuum);
+    assert_eq!(report.count, (1_u128 << 70).to_string());
+    assert_eq!(report.continuum_count, (1_u128 << 70).to_string());
+    assert_eq!((report.solutions.len(), report.continua.len()), (1000, 1000));
+}
+
+#[test]
+fn a_search_that_ends_early_never_says_none() {
+    let m = DMatrix::from_fn(12, 12, |row, column| ((7 * row + 5 * column + row * column) % 11) as f64 - 5.0);
+    let problem = RawProblem::LinearComplementarity { m, q: DVector::from_element(12, -1.0) };
+    let options = SearchOptions { nodes: 1, ..SearchOptions::default() };
+    let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!((report.status, report.complete, report.partial), (Status::Unknown, "not proven", true));
+    assert_eq!(report.open.len(), 1);
+    let report = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Break(())).unwrap();
+    assert_eq!(report.status, Status::Unknown);
+}
+
+#[test]
+fn without_proofs_nothing_is_proven() {
+    let problem = RawProblem::from_json(br#"{"M": [[2]], "q": [-4]}"#).unwrap();
+    let options = SearchOptions { certify: false, ..SearchOptions::default() };
+    let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!((report.count.as_str(), report.complete), ("1", "not proven"));
+}
