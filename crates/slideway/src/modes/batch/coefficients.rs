@@ -1,8 +1,8 @@
 //! Batches in which every coefficient changes from point to point.
 
 use super::super::problem::{BySide, Side};
-use super::kernel::{self, Determinants, Visitor, Workspace, numerator_index};
-use super::lanes::{LANES, Lanes};
+use super::kernel::{self, Points, Visitor, Workspace, numerator_index};
+use super::lanes::{LANES, Lanes, product_plus};
 use super::{BatchError, BatchSolutions, MOST_CONTACTS};
 
 /// Mode problems of one size, which have jumps at the same contacts.
@@ -178,9 +178,9 @@ impl CoefficientBatch {
         solutions: &mut BatchSolutions,
         visitor: Option<Visitor<'_>>,
     ) -> Result<(), BatchError> {
-        let source = self.checked(points)?;
-        solutions.reset(self.contacts, source.count);
-        kernel::run(&source, solutions, visitor);
+        let points = self.checked(points)?;
+        solutions.reset(self.contacts, points.count);
+        kernel::run(&Points::All(points), solutions, visitor);
         Ok(())
     }
 
@@ -218,7 +218,7 @@ fn expansion(contacts: usize, columns: usize) -> Vec<Term> {
 }
 
 /// A batch with its points.
-struct AllPoints<'a> {
+pub(super) struct AllPoints<'a> {
     batch: &'a CoefficientBatch,
     points: &'a PointCoefficients<'a>,
     count: usize,
@@ -253,21 +253,29 @@ impl AllPoints<'_> {
                 let mut jumps = [Lanes::ZERO; 2];
                 for (side, (jump, size)) in Side::BOTH.into_iter().zip(jumps.iter_mut().zip(&mut sizes)) {
                     gather(self.points.jumps.get(side), contact * contacts + row, jump);
-                    *size = size.plus(&jump.abs());
+                    add_size(size, jump);
                 }
                 for choice in 0..filled {
                     let at = first + choice * contacts + row;
-                    let load = work.loaded[at];
-                    work.loaded[at] = load.plus(&jumps[0]);
-                    work.loaded[at + filled * contacts] = load.plus(&jumps[1]);
+                    let mut negative = work.loaded[at];
+                    for lane in 0..LANES {
+                        work.loaded[at].0[lane] += jumps[0].0[lane];
+                        negative.0[lane] += jumps[1].0[lane];
+                    }
+                    work.loaded[at + filled * contacts] = negative;
                 }
             }
-            work.load_size = work.load_size.plus(&sizes[0].max(&sizes[1]));
+            for lane in 0..LANES {
+                work.load_size.0[lane] += larger(sizes[0].0[lane], sizes[1].0[lane]);
+            }
             filled *= 2;
         }
         for contact in 0..contacts {
             let column = |side: usize| &work.loaded[side * square + contact * contacts..][..contacts];
-            work.column_sizes[contact] = sum_of_sizes(column(0)).max(&sum_of_sizes(column(1)));
+            let (positive, negative) = (sum_of_sizes(column(0)), sum_of_sizes(column(1)));
+            for lane in 0..LANES {
+                work.column_sizes[contact].0[lane] = larger(positive.0[lane], negative.0[lane]);
+            }
         }
     }
 }
@@ -276,29 +284,42 @@ impl AllPoints<'_> {
 fn sum_of_sizes(values: &[Lanes]) -> Lanes {
     let mut sum = Lanes::ZERO;
     for value in values {
-        sum = sum.plus(&value.abs());
+        add_size(&mut sum, value);
     }
     sum
 }
 
-impl Determinants for AllPoints<'_> {
-    fn contacts(&self) -> usize {
+#[inline(always)]
+fn add_size(sum: &mut Lanes, value: &Lanes) {
+    for lane in 0..LANES {
+        sum.0[lane] += value.0[lane].abs();
+    }
+}
+
+/// The larger one; what is not a number stays so.
+#[inline(always)]
+fn larger(one: f64, other: f64) -> f64 {
+    if one > other || one.is_nan() { one } else { other }
+}
+
+impl AllPoints<'_> {
+    pub(super) fn contacts(&self) -> usize {
         self.batch.contacts
     }
 
-    fn points(&self) -> usize {
+    pub(super) fn points(&self) -> usize {
         self.count
     }
 
-    fn both_sides(&self) -> bool {
+    pub(super) fn both_sides(&self) -> bool {
         !self.batch.jumping.is_empty()
     }
 
-    fn load_unit(&self) -> f64 {
+    pub(super) fn load_unit(&self) -> f64 {
         1.0
     }
 
-    fn workspace(&self) -> Workspace {
+    pub(super) fn workspace(&self) -> Workspace {
         let contacts = self.batch.contacts;
         let values = (1 << contacts) + (contacts << (contacts - usize::from(!self.both_sides())));
         let loaded = contacts * (2 * contacts + (1 << self.batch.jumping.len()));
@@ -313,20 +334,24 @@ impl Determinants for AllPoints<'_> {
     }
 
     #[inline(always)]
-    fn evaluate<const FUSED: bool>(&self, points: &[usize; LANES], work: &mut Workspace) {
+    pub(super) fn evaluate<const FUSED: bool>(&self, points: &[usize; LANES], work: &mut Workspace) {
         self.load(points, work);
         let contacts = self.batch.contacts;
         for node in &self.batch.program {
             let column = &work.loaded[node.column..][..contacts];
             let (above, below) = work.scratch.split_at_mut(node.columns);
             let minors = &mut below[0][..];
-            if node.columns == 1 {
-                minors.copy_from_slice(column);
-            } else {
-                let terms = self.batch.expansions[node.columns].chunks_exact(node.columns);
-                for (minor, terms) in minors.iter_mut().zip(terms) {
-                    *minor = expand::<FUSED>(terms, column, &above[node.columns - 1]);
-                }
+            let above = &above[node.columns - 1][..];
+            let terms = &self.batch.expansions[node.columns][..];
+            match node.columns {
+                2 => expand::<FUSED, 2>(terms, column, above, minors),
+                3 => expand::<FUSED, 3>(terms, column, above, minors),
+                4 => expand::<FUSED, 4>(terms, column, above, minors),
+                5 => expand::<FUSED, 5>(terms, column, above, minors),
+                6 => expand::<FUSED, 6>(terms, column, above, minors),
+                7 => expand::<FUSED, 7>(terms, column, above, minors),
+                8 => expand::<FUSED, 8>(terms, column, above, minors),
+                _ => minors.copy_from_slice(column),
             }
             if let Some(value) = node.value {
                 work.values[value] = minors[0];
@@ -335,17 +360,26 @@ impl Determinants for AllPoints<'_> {
     }
 }
 
-/// One minor, by its last column.
+/// All minors of a number of columns, by the last one.
 #[inline(always)]
-fn expand<const FUSED: bool>(terms: &[Term], column: &[Lanes], minors: &[Lanes]) -> Lanes {
-    let mut sum = Lanes::ZERO;
-    let mut pairs = terms.chunks_exact(2);
-    for pair in &mut pairs {
-        sum = sum.plus_product::<FUSED>(&column[pair[0].row], &minors[pair[0].minor]);
-        sum = sum.minus_product::<FUSED>(&column[pair[1].row], &minors[pair[1].minor]);
+fn expand<const FUSED: bool, const COLUMNS: usize>(
+    terms: &[Term],
+    column: &[Lanes],
+    above: &[Lanes],
+    minors: &mut [Lanes],
+) {
+    let (terms, _) = terms.as_chunks::<COLUMNS>();
+    for (minor, terms) in minors.iter_mut().zip(terms) {
+        let factors = terms.map(|term| (&column[term.row].0, &above[term.minor].0));
+        let mut sums = Lanes::ZERO;
+        for lane in 0..LANES {
+            let mut sum = factors[0].0[lane] * factors[0].1[lane];
+            for at in 1..COLUMNS {
+                let sign = if at % 2 == 1 { -1.0 } else { 1.0 };
+                sum = product_plus::<FUSED>(sign * factors[at].0[lane], factors[at].1[lane], sum);
+            }
+            sums.0[lane] = sum;
+        }
+        *minor = sums;
     }
-    if let [last] = pairs.remainder() {
-        sum = sum.plus_product::<FUSED>(&column[last.row], &minors[last.minor]);
-    }
-    sum
 }

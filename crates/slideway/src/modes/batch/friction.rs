@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::super::problem::{BySide, InfluenceCoefficients, ModeProblem, Side};
-use super::kernel::{self, Determinants, Visitor, Workspace, numerator_index};
-use super::lanes::{LANES, Lanes};
+use super::kernel::{self, Points, Visitor, Workspace, numerator_index};
+use super::lanes::{ByLane, LANES, Lanes, product_plus};
 use super::{BatchError, BatchSolutions, MOST_CONTACTS};
 
 /// A structure of which some coefficients of friction take very many values.
@@ -166,7 +166,7 @@ impl FrictionBatch {
     ) -> Result<(), BatchError> {
         let points = self.checked(friction)?;
         solutions.reset(self.contacts, points.count);
-        kernel::run(&points, solutions, visitor);
+        kernel::run(&Points::Friction(points), solutions, visitor);
         Ok(())
     }
 
@@ -183,7 +183,7 @@ impl FrictionBatch {
     ) -> Result<(), BatchError> {
         let points = self.checked(friction)?;
         solutions.reset(self.contacts, points.count);
-        kernel::run_baseline(&points, solutions, None);
+        kernel::run_baseline(&Points::Friction(points), solutions, None);
         Ok(())
     }
 
@@ -390,30 +390,30 @@ fn determinant(columns: &[Vec<f64>]) -> f64 {
 }
 
 /// A batch with its points.
-struct FrictionPoints<'a> {
+pub(super) struct FrictionPoints<'a> {
     batch: &'a FrictionBatch,
     friction: &'a [&'a [f64]],
     count: usize,
 }
 
-impl Determinants for FrictionPoints<'_> {
-    fn contacts(&self) -> usize {
+impl FrictionPoints<'_> {
+    pub(super) fn contacts(&self) -> usize {
         self.batch.contacts
     }
 
-    fn points(&self) -> usize {
+    pub(super) fn points(&self) -> usize {
         self.count
     }
 
-    fn both_sides(&self) -> bool {
+    pub(super) fn both_sides(&self) -> bool {
         self.batch.both_sides
     }
 
-    fn load_unit(&self) -> f64 {
+    pub(super) fn load_unit(&self) -> f64 {
         self.batch.load_unit
     }
 
-    fn workspace(&self) -> Workspace {
+    pub(super) fn workspace(&self) -> Workspace {
         let batch = self.batch;
         let count = batch.forms.iter().map(|form| form.first + form.size).max().unwrap_or(0);
         let mut values = vec![Lanes::ZERO; count];
@@ -439,7 +439,7 @@ impl Determinants for FrictionPoints<'_> {
     }
 
     #[inline(always)]
-    fn evaluate<const FUSED: bool>(&self, points: &[usize; LANES], work: &mut Workspace) {
+    pub(super) fn evaluate<const FUSED: bool>(&self, points: &[usize; LANES], work: &mut Workspace) {
         let batch = self.batch;
         for ((lanes, values), &contact) in work.loaded.iter_mut().zip(self.friction).zip(&batch.varied) {
             if points[LANES - 1] - points[0] == LANES - 1 {
@@ -450,79 +450,84 @@ impl Determinants for FrictionPoints<'_> {
                 }
             }
             let (base, slope) = batch.column_sizes[contact];
-            work.column_sizes[contact] =
-                Lanes::splat(base).plus_product::<FUSED>(&lanes.abs(), &Lanes::splat(slope));
+            let sizes = &mut work.column_sizes[contact];
+            for lane in 0..LANES {
+                sizes.0[lane] = product_plus::<FUSED>(lanes.0[lane].abs(), slope, base);
+            }
         }
         let [one, other] = &mut work.scratch[..] else { return };
         for form in &batch.forms {
             let values = &mut work.values[form.first..form.first + form.size];
             let Some((first, later)) = form.steps.split_first() else { continue };
             let Some((last, between)) = later.split_last() else {
-                contract::<FUSED>(*first, &form.coefficients[..], &work.loaded[first.parameter], values);
+                contract_first::<FUSED>(*first, &form.coefficients, &work.loaded[first.parameter], values);
                 continue;
             };
-            contract::<FUSED>(*first, &form.coefficients[..], &work.loaded[first.parameter], one);
+            contract_first::<FUSED>(*first, &form.coefficients, &work.loaded[first.parameter], one);
             for step in between {
-                contract::<FUSED>(*step, &one[..], &work.loaded[step.parameter], other);
+                contract_next::<FUSED>(*step, one, &work.loaded[step.parameter], other);
                 std::mem::swap(one, other);
             }
-            contract::<FUSED>(*last, &one[..], &work.loaded[last.parameter], values);
+            contract_next::<FUSED>(*last, one, &work.loaded[last.parameter], values);
         }
     }
 }
 
-/// Coefficients of a form: the same for all points, or not.
-trait Coefficients {
-    fn part(&self, first: usize, count: usize) -> &Self;
-    fn lanes(&self, at: usize) -> Lanes;
-}
-
-impl Coefficients for [f64] {
-    #[inline(always)]
-    fn part(&self, first: usize, count: usize) -> &Self {
-        &self[first..first + count]
-    }
-
-    #[inline(always)]
-    fn lanes(&self, at: usize) -> Lanes {
-        Lanes::splat(self[at])
-    }
-}
-
-impl Coefficients for [Lanes] {
-    #[inline(always)]
-    fn part(&self, first: usize, count: usize) -> &Self {
-        &self[first..first + count]
-    }
-
-    #[inline(always)]
-    fn lanes(&self, at: usize) -> Lanes {
-        self[at]
-    }
-}
-
-/// `b^sigma + mu g^sigma` along one axis.
+/// `b^sigma + mu g^sigma` along one axis, from numbers that are the same for all points.
 #[inline(always)]
-fn contract<const FUSED: bool>(
+fn contract_first<const FUSED: bool>(step: Step, from: &[f64], friction: &Lanes, into: &mut [Lanes]) {
+    contract::<FUSED, f64>(step, |at| from[at], friction, into);
+}
+
+/// The same, from what the axis before has left.
+#[inline(always)]
+fn contract_next<const FUSED: bool>(step: Step, from: &[Lanes], friction: &Lanes, into: &mut [Lanes]) {
+    contract::<FUSED, &Lanes>(step, |at| &from[at], friction, into);
+}
+
+#[inline(always)]
+fn contract<const FUSED: bool, T: ByLane>(
     step: Step,
-    from: &(impl Coefficients + ?Sized),
+    from: impl Fn(usize) -> T,
     friction: &Lanes,
     into: &mut [Lanes],
 ) {
     let inner = step.inner;
     let states = if step.split { 4 } else { 3 };
     for outer in 0..step.outer {
-        let from = from.part(outer * states * inner, states * inner);
+        let first = outer * states * inner;
+        let slopes = first + (states - 2) * inner;
         let (positive, negative) = into[2 * outer * inner..][..2 * inner].split_at_mut(inner);
-        let slopes = from.part((states - 2) * inner, 2 * inner);
-        let base = from.part(0, (states - 2) * inner);
-        for at in 0..inner {
-            let base = base.lanes(at);
-            positive[at] = base.plus_product::<FUSED>(friction, &slopes.lanes(at));
+        for (at, target) in positive.iter_mut().enumerate() {
+            *target = combine::<FUSED>(from(first + at), friction, from(slopes + at));
         }
-        for at in 0..inner {
-            let base = if step.split { base.lanes(inner + at) } else { base.lanes(at).negated() };
-            negative[at] = base.plus_product::<FUSED>(friction, &slopes.lanes(inner + at));
+        for (at, target) in negative.iter_mut().enumerate() {
+            let slope = from(slopes + inner + at);
+            *target = if step.split {
+                combine::<FUSED>(from(first + inner + at), friction, slope)
+            } else {
+                combine_mirrored::<FUSED>(from(first + at), friction, slope)
+            };
         }
     }
+}
+
+/// `base + friction slope`
+#[inline(always)]
+fn combine<const FUSED: bool>(base: impl ByLane, friction: &Lanes, slope: impl ByLane) -> Lanes {
+    let mut sum = Lanes::ZERO;
+    for lane in 0..LANES {
+        sum.0[lane] = product_plus::<FUSED>(friction.0[lane], slope.lane(lane), base.lane(lane));
+    }
+    sum
+}
+
+/// `-base + friction slope`
+#[inline(always)]
+fn combine_mirrored<const FUSED: bool>(base: impl ByLane, friction: &Lanes, slope: impl ByLane) -> Lanes {
+    let mut sum = Lanes::ZERO;
+    for lane in 0..LANES {
+        sum.0[lane] = product_plus::<FUSED>(friction.0[lane], slope.lane(lane), -base.lane(lane));
+    }
+    sum
 }
