@@ -64,7 +64,12 @@ fn friction(varied: usize) -> Vec<Vec<f64>> {
     (0..varied).map(|_| (0..POINTS).map(|_| 0.8 * random()).collect()).collect()
 }
 
-fn bench_friction(bencher: Bencher<'_, '_>, influence: &InfluenceCoefficients, varied: usize, baseline: bool) {
+fn bench_friction(
+    bencher: Bencher<'_, '_>,
+    influence: &InfluenceCoefficients,
+    varied: usize,
+    baseline: bool,
+) {
     let varied: Vec<usize> = (0..varied).collect();
     let batch = FrictionBatch::new(influence, &varied).expect("few contacts");
     let friction = friction(varied.len());

@@ -38,8 +38,9 @@ struct Node {
     columns: usize,
     /// First of the column's numbers.
     column: usize,
-    /// Where the determinant belongs.
-    value: Option<usize>,
+    /// Where the determinant belongs: twice if it holds for both sides of a contact, but has a
+    /// place for each.
+    values: Option<[usize; 2]>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -83,13 +84,17 @@ impl Planner<'_> {
 
     fn add(&mut self, level: usize, column: usize, pattern: usize, replaced: Option<usize>) {
         let is_leaf = level + 1 == self.contacts;
-        let value = match replaced {
-            None => pattern,
+        let values = match replaced {
+            None => [pattern; 2],
             Some(contact) => {
-                (1 << self.contacts) + numerator_index(self.contacts, self.both_sides, contact, pattern)
+                let jumps = self.order[..self.fixed].contains(&contact);
+                let other = if self.both_sides && !jumps { pattern | 1 << contact } else { pattern };
+                [pattern, other].map(|pattern| {
+                    (1 << self.contacts) + numerator_index(self.contacts, self.both_sides, contact, pattern)
+                })
             }
         };
-        self.program.push(Node { columns: level + 1, column, value: is_leaf.then_some(value) });
+        self.program.push(Node { columns: level + 1, column, values: is_leaf.then_some(values) });
         self.descend(level + 1, pattern, replaced);
     }
 }
@@ -315,10 +320,6 @@ impl AllPoints<'_> {
         !self.batch.jumping.is_empty()
     }
 
-    pub(super) fn load_unit(&self) -> f64 {
-        1.0
-    }
-
     pub(super) fn workspace(&self) -> Workspace {
         let contacts = self.batch.contacts;
         let values = (1 << contacts) + (contacts << (contacts - usize::from(!self.both_sides())));
@@ -353,7 +354,7 @@ impl AllPoints<'_> {
                 8 => expand::<FUSED, 8>(terms, column, above, minors),
                 _ => minors.copy_from_slice(column),
             }
-            if let Some(value) = node.value {
+            for value in node.values.into_iter().flatten() {
                 work.values[value] = minors[0];
             }
         }

@@ -240,9 +240,7 @@ impl Scaled {
     fn new(problem: &ModeProblem, influence: &InfluenceCoefficients, varied: &[usize]) -> Self {
         let contacts = problem.contacts();
         // g_k^sigma = -s_k eta_k^sigma
-        let slope = |side: Side| {
-            -influence.eta.get(side) * DMatrix::from_diagonal(&influence.velocity_signs)
-        };
+        let slope = |side: Side| -influence.eta.get(side) * DMatrix::from_diagonal(&influence.velocity_signs);
         let parts = Side::BOTH.map(|side| (problem.columns(side), slope(side)));
         let row_scale: Vec<f64> = (0..contacts)
             .map(|row| {
@@ -315,11 +313,7 @@ impl Scaled {
         }
         let mirrored = self.base.positive.column(contact) == -self.base.negative.column(contact);
         let jumps = replaced.is_some() && self.has_jump[contact];
-        if mirrored && !jumps {
-            vec![base[0], slope[0], slope[1]]
-        } else {
-            [base, slope].concat()
-        }
+        if mirrored && !jumps { vec![base[0], slope[0], slope[1]] } else { [base, slope].concat() }
     }
 
     fn determinant(&self, parts: &[Part], replaced: Option<usize>) -> f64 {

@@ -205,7 +205,10 @@ struct Block {
 ///
 /// `in_doubt` becomes set where numbers are out of the range in which this holds.
 #[inline(always)]
-fn bounds<const CONTACTS: usize>(work: &Workspace, in_doubt: &mut [u64; LANES]) -> (Lanes, [Lanes; CONTACTS]) {
+fn bounds<const CONTACTS: usize>(
+    work: &Workspace,
+    in_doubt: &mut [u64; LANES],
+) -> (Lanes, [Lanes; CONTACTS]) {
     let mut determinant = Lanes::ZERO;
     let mut numerators = [Lanes::ZERO; CONTACTS];
     for lane in 0..LANES {

@@ -120,7 +120,9 @@ impl BatchSolutions {
     /// The patterns of a point that have a solution, in increasing order.
     pub fn patterns(&self, point: usize) -> impl Iterator<Item = usize> {
         let words = self.words(point).iter().enumerate();
-        words.flat_map(|(at, word)| (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| at * 64 + bit))
+        words.flat_map(|(at, word)| {
+            (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| at * 64 + bit)
+        })
     }
 
     fn words(&self, point: usize) -> &[u64] {
