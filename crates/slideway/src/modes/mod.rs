@@ -46,6 +46,7 @@ mod findings;
 mod problem;
 mod scaling;
 mod solutions;
+mod uniqueness;
 
 pub use enumeration::{EnumerationError, Limits, enumerate};
 pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
@@ -53,3 +54,4 @@ pub use solutions::{
     ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
     Solutions,
 };
+pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};
