@@ -23,11 +23,10 @@ fn patterns(contacts: usize) -> impl Iterator<Item = Vec<Side>> {
     (0..1_usize << contacts).map(move |bits| (0..contacts).map(|k| Side::BOTH[bits >> k & 1]).collect())
 }
 
-fn equation(b: DMatrix<f64>) -> ModeProblem {
+fn equation(b: &DMatrix<f64>) -> ModeProblem {
     let contacts = b.nrows();
     let identity = DMatrix::identity(contacts, contacts);
-    ModeProblem::from_absolute_value_equation(&identity, &b, DVector::zeros(contacts))
-        .expect("finite numbers")
+    ModeProblem::from_absolute_value_equation(&identity, b, DVector::zeros(contacts)).expect("finite numbers")
 }
 
 fn complementarity(m: &DMatrix<f64>) -> ModeProblem {
@@ -192,11 +191,11 @@ fn large_problems_are_proven_without_the_tree() {
     // sigma_max < 1, though the spectral radius of |B| is above it.
     let b = random_matrix(100, 7) * 0.3 * (3.0 / 100.0_f64).sqrt();
     assert!(b.abs().complex_eigenvalues().iter().any(|value| value.norm() > 1.5));
-    assert_eq!(uniqueness(&equation(b), &limits), Uniqueness::Unique { sign: 1 });
+    assert_eq!(uniqueness(&equation(&b), &limits), Uniqueness::Unique { sign: 1 });
     // Spectral radius of |B| below 1, though sigma_max is far above.
     let mut b = DMatrix::zeros(40, 40);
     (0..39).for_each(|k| b[(k, k + 1)] = 30.0);
-    assert_eq!(uniqueness(&equation(b), &limits), Uniqueness::Unique { sign: 1 });
+    assert_eq!(uniqueness(&equation(&b), &limits), Uniqueness::Unique { sign: 1 });
 }
 
 #[test]
@@ -215,8 +214,9 @@ fn limits_are_kept() -> Result<(), Box<dyn Error>> {
     let pattern = vec![Side::Positive; 2];
     assert_eq!(uniqueness(&problem, &limits), Uniqueness::InDoubt { pattern: pattern.clone() });
     // 0.1 * 2.1 - 0.3 * 0.7 of these doubles, by their exact fractions, is positive or negative: not zero.
+    #[expect(clippy::cast_possible_truncation, reason = "these are integers below 2^62")]
     let exact = |value: f64| (value * 2.0_f64.powi(60)) as i128;
-    let difference = (exact(0.1) * (exact(2.1) >> 8)).cmp(&(exact(0.3) * (exact(0.7) >> 8)));
+    let difference = (exact(0.1) * exact(2.1)).cmp(&(exact(0.3) * exact(0.7)));
     match decide(&problem) {
         Uniqueness::Unique { sign: 1 } => assert_eq!(difference, std::cmp::Ordering::Greater),
         Uniqueness::NotUnique { negative, .. } => {

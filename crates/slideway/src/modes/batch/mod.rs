@@ -29,7 +29,11 @@
 //!
 //! Patterns are numbers: bit `k` is set if contact `k` is pressed on its negative side.
 
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled without the chosen instructions")]
+#![expect(clippy::needless_range_loop, reason = "loops over lanes run through several arrays at once")]
+
 mod coefficients;
+mod contraction;
 mod friction;
 mod kernel;
 mod lanes;
