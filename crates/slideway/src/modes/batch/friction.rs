@@ -42,8 +42,8 @@ impl FrictionBatch {
     /// The structure, and the contacts whose coefficients of friction vary. Their values in
     /// `influence.mu` do not matter; in the batch one value holds for both sides of a contact.
     ///
-    /// The work done here is like that for a thousand points or fewer with 3 contacts; with 8 varied
-    /// contacts it takes some tens of milliseconds.
+    /// Made once for all batches of a structure: with `r` contacts, all varied, it takes
+    /// `3^r + r 3^(r-1)` determinants (54 for 3 contacts, 24 057 for 8).
     ///
     /// # Errors
     /// [`BatchError`] if the structure has no or too many contacts, or makes no mode problem, or a

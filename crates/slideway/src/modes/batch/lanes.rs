@@ -1,7 +1,7 @@
 //! Numbers of several points side by side.
 //!
 //! Loops over lanes are written out where the work is done, each over plain arrays of one length
-//! and without a branch, so that the compiler makes vector instructions of them. Sixteen lanes are
+//! and without a branch, so that the compiler makes vector instructions of them. Eight lanes are
 //! too few for that: such loops are unrolled before they are vectorised, and stay scalar.
 
 /// Points that are treated together.
