@@ -38,6 +38,7 @@
 //! reported with the set of normal forces that they admit. Contacts at which the right-hand side
 //! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
 
+pub mod batch;
 mod candidate;
 pub mod certificate;
 mod contact_set;
@@ -49,6 +50,7 @@ mod problem;
 mod scaling;
 mod search;
 mod solutions;
+mod uniqueness;
 
 pub use enumeration::{EnumerationError, Limits, enumerate};
 pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
@@ -61,3 +63,4 @@ pub use solutions::{
     ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
     Solutions,
 };
+pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};
