@@ -1,0 +1,385 @@
+//! A mechanism with numbers: every formula of a model that does not depend on the motion is evaluated.
+//!
+//! Second stage of the pipeline: [`Model`] in, [`Mechanism`] out. Positions are those of the reference
+//! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
+
+mod evaluation;
+
+use crate::expression::Values;
+use crate::fault::{Fault, FaultKind, Faults, Place};
+use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
+use crate::model::{CarriedBy, Formula, Model, PreloadLine, SliderKind};
+use evaluation::Evaluation;
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+
+/// A mechanism in its reference drawing.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// One line that says what it is.
+    pub title: Option<String>,
+    /// Acceleration of free fall (m/s^2).
+    pub gravity: Vector2<f64>,
+    /// Time of the state (s).
+    pub time: f64,
+    /// The moving bodies.
+    pub bodies: Vec<Body>,
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// The contacts with friction, in the order of their joints.
+    pub contacts: Vec<Contact>,
+    /// The loads.
+    pub loads: Vec<Load>,
+    /// The drives.
+    pub drives: Vec<Drive>,
+    /// The chosen coordinates.
+    pub coordinates: Vec<Coordinate>,
+    /// The greatest distance between two of its places (m); 1 if they all coincide.
+    pub size: f64,
+    parameters: Vec<f64>,
+    formulas: Arc<Vec<Formula>>,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// Mass (kg), zero for a massless body.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass (kg m^2).
+    pub moment_of_inertia: f64,
+    /// Centre of mass in the drawing; for a massless body the mean of the places of its joints.
+    pub centre_of_mass: Vector2<f64>,
+    /// Its named points in the drawing.
+    pub points: Vec<(Arc<str>, Vector2<f64>)>,
+}
+
+/// A point that moves with a frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Attachment {
+    /// What it moves with.
+    pub frame: Frame,
+    /// Its place in the drawing.
+    pub position: Vector2<f64>,
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// What it is.
+    pub kind: JointKind,
+}
+
+/// The kinds of joint.
+#[derive(Debug, Clone)]
+pub enum JointKind {
+    /// A frictionless hinge.
+    Hinge([Attachment; 2]),
+    /// A sliding joint.
+    Slider(Slider),
+}
+
+/// A sliding joint (theory, section 1).
+#[derive(Debug, Clone)]
+pub struct Slider {
+    /// Which of the three kinds.
+    pub kind: SliderKind,
+    /// The block.
+    pub block: Frame,
+    /// The guide.
+    pub guide: Frame,
+    /// Middle of the block in the drawing, on the centre line of the guide.
+    pub at: Vector2<f64>,
+    /// Tangent u of the guide in the drawing; the normal is n = rot90(u).
+    pub tangent: Vector2<f64>,
+    /// Distance of the contacts or length of the pressed face in the drawing (m).
+    pub length: f64,
+    /// Distance of the rubbing faces (m), negative where the block surrounds the guide.
+    pub height: f64,
+    /// Whether the block surrounds the guide, so that the opposite faces press.
+    pub around: bool,
+    /// Limits of the displacement (m).
+    pub travel: Option<[f64; 2]>,
+    /// Its contacts: front and rear of a block slider, else the only one.
+    pub contacts: Vec<ContactId>,
+}
+
+/// A contact with friction.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    /// "joint", "joint.front" or "joint.rear".
+    pub name: Arc<str>,
+    /// The sliding joint it belongs to.
+    pub joint: JointId,
+    /// Distance from the middle of the block along the tangent in the drawing (m).
+    pub offset: f64,
+    /// What it travels with.
+    pub carried_by: CarriedBy,
+    /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
+    pub mu: [f64; 2],
+    /// Static friction coefficient, likewise.
+    pub mu_static: [f64; 2],
+    /// Preload (N), likewise.
+    pub preload: [f64; 2],
+    /// Where the preload's friction acts.
+    pub preload_line: PreloadLine,
+    /// Stiffness of the guide (N/m), if the model gives it.
+    pub stiffness: Option<f64>,
+}
+
+impl Contact {
+    /// Whether the contact has neither friction nor preload.
+    pub fn is_frictionless(&self) -> bool {
+        self.mu == [0.0; 2] && self.preload == [0.0; 2]
+    }
+}
+
+/// A number that may depend on the motion.
+#[derive(Debug, Clone, Copy)]
+pub enum Quantity {
+    /// A constant.
+    Constant(f64),
+    /// A formula of coordinates, rates and time.
+    Varying(FormulaId),
+}
+
+/// A load.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// What it is.
+    pub kind: LoadKind,
+}
+
+/// The kinds of load.
+#[derive(Debug, Clone)]
+pub enum LoadKind {
+    /// A force at a point.
+    Force {
+        /// Where it acts.
+        at: Attachment,
+        /// Components: along x and y, or along the drawn direction and zero.
+        components: [Quantity; 2],
+        /// The directions of the components in the drawing.
+        axes: [Vector2<f64>; 2],
+        /// Whether the directions turn with the body.
+        turns: bool,
+        /// What the opposite force acts on.
+        reaction: Option<Frame>,
+    },
+    /// A torque.
+    Torque {
+        /// The body.
+        body: Frame,
+        /// Its moment (N m).
+        moment: Quantity,
+        /// What the opposite torque acts on.
+        reaction: Option<Frame>,
+    },
+    /// A spring.
+    Spring {
+        /// Its ends.
+        between: [Attachment; 2],
+        /// Stiffness (N/m).
+        stiffness: Quantity,
+        /// Length without force (m).
+        free_length: Quantity,
+    },
+    /// A damper.
+    Damper {
+        /// Its ends.
+        between: [Attachment; 2],
+        /// Damping coefficient (N s/m).
+        damping: Quantity,
+    },
+    /// A torsional spring.
+    TorsionalSpring {
+        /// The bodies.
+        between: [Frame; 2],
+        /// Torsional stiffness (N m).
+        stiffness: Quantity,
+        /// Rotation without torque, from the drawing (rad).
+        free_angle: Quantity,
+    },
+    /// A torsional damper.
+    TorsionalDamper {
+        /// The bodies.
+        between: [Frame; 2],
+        /// Torsional damping coefficient (N m s).
+        damping: Quantity,
+    },
+}
+
+/// A prescribed motion.
+#[derive(Debug, Clone)]
+pub struct Drive {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// The coordinate whose motion is prescribed.
+    pub coordinate: CoordinateId,
+    /// The prescribed acceleration.
+    pub acceleration: Quantity,
+    /// The unknown effort.
+    pub effort: Effort,
+}
+
+/// The unknown force or torque of a drive.
+#[derive(Debug, Clone, Copy)]
+pub enum Effort {
+    /// A force (N) along a line of action.
+    Force {
+        /// Where it acts.
+        at: Attachment,
+        /// Its direction in the drawing.
+        direction: Vector2<f64>,
+        /// Whether the direction turns with the body.
+        turns: bool,
+        /// What the opposite force acts on.
+        reaction: Option<Frame>,
+    },
+    /// A torque (N m).
+    Torque {
+        /// The body on which it acts.
+        body: Frame,
+        /// What the opposite torque acts on.
+        reaction: Option<Frame>,
+    },
+}
+
+/// A chosen coordinate.
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// What it measures.
+    pub kind: CoordinateKind,
+    /// Its value in the drawing (m or rad).
+    pub drawn_at: f64,
+    /// Its value in the state.
+    pub value: f64,
+    /// Its rate in the state.
+    pub rate: f64,
+}
+
+/// What a coordinate measures.
+#[derive(Debug, Clone, Copy)]
+pub enum CoordinateKind {
+    /// Displacement of a sliding joint.
+    Slide(JointId),
+    /// Rotation of a body against a frame.
+    Rotation(BodyId, Frame),
+    /// Displacement of a point in a direction.
+    Displacement(Attachment, Vector2<f64>),
+}
+
+impl CoordinateKind {
+    /// Whether the coordinate is an angle.
+    pub fn is_angle(&self) -> bool {
+        matches!(self, Self::Rotation(..))
+    }
+}
+
+impl Mechanism {
+    /// The mechanism that a model describes, with the present values of its parameters.
+    ///
+    /// # Errors
+    /// Every value that is not finite or not allowed, or too large or small to compute with.
+    pub fn new(model: &Model) -> Result<Self, Faults> {
+        let mechanism = Evaluation::new(model)?.mechanism();
+        mechanism.check_magnitudes()?;
+        Ok(mechanism)
+    }
+
+    /// Products of a few quantities must stay within the range of floating point.
+    fn check_magnitudes(&self) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        let mut check = |what: String, place: Option<&Place>, values: &[f64]| {
+            let is_usual = |value: &f64| *value == 0.0 || MAGNITUDES.contains(&value.abs());
+            if !values.iter().all(is_usual) {
+                let kind = FaultKind::Overflow { quantity: what };
+                faults.push(
+                    place.map_or(Fault::general(kind.clone()), |place| Fault::new(kind, place.clone())),
+                );
+            }
+        };
+        check("the size of the mechanism".into(), None, &[self.size]);
+        check("gravity".into(), None, self.gravity.as_slice());
+        for body in &self.bodies {
+            let values = [body.mass, body.moment_of_inertia, body.centre_of_mass.x, body.centre_of_mass.y];
+            check(
+                format!("the mass, the moment of inertia or the place of {}", body.name),
+                Some(&body.place),
+                &values,
+            );
+        }
+        for joint in &self.joints {
+            let JointKind::Slider(slider) = &joint.kind else { continue };
+            check(format!("the size of {}", joint.name), Some(&joint.place), &[slider.length, slider.height]);
+        }
+        for contact in &self.contacts {
+            let place = &self.joints[contact.joint.index()].place;
+            let values = [contact.mu, contact.mu_static, contact.preload].concat();
+            check(format!("the friction of {}", contact.name), Some(place), &values);
+        }
+        for coordinate in &self.coordinates {
+            let values = [coordinate.value, coordinate.drawn_at, coordinate.rate];
+            check(format!("the value or the rate of {}", coordinate.name), Some(&coordinate.place), &values);
+        }
+        faults.or(())
+    }
+
+    /// The sliding joint with this number, if it is one.
+    pub fn slider(&self, joint: JointId) -> Option<&Slider> {
+        match &self.joints[joint.index()].kind {
+            JointKind::Slider(slider) => Some(slider),
+            JointKind::Hinge(_) => None,
+        }
+    }
+
+    /// Name of a frame.
+    pub fn frame_name(&self, frame: Frame) -> &str {
+        frame.body().map_or("ground", |body| &self.bodies[body.index()].name)
+    }
+
+    /// Value of a quantity in a state.
+    ///
+    /// # Errors
+    /// A fault if a formula has no finite or allowed value there.
+    pub fn quantity(
+        &self,
+        quantity: Quantity,
+        coordinates: &[f64],
+        rates: &[f64],
+        time: f64,
+    ) -> Result<f64, Fault> {
+        match quantity {
+            Quantity::Constant(value) => Ok(value),
+            Quantity::Varying(id) => {
+                let values = Values { parameters: &self.parameters, coordinates, rates, time };
+                self.formulas[id.index()].value(&values)
+            }
+        }
+    }
+}
+
+/// A vector turned by a right angle counter-clockwise: n = rot90(u).
+pub fn rot90(vector: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-vector.y, vector.x)
+}
