@@ -226,10 +226,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
 
 /// The report as indented JSON, ending in a line end.
 pub fn to_json(report: &CheckReport) -> String {
-    let mut text =
-        serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
-    text.push('\n');
-    text
+    crate::report::indented_json(report)
 }
 
 fn finding(kind: &FaultKind) -> Finding {

@@ -182,8 +182,5 @@ pub struct RawShares {
 
 /// The report as indented JSON, ending in a line end; the layout is that of [`RawReport`].
 pub fn to_json(report: &RawReport) -> String {
-    let mut text =
-        serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
-    text.push('\n');
-    text
+    crate::report::indented_json(report)
 }

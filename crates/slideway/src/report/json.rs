@@ -1,9 +1,15 @@
 //! The report as JSON.
 
 use super::Report;
+use serde::Serialize;
 
 /// The report as indented JSON, ending in a line end; the layout is that of [`Report`], its version in `schema`.
 pub fn to_json(report: &Report) -> String {
+    indented(report)
+}
+
+/// Any report as indented JSON, ending in a line end.
+pub(crate) fn indented<T: Serialize>(report: &T) -> String {
     let mut text =
         serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
     text.push('\n');

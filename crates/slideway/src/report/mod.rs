@@ -10,6 +10,7 @@ pub(crate) mod table;
 mod text;
 
 pub use csv::to_csv;
+pub(crate) use json::indented as indented_json;
 pub use json::to_json;
 pub(crate) use text::count;
 pub use text::{Style, to_text};

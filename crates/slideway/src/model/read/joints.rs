@@ -3,7 +3,7 @@
 use super::super::file::{
     BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PinInSlotTable, PreloadLine,
 };
-use super::super::quantity::{PerSide, Quantity, Span};
+use super::super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
 use super::super::sections::JointContents;
 use super::super::{Contact, Joint, JointKind, Slider, SliderKind};
 use super::{Reader, Wanted};
@@ -62,6 +62,91 @@ impl<'a> WrittenFriction<'a> {
     }
 }
 
+/// What the tables of the three sliding joints have in common.
+struct WrittenSlider<'a> {
+    kind: SliderKind,
+    block: &'a Name,
+    guide: Option<&'a Name>,
+    at: &'a Place,
+    along: &'a Direction,
+    length: Option<&'a Quantity>,
+    height: Option<&'a Quantity>,
+    fit: Option<Fit>,
+    travel: Option<&'a Components>,
+    friction: WrittenFriction<'a>,
+}
+
+impl<'a> From<&'a BlockSliderTable> for WrittenSlider<'a> {
+    fn from(table: &'a BlockSliderTable) -> Self {
+        Self {
+            kind: SliderKind::Block,
+            block: &table.block,
+            guide: table.guide.as_ref(),
+            at: &table.at,
+            along: &table.along,
+            length: Some(&table.length),
+            height: table.height.as_ref(),
+            fit: table.fit,
+            travel: table.travel.as_ref(),
+            friction: WrittenFriction {
+                mu: table.mu.as_ref(),
+                mu_static: table.mu_static.as_ref(),
+                preload: table.preload.as_ref(),
+                preload_line: table.preload_line,
+                stiffness: table.stiffness.as_ref(),
+                carried_by: None,
+            },
+        }
+    }
+}
+
+impl<'a> From<&'a GuidedSliderTable> for WrittenSlider<'a> {
+    fn from(table: &'a GuidedSliderTable) -> Self {
+        Self {
+            kind: SliderKind::Guided,
+            block: &table.block,
+            guide: table.guide.as_ref(),
+            at: &table.at,
+            along: &table.along,
+            length: Some(&table.length),
+            height: table.height.as_ref(),
+            fit: table.fit,
+            travel: table.travel.as_ref(),
+            friction: WrittenFriction {
+                mu: table.mu.as_ref(),
+                mu_static: table.mu_static.as_ref(),
+                preload: table.preload.as_ref(),
+                preload_line: table.preload_line,
+                stiffness: table.stiffness.as_ref(),
+                carried_by: None,
+            },
+        }
+    }
+}
+
+impl<'a> From<&'a PinInSlotTable> for WrittenSlider<'a> {
+    fn from(table: &'a PinInSlotTable) -> Self {
+        Self {
+            kind: SliderKind::Pin,
+            block: &table.block,
+            guide: table.guide.as_ref(),
+            at: &table.at,
+            along: &table.along,
+            length: None,
+            height: None,
+            fit: None,
+            travel: table.travel.as_ref(),
+            friction: WrittenFriction {
+                mu: table.mu.as_ref(),
+                mu_static: table.mu_static.as_ref(),
+                preload: table.preload.as_ref(),
+                stiffness: table.stiffness.as_ref(),
+                ..WrittenFriction::default()
+            },
+        }
+    }
+}
+
 impl Reader<'_> {
     pub(super) fn read_joints(&mut self, entries: Vec<Entry<JointContents>>) -> Vec<Joint> {
         let mut joints = Vec::new();
@@ -74,8 +159,12 @@ impl Reader<'_> {
                     JointKind::Hinge([self.attachment(first), self.attachment(second)])
                 }
                 Some(JointContents::Block(table)) => self.block_slider(table, &entry.name, &entry.span),
-                Some(JointContents::Guided(table)) => self.guided_slider(table, &entry.name, &entry.span),
-                Some(JointContents::Pin(table)) => self.pin_in_slot(table, &entry.name, &entry.span),
+                Some(JointContents::Guided(table)) => {
+                    self.slider_of_one_contact(&table.as_ref().into(), &entry.name, &entry.span)
+                }
+                Some(JointContents::Pin(table)) => {
+                    self.slider_of_one_contact(&table.as_ref().into(), &entry.name, &entry.span)
+                }
             };
             joints.push(Joint { name: Arc::from(entry.name), place: FaultPlace::model(entry.span), kind });
         }
@@ -83,83 +172,35 @@ impl Reader<'_> {
     }
 
     fn block_slider(&mut self, table: &BlockSliderTable, name: &str, span: &Span) -> JointKind {
-        let both = WrittenFriction {
-            mu: table.mu.as_ref(),
-            mu_static: table.mu_static.as_ref(),
-            preload: table.preload.as_ref(),
-            preload_line: table.preload_line,
-            stiffness: table.stiffness.as_ref(),
-            carried_by: None,
-        };
-        let both = self.friction(both, name);
+        let written = WrittenSlider::from(table);
+        let both = self.friction(written.friction, name);
         let contacts =
             [("front", table.front.as_ref()), ("rear", table.rear.as_ref())].map(|(end, table)| {
                 let contact = format!("{name}.{end}");
                 let friction = self.friction(WrittenFriction::at_end(table), &contact).or(both);
                 self.contact(friction, contact, name, span)
             });
-        let contacts = Vec::from(contacts);
-        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
-        JointKind::Slider(Box::new(Slider {
-            kind: SliderKind::Block,
-            block: self.frame(&table.block),
-            guide: self.frame_or_ground(table.guide.as_ref()),
-            at: self.place(&table.at, &format!("the place of {name}")),
-            along: self.along(&table.along, &format!("the direction of {name}")),
-            length: Some(self.formula(&table.length, length)),
-            height: self.height(table.height.as_ref(), name),
-            around: table.fit == Some(Fit::Around),
-            travel: self.travel(table.travel.as_ref(), name),
-            contacts,
-        }))
+        self.slider(&written, Vec::from(contacts), name)
     }
 
-    fn guided_slider(&mut self, table: &GuidedSliderTable, name: &str, span: &Span) -> JointKind {
-        let friction = WrittenFriction {
-            mu: table.mu.as_ref(),
-            mu_static: table.mu_static.as_ref(),
-            preload: table.preload.as_ref(),
-            preload_line: table.preload_line,
-            stiffness: table.stiffness.as_ref(),
-            carried_by: None,
-        };
-        let friction = self.friction(friction, name);
-        let contacts = vec![self.contact(friction, name.to_owned(), name, span)];
-        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
-        JointKind::Slider(Box::new(Slider {
-            kind: SliderKind::Guided,
-            block: self.frame(&table.block),
-            guide: self.frame_or_ground(table.guide.as_ref()),
-            at: self.place(&table.at, &format!("the place of {name}")),
-            along: self.along(&table.along, &format!("the direction of {name}")),
-            length: Some(self.formula(&table.length, length)),
-            height: self.height(table.height.as_ref(), name),
-            around: table.fit == Some(Fit::Around),
-            travel: self.travel(table.travel.as_ref(), name),
-            contacts,
-        }))
+    fn slider_of_one_contact(&mut self, written: &WrittenSlider<'_>, name: &str, span: &Span) -> JointKind {
+        let friction = self.friction(written.friction, name);
+        let contact = self.contact(friction, name.to_owned(), name, span);
+        self.slider(written, vec![contact], name)
     }
 
-    fn pin_in_slot(&mut self, table: &PinInSlotTable, name: &str, span: &Span) -> JointKind {
-        let friction = WrittenFriction {
-            mu: table.mu.as_ref(),
-            mu_static: table.mu_static.as_ref(),
-            preload: table.preload.as_ref(),
-            stiffness: table.stiffness.as_ref(),
-            ..WrittenFriction::default()
-        };
-        let friction = self.friction(friction, name);
-        let contacts = vec![self.contact(friction, name.to_owned(), name, span)];
+    fn slider(&mut self, written: &WrittenSlider<'_>, contacts: Vec<Contact>, name: &str) -> JointKind {
+        let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         JointKind::Slider(Box::new(Slider {
-            kind: SliderKind::Pin,
-            block: self.frame(&table.block),
-            guide: self.frame_or_ground(table.guide.as_ref()),
-            at: self.place(&table.at, &format!("the place of {name}")),
-            along: self.along(&table.along, &format!("the direction of {name}")),
-            length: None,
-            height: None,
-            around: false,
-            travel: self.travel(table.travel.as_ref(), name),
+            kind: written.kind,
+            block: self.frame(written.block),
+            guide: self.frame_or_ground(written.guide),
+            at: self.place(written.at, &format!("the place of {name}")),
+            along: self.along(written.along, &format!("the direction of {name}")),
+            length: written.length.map(|quantity| self.formula(quantity, length)),
+            height: self.height(written.height, name),
+            around: written.fit == Some(Fit::Around),
+            travel: self.travel(written.travel, name),
             contacts,
         }))
     }
