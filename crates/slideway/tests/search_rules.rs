@@ -121,7 +121,13 @@ fn singular_values_prove_one_solution() -> Outcome {
 #[test]
 fn exclusions_carry_proofs_that_others_can_verify() -> Outcome {
     let mut random = Random::new(11);
-    let arguments = Arguments { groups: false, propagation: false, uniqueness: false, low_rank: false };
+    let arguments = Arguments {
+        groups: false,
+        propagation: false,
+        uniqueness: false,
+        low_rank: false,
+        every_pattern: false,
+    };
     let options = SearchOptions { arguments, keep_exclusions: true, ..SearchOptions::default() };
     let mut verified = 0;
     for size in [4, 8, 12] {

@@ -52,6 +52,14 @@ pub(super) fn solve_pattern(problem: &ScaledProblem, pattern: &[ContactState]) -
     Some(Candidate { determinant: unscaled_determinant(problem, pattern, &factors), condition, ..candidate })
 }
 
+/// `D` of a pattern; 1 without contacts.
+pub(super) fn determinant(problem: &ScaledProblem, pattern: &[ContactState]) -> f64 {
+    if pattern.is_empty() {
+        return 1.0;
+    }
+    unscaled_determinant(problem, pattern, &problem.system(pattern).0.lu())
+}
+
 fn judge(
     pattern: &[ContactState],
     mut unknowns: DVector<f64>,

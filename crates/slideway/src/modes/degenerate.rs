@@ -45,17 +45,7 @@ pub(super) fn examine(problem: &ScaledProblem, pattern: &[ContactState], bases: 
     let directions =
         polyhedron.directions.iter().map(normal_force).filter(|direction| direction.amax() > 0.0);
     let directions = distinct(directions.map(|direction| &direction / direction.amax()));
-    Examined::Singular(solution_set(vertices, directions))
-}
-
-fn solution_set(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> SolutionSet {
-    match (vertices.len(), directions.len()) {
-        (0, _) => SolutionSet::Empty,
-        (1, 0) => SolutionSet::Point(vertices.swap_remove(0)),
-        (2, 0) => SolutionSet::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
-        (1, 1) => SolutionSet::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
-        _ => SolutionSet::Polytope { vertices, directions },
-    }
+    Examined::Singular(SolutionSet::from_corners(vertices, directions))
 }
 
 /// Divides every column by its largest entry, and returns these (1 for a zero column).

@@ -8,25 +8,17 @@ use super::candidate::{Candidate, solve_pattern};
 use super::contact_set::ContactSet;
 use super::degenerate::{Examined, examine, same_point, same_set};
 use super::enumeration::{EnumerationError, Limits};
-use super::problem::Side;
+use super::found::{Found, oriented, sides};
 use super::scaling::ScaledProblem;
 use super::solutions::{
-    ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
-    Solutions,
+    Certificate, ClosestMode, ContactState, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
+    Solutions, UndecidedPattern,
 };
 
 /// How many patterns close to locking are reported.
 const CLOSEST: usize = 4;
 /// A pattern whose matrix has a condition number above this may be singular.
-const SUSPECT_CONDITION: f64 = 1e7;
-
-/// A solution or gap state with the patterns that give it.
-struct Found {
-    candidate: Candidate,
-    normal_force: DVector<f64>,
-    patterns: Vec<Vec<ContactState>>,
-    pattern_count: u64,
-}
+pub(super) const SUSPECT_CONDITION: f64 = 1e7;
 
 /// What patterns with the same boundary solution have in common: the states of contacts that are
 /// not free to change their side, and which ones are.
@@ -36,24 +28,9 @@ struct SharedPattern {
     free: ContactSet,
 }
 
-/// What became of one pattern.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum PatternOutcome {
-    /// Some `y_k < 0`, or a share out of its range.
-    NoSolution,
-    /// Contacts with `y_k = 0`, then those with a share of 0 or 1.
-    Solution { on_boundary: Vec<usize> },
-    /// Singular without a solution.
-    Locked,
-    /// Singular with a solution or a continuum of them.
-    Singular,
-    /// Not within the limits.
-    NotExamined,
-}
-
 pub(super) struct Findings<'a> {
-    problem: &'a ScaledProblem,
-    limits: Limits,
+    pub(super) problem: &'a ScaledProblem,
+    pub(super) limits: Limits,
     counts: PatternCounts,
     gap_counts: PatternCounts,
     found: Vec<Found>,
@@ -61,8 +38,11 @@ pub(super) struct Findings<'a> {
     singular: Vec<SingularMode>,
     /// Places in `singular` of non-empty sets, by the signs that their normal forces take.
     singular_places: HashMap<(ContactSet, ContactSet), Vec<usize>>,
-    examined: usize,
-    bases: u64,
+    pub(super) undecided: Vec<UndecidedPattern>,
+    /// Whether what is found is exact but for rounding, so that nothing is merged within tolerances.
+    exact: bool,
+    pub(super) examined: usize,
+    pub(super) bases: u64,
     closest: Vec<(f64, Vec<ContactState>)>,
 }
 
@@ -77,25 +57,43 @@ impl<'a> Findings<'a> {
             shared: HashMap::new(),
             singular: Vec::new(),
             singular_places: HashMap::new(),
+            undecided: Vec::new(),
+            exact: false,
             examined: 0,
             bases: limits.bases,
             closest: Vec::with_capacity(CLOSEST + 1),
         }
     }
 
-    fn counts_of(&mut self, pattern: &[ContactState]) -> &mut PatternCounts {
+    /// Whether as many (nearly) singular patterns have been examined as may be.
+    pub(super) fn has_examined_enough(&self) -> bool {
+        self.examined >= self.limits.singular
+    }
+
+    /// Whether a pattern may be singular, within tolerances.
+    pub(super) fn is_suspect(&self, pattern: &[ContactState]) -> bool {
+        solve_pattern(self.problem, pattern).is_none_or(|found| found.condition >= SUSPECT_CONDITION)
+    }
+
+    /// Whatever is filed is proven for exact data: nothing is merged within tolerances.
+    pub(super) fn exact(self) -> Self {
+        Self { exact: true, ..self }
+    }
+
+    pub(super) fn counts_of(&mut self, pattern: &[ContactState]) -> &mut PatternCounts {
         if pattern.contains(&ContactState::Gap) { &mut self.gap_counts } else { &mut self.counts }
     }
 
     /// How many solutions, gap states and singular sets have been found so far.
     pub(super) fn found(&self) -> usize {
-        self.found.len() + self.singular.len()
+        self.found.len() + self.singular.len() + self.undecided.len()
     }
 
     /// Puts what was found into the order of enumeration, whatever the order it was found in.
     pub(super) fn sort(&mut self) {
         self.found.sort_by(|one, other| one.pattern().cmp(other.pattern()));
         self.singular.sort_by(|one, other| one.pattern.cmp(&other.pattern));
+        self.undecided.sort_by(|one, other| one.pattern.cmp(&other.pattern));
     }
 
     pub(super) fn count_no_solution(&mut self, with_gap: bool) {
@@ -115,47 +113,36 @@ impl<'a> Findings<'a> {
     }
 
     /// Solves a pattern carefully and files its outcome.
-    pub(super) fn examine_candidate(
-        &mut self,
-        pattern: &[ContactState],
-    ) -> Result<PatternOutcome, EnumerationError> {
+    pub(super) fn examine_candidate(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
         let Some(candidate) = solve_pattern(self.problem, pattern) else {
             self.counts_of(pattern).not_examined += 1;
-            return Ok(PatternOutcome::NotExamined);
+            return Ok(());
         };
         self.file_candidate(pattern, candidate)
     }
 
     /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
-    pub(super) fn examine_leaf(
-        &mut self,
-        pattern: &mut [ContactState],
-    ) -> Result<PatternOutcome, EnumerationError> {
+    pub(super) fn examine_leaf(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
         match solve_pattern(self.problem, pattern) {
             Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
                 self.file_candidate(pattern, candidate)
             }
-            _ if self.examined >= self.limits.singular => {
+            _ if self.has_examined_enough() => {
                 self.leave_unexamined(pattern, pattern.len());
-                Ok(PatternOutcome::NotExamined)
+                Ok(())
             }
             _ => self.examine_suspect(pattern),
         }
     }
 
     /// A closer look at a pattern that may be singular.
-    fn examine_suspect(&mut self, pattern: &[ContactState]) -> Result<PatternOutcome, EnumerationError> {
+    pub(super) fn examine_suspect(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
         self.examined += 1;
         match examine(self.problem, pattern, &mut self.bases) {
             Examined::Regular => self.examine_candidate(pattern),
             Examined::Singular(set) => {
-                let outcome = match set {
-                    SolutionSet::Empty => PatternOutcome::Locked,
-                    SolutionSet::NotComputed => PatternOutcome::NotExamined,
-                    _ => PatternOutcome::Singular,
-                };
-                self.file_singular(pattern, set);
-                Ok(outcome)
+                self.file_singular(pattern, set, Certificate::NotProven);
+                Ok(())
             }
         }
     }
@@ -164,26 +151,38 @@ impl<'a> Findings<'a> {
         &mut self,
         pattern: &[ContactState],
         candidate: Candidate,
-    ) -> Result<PatternOutcome, EnumerationError> {
+    ) -> Result<(), EnumerationError> {
         let counts = self.counts_of(pattern);
         if !candidate.admissible {
             counts.no_solution += 1;
-            return Ok(PatternOutcome::NoSolution);
+            return Ok(());
         }
-        let on_boundary: Vec<usize> = candidate.zero.iter().chain(candidate.at_end.iter()).collect();
-        if on_boundary.is_empty() {
+        self.file_admissible(pattern, candidate, Certificate::NotProven)?;
+        Ok(())
+    }
+
+    /// Files a solution.
+    pub(super) fn file_admissible(
+        &mut self,
+        pattern: &[ContactState],
+        candidate: Candidate,
+        certificate: Certificate,
+    ) -> Result<(), EnumerationError> {
+        let counts = self.counts_of(pattern);
+        let in_doubt = matches!(certificate, Certificate::OnBoundaryWithinBounds { .. });
+        if candidate.zero.is_empty() && candidate.at_end.is_empty() && !in_doubt {
             counts.solution += 1;
         } else {
             counts.boundary += 1;
         }
-        self.file(pattern, candidate);
+        self.file(pattern, candidate, certificate);
         if self.found.len() > self.limits.solutions {
             self.found.pop();
             let known = self.found.len();
             self.shared.retain(|_, index| *index < known);
             return Err(EnumerationError::TooManySolutions { limit: self.limits.solutions });
         }
-        Ok(PatternOutcome::Solution { on_boundary })
+        Ok(())
     }
 
     /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False if it
@@ -201,13 +200,10 @@ impl<'a> Findings<'a> {
         true
     }
 
-    fn file(&mut self, pattern: &[ContactState], candidate: Candidate) {
+    fn file(&mut self, pattern: &[ContactState], candidate: Candidate, certificate: Certificate) {
         let free = self.free_contacts(&candidate);
         let key = SharedPattern { states: canonical(pattern, &free), free };
-        let signed = pattern.iter().zip(&candidate.unknowns).map(|(state, value)| state.sign() * value);
-        let normal_force = DVector::from_iterator(pattern.len(), signed);
-        let (patterns, pattern_count) = (vec![pattern.to_vec()], 1);
-        let new = Found { candidate, normal_force, patterns, pattern_count };
+        let new = Found::new(pattern, candidate, certificate);
         match self.shared.get(&key) {
             Some(&index) if self.found[index].agrees_with(&new) => {
                 self.found[index].absorb(new, self.limits.listed);
@@ -233,7 +229,7 @@ impl<'a> Findings<'a> {
         pattern: &mut [ContactState],
         first: usize,
     ) -> Result<(), EnumerationError> {
-        if self.examined >= self.limits.singular {
+        if self.has_examined_enough() {
             self.leave_unexamined(pattern, first);
             return Ok(());
         }
@@ -244,10 +240,10 @@ impl<'a> Findings<'a> {
             }
             return Ok(());
         }
-        self.examine_suspect(pattern).map(|_| ())
+        self.examine_suspect(pattern)
     }
 
-    fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
+    pub(super) fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
         let (pressed, all) = self.problem.patterns_from(first);
         if pattern[..first].contains(&ContactState::Gap) {
             self.gap_counts.not_examined += all;
@@ -257,11 +253,18 @@ impl<'a> Findings<'a> {
         }
     }
 
-    fn file_singular(&mut self, pattern: &[ContactState], set: SolutionSet) {
+    pub(super) fn file_singular(
+        &mut self,
+        pattern: &[ContactState],
+        set: SolutionSet,
+        certificate: Certificate,
+    ) {
         self.counts_of(pattern).count_set(&set);
         if !set.vertices().is_empty() {
             let places = self.singular_places.entry(signs_taken(&set, pattern.len())).or_default();
-            if let Some(&place) = places.iter().find(|&&place| same_set(&self.singular[place].set, &set)) {
+            let exact = self.exact;
+            let same = |other: &SolutionSet| if exact { *other == set } else { same_set(other, &set) };
+            if let Some(&place) = places.iter().find(|&&place| same(&self.singular[place].set)) {
                 let mode = &mut self.singular[place];
                 mode.pattern_count += 1;
                 if mode.patterns.len() < self.limits.listed {
@@ -277,29 +280,36 @@ impl<'a> Findings<'a> {
             pattern_count: 1,
             set,
             contains: Vec::new(),
+            certificate,
         });
     }
 
     pub(super) fn into_solutions(mut self) -> Solutions {
-        self.merge_neighbours();
+        if !self.exact {
+            self.merge_neighbours();
+        }
         let (gaps, ordinary): (Vec<Found>, Vec<Found>) =
             std::mem::take(&mut self.found).into_iter().partition(Found::has_gap);
         let kept: Vec<bool> = gaps.iter().map(|gap| !self.is_known(gap, &ordinary, &gaps)).collect();
         let gaps = gaps.into_iter().zip(kept).filter(|(_, kept)| *kept);
         let gaps: Vec<GapState> = gaps.map(|(gap, _)| gap.into_gap_state()).collect();
         let solutions: Vec<ModeSolution> = ordinary.into_iter().map(Found::into_mode_solution).collect();
+        let exact = self.exact;
         for mode in &mut self.singular {
             let vertices = mode.set.vertices();
-            let is_vertex = |solution: &ModeSolution| {
-                vertices.iter().any(|vertex| same_point(vertex, &solution.normal_force))
+            let same = |one: &DVector<f64>, other: &DVector<f64>| {
+                if exact { one == other } else { same_point(one, other) }
             };
+            let is_vertex =
+                |solution: &ModeSolution| vertices.iter().any(|vertex| same(vertex, &solution.normal_force));
             let contained = solutions.iter().enumerate().filter(|(_, solution)| is_vertex(solution));
             let contained = contained.map(|(index, _)| index).collect();
             mode.contains = contained;
         }
         let closest = if solutions.is_empty() { self.closest_modes() } else { Vec::new() };
         let (counts, gap_counts, singular) = (self.counts, self.gap_counts, self.singular);
-        Solutions { counts, gap_counts, solutions, gaps, singular, closest }
+        let undecided = self.undecided;
+        Solutions { counts, gap_counts, solutions, gaps, singular, undecided, closest }
     }
 
     /// Merges boundary solutions with the solution of a neighbour that was not quite on the
@@ -365,109 +375,6 @@ impl<'a> Findings<'a> {
         });
         solved.collect()
     }
-}
-
-impl Found {
-    fn pattern(&self) -> &[ContactState] {
-        &self.patterns[0]
-    }
-
-    fn has_gap(&self) -> bool {
-        self.pattern().contains(&ContactState::Gap)
-    }
-
-    fn agrees_with(&self, other: &Self) -> bool {
-        let tolerance = self.candidate.tolerance + other.candidate.tolerance;
-        (&self.normal_force - &other.normal_force).amax() <= tolerance
-    }
-
-    fn absorb(&mut self, other: Self, listed: usize) {
-        self.pattern_count += other.pattern_count;
-        let room = listed.saturating_sub(self.patterns.len());
-        self.patterns.extend(other.patterns.into_iter().take(room));
-        for contact in other.candidate.zero.iter() {
-            self.candidate.zero.insert(contact);
-            self.candidate.unknowns[contact] = 0.0;
-            self.normal_force[contact] = 0.0;
-        }
-    }
-
-    /// Whether another finding is the same state with some gaps closed, at the face where this
-    /// state's shares end.
-    fn ends_at(&self, other: &Self, has_jump: &[bool]) -> bool {
-        let states = self.pattern().iter().zip(other.pattern()).enumerate();
-        let mut closed = 0;
-        for (contact, (&state, &face)) in states.filter(|(contact, _)| has_jump[*contact]) {
-            if state == face {
-                continue;
-            }
-            let end = if self.candidate.unknowns[contact] == 1.0 {
-                ContactState::Positive
-            } else {
-                ContactState::Negative
-            };
-            let at_end = self.candidate.at_end.contains(contact);
-            if !at_end || face != end {
-                return false;
-            }
-            closed += 1;
-        }
-        closed > 0 && self.agrees_with(other)
-    }
-
-    fn signs(&self) -> Vec<i8> {
-        let sign = |(contact, state): (usize, &ContactState)| match state {
-            _ if self.candidate.zero.contains(contact) => 0,
-            ContactState::Positive => 1,
-            ContactState::Negative => -1,
-            ContactState::Gap => 0,
-        };
-        self.pattern().iter().enumerate().map(sign).collect()
-    }
-
-    fn into_mode_solution(self) -> ModeSolution {
-        let pattern = sides(self.pattern());
-        ModeSolution {
-            signs: self.signs(),
-            y: self.normal_force.abs(),
-            determinant: self.candidate.determinant,
-            oriented_determinant: oriented(self.candidate.determinant, &pattern),
-            pattern,
-            on_boundary: self.candidate.zero.iter().collect(),
-            patterns: self.patterns.iter().map(|pattern| sides(pattern)).collect(),
-            pattern_count: self.pattern_count,
-            tolerance: self.candidate.tolerance,
-            normal_force: self.normal_force,
-        }
-    }
-
-    fn into_gap_state(self) -> GapState {
-        let in_gap =
-            (0..self.pattern().len()).filter(|&contact| self.pattern()[contact] == ContactState::Gap);
-        let share = |contact| GapShare { contact, lambda: self.candidate.unknowns[contact] };
-        GapState {
-            pattern: self.pattern().to_vec(),
-            shares: in_gap.map(share).collect(),
-            signs: self.signs(),
-            y: self.normal_force.abs(),
-            determinant: self.candidate.determinant,
-            on_boundary: self.candidate.zero.iter().collect(),
-            patterns: self.patterns,
-            pattern_count: self.pattern_count,
-            tolerance: self.candidate.tolerance,
-            normal_force: self.normal_force,
-        }
-    }
-}
-
-/// `p = D prod_k sigma_k` (theory, section 5).
-fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
-    pattern.iter().fold(determinant, |product, side| product * side.sign())
-}
-
-/// The sides of a pattern without gaps.
-fn sides(pattern: &[ContactState]) -> Vec<Side> {
-    pattern.iter().filter_map(|state| state.side()).collect()
 }
 
 /// The contacts whose normal forces are positive, and negative, somewhere in a set.

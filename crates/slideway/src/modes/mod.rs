@@ -42,10 +42,12 @@ pub mod batch;
 mod candidate;
 pub mod certificate;
 mod contact_set;
+mod decided;
 mod degenerate;
 mod enumeration;
 pub mod exhaustive;
 mod findings;
+mod found;
 mod problem;
 mod scaling;
 mod search;
@@ -56,11 +58,11 @@ pub use enumeration::{EnumerationError, Limits, enumerate};
 pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
-    GroupReport, GroupState, Method, PatternShares, Progress, SearchOptions, SearchResult, SolutionProduct,
-    StateCounts, StateKind, StateSet, StopReason, search,
+    GroupReport, GroupState, Method, PatternOutcomes, PatternShares, Progress, SearchOptions, SearchResult,
+    SolutionProduct, StateCounts, StateKind, StateLists, StateSet, StopReason, search,
 };
 pub use solutions::{
-    ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
-    Solutions,
+    Certificate, ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode,
+    SolutionSet, Solutions, UndecidedPattern,
 };
 pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};

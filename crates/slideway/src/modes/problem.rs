@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector};
 
 /// Relative difference below which `d_k^+` and `d_k^-` count as the same vector.
-const SAME_JUMP: f64 = 1e-12;
+pub(super) const SAME_JUMP: f64 = 1e-12;
 
 /// The side on which a contact is pressed: the sign `sigma` of its normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

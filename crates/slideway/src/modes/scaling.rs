@@ -1,7 +1,8 @@
 //! The mode problem in units in which tolerances are plain numbers.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 
+use super::certificate::ProblemView;
 use super::problem::{ModeProblem, Side};
 use super::solutions::ContactState;
 
@@ -20,10 +21,16 @@ pub(super) struct ScaledProblem {
     row_scale: DVector<f64>,
     pub(super) load_unit: f64,
     pub(super) has_jump: Vec<bool>,
+    /// How far the columns may be off; none if they are exact.
+    column_radius: Option<[DMatrix<f64>; 2]>,
 }
 
 impl ScaledProblem {
     pub(super) fn new(problem: &ModeProblem) -> Self {
+        Self::with_jumps(problem, |contact| problem.has_jump(contact))
+    }
+
+    fn with_jumps(problem: &ModeProblem, has_jump: impl Fn(usize) -> bool) -> Self {
         let contacts = problem.contacts();
         let [positive, negative] = Side::BOTH.map(|side| problem.columns(side));
         let row_scale = DVector::from_fn(contacts, |row, _| {
@@ -35,7 +42,7 @@ impl ScaledProblem {
 
         let load_size = right_hand_side.abs() + jumps_positive.abs().sup(&jumps_negative.abs()).column_sum();
         let load_unit = power_of_two_above(load_size.amax());
-        let has_jump: Vec<bool> = (0..contacts).map(|contact| problem.has_jump(contact)).collect();
+        let has_jump: Vec<bool> = (0..contacts).map(has_jump).collect();
         let mut jump_difference = (&jumps_positive - &jumps_negative) / load_unit;
         for (contact, mut column) in jump_difference.column_iter_mut().enumerate() {
             if !has_jump[contact] {
@@ -50,7 +57,35 @@ impl ScaledProblem {
             row_scale,
             load_unit,
             has_jump,
+            column_radius: None,
         }
+    }
+
+    /// The problem in the middle of bounds, with jumps wherever there may be one.
+    pub(super) fn within(problem: ProblemView<'_>) -> Self {
+        let mut scaled = Self::with_jumps(problem.centre, |contact| problem.has_jump(contact));
+        scaled.column_radius = problem.radii.map(|radii| {
+            let scale = DMatrix::from_diagonal(&scaled.row_scale);
+            Side::BOTH.map(|side| &scale * radii.columns.get(side))
+        });
+        scaled
+    }
+
+    /// How far `A N + B |N|` with `A = (c^+ - c^-) / 2` and `B = (c^+ + c^-) / 2` may be off per unit of each
+    /// `|N_k|`; none if the columns are exact.
+    pub(super) fn spread_of_columns(&self) -> Option<DMatrix<f64>> {
+        self.column_radius.as_ref().map(|[positive, negative]| positive + negative)
+    }
+
+    /// How far the column of a contact may be off, row by row; none if it is exact. For a contact in its
+    /// gap that is part of the radius of the right-hand side.
+    pub(super) fn column_radius(&self, contact: usize, state: ContactState) -> Option<DVectorView<'_, f64>> {
+        let side = match state {
+            ContactState::Positive => 0,
+            ContactState::Negative => 1,
+            ContactState::Gap => return None,
+        };
+        self.column_radius.as_ref().map(|radii| radii[side].column(contact))
     }
 
     pub(super) fn contacts(&self) -> usize {
@@ -115,6 +150,12 @@ impl ScaledProblem {
         let column_unit = if state == ContactState::Gap { self.load_unit } else { 1.0 };
         column_unit / self.row_scale[contact]
     }
+}
+
+/// The number of patterns, gap states included, or the largest `u64` if that is less.
+pub(super) fn patterns_of(problem: ProblemView<'_>) -> u64 {
+    let states = (0..problem.contacts()).map(|contact| if problem.has_jump(contact) { 3 } else { 2 });
+    states.fold(1, u64::saturating_mul)
 }
 
 /// The smallest power of two above `size`, kept within the range where its reciprocal is finite;

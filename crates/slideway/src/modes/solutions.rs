@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::certificate::Interval;
 use super::problem::Side;
 
 /// What one contact does in a pattern: pressed on one of its sides, or between its faces.
@@ -43,6 +44,72 @@ impl From<Side> for ContactState {
     }
 }
 
+/// What is proven of a solution, a gap state or a singular set.
+///
+/// Intervals hold one unknown per contact, as [`decide`](super::certificate::decide) has them for the state's
+/// first pattern: `y_k`, or the share `lambda_k` of a contact in its gap.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Certificate {
+    /// It exists for all values within the bounds of the data, strictly inside of its pattern.
+    Proven {
+        /// Encloses the solution for every value.
+        unknowns: Vec<Interval>,
+    },
+    /// The data are exact, and so is this solution on the boundary between patterns.
+    Boundary {
+        /// Encloses the solution.
+        unknowns: Vec<Interval>,
+        /// Contacts with `y_k = 0` or `lambda_k = 0`.
+        zero: Vec<usize>,
+        /// Contacts with `lambda_k = 1`.
+        full_share: Vec<usize>,
+    },
+    /// The data are exact, `D = 0`, and this is all that the pattern admits, but for the rounding of the result.
+    Singular,
+    /// It is a solution in the middle of the bounds, but may be none for other values within them.
+    OnBoundaryWithinBounds {
+        /// Encloses the solution of the pattern's equations for every value; none if `D = 0` could not be ruled
+        /// out.
+        unknowns: Option<Vec<Interval>>,
+        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
+        in_doubt: Vec<usize>,
+    },
+    /// It was found within tolerances only.
+    NotProven,
+}
+
+impl Certificate {
+    /// Proven bounds of the unknowns; none where there are none, and for singular sets.
+    pub fn unknowns(&self) -> Option<&[Interval]> {
+        match self {
+            Self::Proven { unknowns }
+            | Self::Boundary { unknowns, .. }
+            | Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), .. } => Some(unknowns),
+            Self::Singular | Self::OnBoundaryWithinBounds { unknowns: None, .. } | Self::NotProven => None,
+        }
+    }
+}
+
+impl Certificate {
+    /// Whether `D = 0` could not be ruled out for all values within bounds.
+    pub fn has_open_determinant(&self) -> bool {
+        matches!(self, Self::OnBoundaryWithinBounds { unknowns: None, .. })
+    }
+}
+
+/// A pattern of a problem within bounds that has no solution in the middle of the bounds, but may have one for
+/// other values within them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UndecidedPattern {
+    /// The state of each contact.
+    pub pattern: Vec<ContactState>,
+    /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None if
+    /// `D = 0` could not be ruled out.
+    pub unknowns: Option<Vec<Interval>>,
+    /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
+    pub in_doubt: Vec<usize>,
+}
+
 /// A solution with every contact pressed on a side or just about to change it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeSolution {
@@ -66,6 +133,8 @@ pub struct ModeSolution {
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
+    /// What is proven of it.
+    pub certificate: Certificate,
 }
 
 /// A state with at least one contact between its faces (theory, section 3, "Preload gap").
@@ -93,6 +162,8 @@ pub struct GapState {
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
+    /// What is proven of it.
+    pub certificate: Certificate,
 }
 
 /// How the preload friction of a contact in its gap is shared between the faces.
@@ -137,6 +208,17 @@ pub enum SolutionSet {
 }
 
 impl SolutionSet {
+    /// The set with the given vertices and extreme directions, which are all different.
+    pub(super) fn from_corners(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> Self {
+        match (vertices.len(), directions.len()) {
+            (0, _) => Self::Empty,
+            (1, 0) => Self::Point(vertices.swap_remove(0)),
+            (2, 0) => Self::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
+            (1, 1) => Self::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
+            _ => Self::Polytope { vertices, directions },
+        }
+    }
+
     /// The vertices of the set, none if it is empty or was not computed.
     pub fn vertices(&self) -> Vec<&DVector<f64>> {
         match self {
@@ -179,6 +261,8 @@ pub struct SingularMode {
     /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
     /// reported there as well.
     pub contains: Vec<usize>,
+    /// What is proven of it.
+    pub certificate: Certificate,
 }
 
 /// A regular pattern close to locking.
@@ -199,7 +283,8 @@ pub struct ClosestMode {
 pub struct PatternCounts {
     /// All `y_k > 0`.
     pub solution: u64,
-    /// Solutions with at least one `y_k = 0`, or a share `lambda` of 0 or 1.
+    /// Solutions with at least one `y_k = 0`, or a share `lambda` of 0 or 1; for data within bounds those for
+    /// which that could not be ruled out.
     pub boundary: u64,
     /// Some `y_k < 0`.
     pub no_solution: u64,
@@ -213,6 +298,8 @@ pub struct PatternCounts {
     /// or completed: it would have passed [`Limits::singular`](super::Limits::singular) or
     /// [`Limits::bases`](super::Limits::bases), or numbers overflowed.
     pub not_examined: u64,
+    /// Data within bounds only: [`UndecidedPattern`].
+    pub undecided: u64,
 }
 
 impl PatternCounts {
@@ -225,6 +312,7 @@ impl PatternCounts {
             + self.singular_point
             + self.singular_continuum
             + self.not_examined
+            + self.undecided
     }
 
     pub(super) fn count_set(&mut self, set: &SolutionSet) {
@@ -255,6 +343,8 @@ pub struct Solutions {
     /// Singular patterns that were examined, each set reported once, and those without a solution
     /// one by one.
     pub singular: Vec<SingularMode>,
+    /// Patterns that have a solution for some of the values within bounds only, if any, and none in their middle.
+    pub undecided: Vec<UndecidedPattern>,
     /// Up to four regular patterns with the smallest `|D|`, if `solutions` is empty.
     pub closest: Vec<ClosestMode>,
 }
@@ -268,9 +358,14 @@ impl Solutions {
     /// Whether there is nothing at all: no solution, no gap state, no singular pattern that admits
     /// something, and nothing left unexamined.
     pub fn is_jammed(&self) -> bool {
-        self.is_complete()
-            && self.solutions.is_empty()
+        self.is_complete() && self.admits_nothing()
+    }
+
+    /// Whether nothing was found.
+    pub(super) fn admits_nothing(&self) -> bool {
+        self.solutions.is_empty()
             && self.gaps.is_empty()
+            && self.undecided.is_empty()
             && self.singular.iter().all(|mode| mode.set == SolutionSet::Empty)
     }
 }

@@ -78,6 +78,8 @@ impl Sort {
     fn of(state: &GroupState) -> Self {
         match state {
             GroupState::Singular(mode) if mode.set.is_continuum() => Self::Continuum,
+            // Raw problems are exact: every pattern is decided.
+            GroupState::Undecided(_) => Self::Continuum,
             GroupState::Gap(_) => Self::Gap,
             GroupState::Singular(mode) if mode.pattern.contains(&ContactState::Gap) => Self::Gap,
             GroupState::Solution(_) | GroupState::Singular(_) => Self::Point,

@@ -81,7 +81,13 @@ pub(crate) fn low_rank(random: &mut Random, size: usize, rank: usize, strength: 
 /// All arguments, and each of them switched off.
 pub(crate) fn switches() -> [SearchOptions; 6] {
     let all = Arguments::default();
-    let none = Arguments { groups: false, propagation: false, uniqueness: false, low_rank: false };
+    let none = Arguments {
+        groups: false,
+        propagation: false,
+        uniqueness: false,
+        low_rank: false,
+        every_pattern: false,
+    };
     [
         all,
         Arguments { groups: false, ..all },

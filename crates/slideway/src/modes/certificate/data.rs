@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::interval::Interval;
 use super::matrix::IntervalMatrix;
+use crate::modes::problem::SAME_JUMP;
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, ProblemPart, Side};
 
 /// Bounds that do not make a mode problem.
@@ -38,10 +39,10 @@ pub struct IntervalModeProblem {
 
 /// How far the numbers of a problem may be from its middle.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Radii {
-    pub(super) columns: BySide<DMatrix<f64>>,
-    pub(super) jumps: BySide<DMatrix<f64>>,
-    pub(super) right_hand_side: DVector<f64>,
+pub(in crate::modes) struct Radii {
+    pub(in crate::modes) columns: BySide<DMatrix<f64>>,
+    pub(in crate::modes) jumps: BySide<DMatrix<f64>>,
+    pub(in crate::modes) right_hand_side: DVector<f64>,
 }
 
 impl IntervalModeProblem {
@@ -131,6 +132,12 @@ impl IntervalModeProblem {
 }
 
 impl Radii {
+    /// Whether all numbers are exact.
+    pub(in crate::modes) fn are_zero(&self) -> bool {
+        let parts = [&self.columns, &self.jumps].map(|part| part.positive.iter().chain(&part.negative));
+        parts.into_iter().flatten().chain(&self.right_hand_side).all(|&radius| radius == 0.0)
+    }
+
     fn first_not_finite(&self) -> Option<(ProblemPart, f64)> {
         let mut parts = vec![(ProblemPart::RightHandSide, self.right_hand_side.as_slice())];
         for side in Side::BOTH {
@@ -149,8 +156,8 @@ impl Radii {
 /// Made from a reference to a [`ModeProblem`] or to an [`IntervalModeProblem`].
 #[derive(Debug, Clone, Copy)]
 pub struct ProblemView<'a> {
-    pub(super) centre: &'a ModeProblem,
-    pub(super) radii: Option<&'a Radii>,
+    pub(in crate::modes) centre: &'a ModeProblem,
+    pub(in crate::modes) radii: Option<&'a Radii>,
 }
 
 impl<'a> From<&'a ModeProblem> for ProblemView<'a> {
@@ -167,9 +174,9 @@ impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
 
 /// One column of the data: its middle, and how far it may be off.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column<'a> {
-    pub(super) centre: &'a [f64],
-    pub(super) radius: Option<&'a [f64]>,
+pub(in crate::modes) struct Column<'a> {
+    pub(in crate::modes) centre: &'a [f64],
+    pub(in crate::modes) radius: Option<&'a [f64]>,
 }
 
 impl Column<'_> {
@@ -180,12 +187,17 @@ impl Column<'_> {
 }
 
 impl<'a> ProblemView<'a> {
-    pub(super) fn contacts(self) -> usize {
+    pub(in crate::modes) fn contacts(self) -> usize {
         self.centre.contacts()
     }
 
+    /// The same problem, as an exact one if all radii are zero.
+    pub(in crate::modes) fn without_zero_radii(self) -> Self {
+        Self { radii: self.radii.filter(|radii| !radii.are_zero()), ..self }
+    }
+
     /// `c_k^{side}`.
-    pub(super) fn column(self, contact: usize, side: Side) -> Column<'a> {
+    pub(in crate::modes) fn column(self, contact: usize, side: Side) -> Column<'a> {
         Column {
             centre: column_slice(self.centre.columns(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.columns.get(side), contact)),
@@ -193,7 +205,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// `d_k^{side}`.
-    pub(super) fn jump(self, contact: usize, side: Side) -> Column<'a> {
+    pub(in crate::modes) fn jump(self, contact: usize, side: Side) -> Column<'a> {
         Column {
             centre: column_slice(self.centre.jumps(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.jumps.get(side), contact)),
@@ -201,7 +213,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// `N(0)`.
-    pub(super) fn load(self) -> Column<'a> {
+    pub(in crate::modes) fn load(self) -> Column<'a> {
         Column {
             centre: self.centre.right_hand_side().as_slice(),
             radius: self.radii.map(|radii| radii.right_hand_side.as_slice()),
@@ -209,10 +221,39 @@ impl<'a> ProblemView<'a> {
     }
 
     /// Whether `d_k^+` and `d_k^-` may differ at all.
-    pub(super) fn may_jump(self, contact: usize) -> bool {
+    pub(in crate::modes) fn may_jump(self, contact: usize) -> bool {
         let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
         let spread = |column: Column<'_>| column.radius.is_some_and(|r| r.iter().any(|&value| value > 0.0));
         one.centre != other.centre || spread(one) || spread(other)
+    }
+
+    /// Whether the right-hand side may jump where this contact changes its side, by more than rounding.
+    pub(in crate::modes) fn has_jump(self, contact: usize) -> bool {
+        let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
+        let (Some(one_radius), Some(other_radius)) = (one.radius, other.radius) else {
+            return self.centre.has_jump(contact);
+        };
+        let rows = 0..self.contacts();
+        let spread = rows.clone().map(|row| one_radius[row] + other_radius[row]).fold(0.0, f64::max);
+        let size = rows.map(|row| one.centre[row].abs().max(other.centre[row].abs())).fold(0.0, f64::max);
+        self.centre.has_jump(contact) || spread > SAME_JUMP * size
+    }
+
+    /// Whether an entry of a column or a jump vector differs from zero for some value within the bounds.
+    pub(in crate::modes) fn couples(self, contact: usize, row: usize) -> bool {
+        let nonzero = |column: Column<'_>| {
+            column.centre[row] != 0.0 || column.radius.is_some_and(|radius| radius[row] != 0.0)
+        };
+        Side::BOTH
+            .into_iter()
+            .any(|side| nonzero(self.column(contact, side)) || nonzero(self.jump(contact, side)))
+    }
+
+    /// Whether `d_k^+` and `d_k^-` differ in a row for some value within the bounds.
+    pub(in crate::modes) fn jumps_in_row(self, contact: usize, row: usize) -> bool {
+        let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
+        let spread = |column: Column<'_>| column.radius.is_some_and(|radius| radius[row] != 0.0);
+        one.centre[row] != other.centre[row] || spread(one) || spread(other)
     }
 
     /// The side whose jump vector is in the constant part of the right-hand side; for a contact in

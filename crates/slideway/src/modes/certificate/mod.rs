@@ -35,6 +35,7 @@ mod preconditioned;
 mod propagation;
 mod system;
 
+pub(super) use data::{Column, Radii};
 pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};

@@ -9,15 +9,19 @@ use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
 use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
-use crate::modes::certificate::Interval;
-use crate::modes::problem::{ModeProblem, ModeProblemError};
-use crate::modes::solutions::{SolutionSet, Solutions};
+use crate::modes::certificate::{Interval, ProblemView};
+use crate::modes::problem::{ModeProblemError, Side};
+use crate::modes::scaling::patterns_of;
+use crate::modes::solutions::{Certificate, ContactState, SolutionSet, Solutions};
+
+/// A problem of so few patterns is not split into groups, so that the outcome of each is known.
+const WHOLE_UP_TO: u64 = 64;
 
 /// A group's contacts and the right-hand side of its equations, bit by bit.
 type GroupKey = (Vec<usize>, Vec<u64>);
 
 pub(super) struct Composer<'p, 'm, 'c> {
-    problem: &'p ModeProblem,
+    problem: ProblemView<'p>,
     options: &'p SearchOptions,
     groups: Groups,
     monitor: &'m mut Monitor<'c>,
@@ -31,11 +35,13 @@ pub(super) struct Composer<'p, 'm, 'c> {
 
 impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     pub(super) fn new(
-        problem: &'p ModeProblem,
+        problem: ProblemView<'p>,
         options: &'p SearchOptions,
         monitor: &'m mut Monitor<'c>,
     ) -> Self {
-        let groups = if options.arguments.groups { Groups::new(problem) } else { Groups::whole(problem) };
+        let few = options.arguments.every_pattern && patterns_of(problem) <= WHOLE_UP_TO;
+        let split = options.arguments.groups && !few;
+        let groups = if split { Groups::new(problem) } else { Groups::whole(problem) };
         Self {
             problem,
             options,
@@ -51,7 +57,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     /// All solutions of the problem.
     pub(super) fn solve(&mut self) -> Result<SolutionProduct, ModeProblemError> {
         let all: Vec<usize> = (0..self.groups.members.len()).collect();
-        let mut product = self.solve_groups(&all, &Load::exact(self.problem), (0.0, 1.0))?;
+        let mut product = self.solve_groups(&all, &Load::of(self.problem), (0.0, 1.0))?;
         product.prune();
         Ok(product)
     }
@@ -101,7 +107,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         if rest.is_empty() {
             return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts: first });
         }
-        if admits_singular_sets(&answer.solutions) {
+        if admits_sets(&answer.solutions) {
             // The others would have to be solved for a whole set of loads: solve all together.
             let mut contacts: Vec<usize> =
                 part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
@@ -114,7 +120,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         let share = (work.1 - own) / alternatives.len().max(1) as f64;
         let mut done = work.0 + own;
         for alternative in &mut alternatives {
-            let load = self.load_with(&first, &answer, &alternative.state, load);
+            let load = self.load_with(&first, &alternative.state, load);
             alternative.dependents = self.solve_groups(rest, &load, (done, share))?;
             done += share;
         }
@@ -130,12 +136,16 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         }
         let restricted = LoadedProblem::restricted(self.problem, contacts, load)?;
         let mut answer = search_group(&restricted, self.options, self.monitor);
-        self.monitor.count_found(answer.solutions.solutions.len() + answer.solutions.gaps.len());
+        let solutions = &answer.solutions;
+        self.monitor.count_found(solutions.solutions.len() + solutions.gaps.len());
         answer.report.contacts = contacts.to_vec();
-        self.all_examined &= answer.solutions.is_complete();
+        self.all_examined &= solutions.is_complete();
         self.file_report(&answer.report);
         let answer = Rc::new(answer);
-        self.solved.insert(key, Rc::clone(&answer));
+        // What was decided together with other contacts holds for their states only.
+        if !answer.depends_on_ancestors {
+            self.solved.insert(key, Rc::clone(&answer));
+        }
         Ok(answer)
     }
 
@@ -148,25 +158,49 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 
     /// The right-hand side with `sum_k d_k - c_k y_k` of a group's contacts.
-    fn load_with(
-        &mut self,
-        contacts: &[usize],
-        answer: &GroupAnswer,
-        state: &GroupState,
-        load: &Load,
-    ) -> Load {
+    fn load_with(&mut self, contacts: &[usize], state: &GroupState, load: &Load) -> Load {
         let mut load = load.clone();
-        let Some(force) = state.normal_force() else { return load };
-        let pattern = state.pattern();
-        let enclosure = answer.enclosures.get(&pattern);
-        self.chain_proven &= enclosure.is_some();
-        for (at, (&contact, &state)) in contacts.iter().zip(&pattern).enumerate() {
-            let y = force[at].abs();
-            let radius = enclosure.map_or(0.0, |unknowns| distance(unknowns[at], y));
-            load.add_contact(self.problem, contact, state, y, radius);
+        let unknowns = state.unknowns();
+        self.chain_proven &= unknowns.is_some();
+        let force = state.normal_force();
+        for (at, (&contact, state)) in contacts.iter().zip(state.pattern()).enumerate() {
+            let bounds = unknowns.map(|unknowns| non_negative(unknowns[at]));
+            let y = match (force, bounds) {
+                (Some(force), _) => force[at].abs(),
+                (None, Some(bounds)) => bounds.middle(),
+                (None, None) => 0.0,
+            };
+            let radius = bounds.map_or(0.0, |bounds| distance(bounds, y));
+            load.add_contact(self.problem, contact, state, (y, radius));
         }
+        self.add_doubts(contacts, state, &mut load);
         load
     }
+
+    /// What contacts add that may just have changed their side, in patterns that were merged with the state's
+    /// own.
+    fn add_doubts(&self, contacts: &[usize], state: &GroupState, load: &mut Load) {
+        let Some(Certificate::OnBoundaryWithinBounds { unknowns: Some(unknowns), in_doubt }) =
+            state.certificate()
+        else {
+            return;
+        };
+        let pattern = state.pattern();
+        for &at in in_doubt {
+            let other = match pattern[at] {
+                ContactState::Positive => Side::Negative,
+                ContactState::Negative => Side::Positive,
+                ContactState::Gap => continue,
+            };
+            load.add_doubt(self.problem, contacts[at], other, unknowns[at].magnitude());
+        }
+    }
+}
+
+/// The part of an interval from 0 on; zero if there is none.
+fn non_negative(interval: Interval) -> Interval {
+    let all = Interval::new(0.0, f64::INFINITY).unwrap_or(Interval::REAL_LINE);
+    interval.intersection(all).unwrap_or(Interval::ZERO)
 }
 
 /// How far a number within bounds may be from `y`, rounded up.
@@ -186,9 +220,14 @@ fn alternatives(solutions: &Solutions) -> Vec<Alternative> {
     let states = solutions.solutions.iter().cloned().map(GroupState::Solution);
     let states = states.chain(solutions.gaps.iter().cloned().map(GroupState::Gap));
     let states = states.chain(singular.cloned().map(GroupState::Singular));
+    let states = states.chain(solutions.undecided.iter().cloned().map(GroupState::Undecided));
     states.map(|state| Alternative { state, dependents: SolutionProduct::default() }).collect()
 }
 
-fn admits_singular_sets(solutions: &Solutions) -> bool {
+/// Whether there is something besides states whose unknowns are known, up to errors.
+fn admits_sets(solutions: &Solutions) -> bool {
     solutions.singular.iter().any(|mode| mode.set != SolutionSet::Empty)
+        || solutions.undecided.iter().any(|undecided| undecided.unknowns.is_none())
+        || solutions.solutions.iter().any(|solution| solution.certificate.has_open_determinant())
+        || solutions.gaps.iter().any(|gap| gap.certificate.has_open_determinant())
 }

@@ -1,18 +1,21 @@
 //! The search within one group of contacts.
 
 use super::cells::{self, Walked};
-use super::leaf::{Enclosures, Leaves};
+use super::every;
+use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::low_rank::LowRank;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
-use super::report::{GroupReport, Method, PatternShares, SearchOptions, StopReason};
+use super::report::{GroupReport, Method, PatternOutcomes, PatternShares, SearchOptions};
 use super::tree::{Tree, TreeReport};
 use super::uniqueness;
 use crate::modes::findings::Findings;
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::{ContactState, Solutions};
 
+/// All patterns of a group are tried if they are so few.
+const EVERY_PATTERN_UP_TO: u64 = 256;
 /// The fewest contacts for which the cells of an arrangement are worth a look.
 const CELLS_FROM: usize = 13;
 
@@ -20,41 +23,32 @@ const CELLS_FROM: usize = 13;
 #[derive(Debug, Clone)]
 pub(super) struct GroupAnswer {
     pub(super) solutions: Solutions,
-    pub(super) enclosures: Enclosures,
     pub(super) report: GroupReport,
+    /// Whether it may differ for other states of the contacts that the right-hand side comes from.
+    pub(super) depends_on_ancestors: bool,
 }
 
 /// Finds all solutions of the problem of one group with the cheapest method that applies.
 pub(super) fn search_group(
-    loaded: &LoadedProblem,
+    loaded: &LoadedProblem<'_>,
     options: &SearchOptions,
     monitor: &mut Monitor<'_>,
 ) -> GroupAnswer {
-    let scaled = ScaledProblem::new(&loaded.problem);
-    let load_radius = scaled.scaled_load(&loaded.radius);
+    let scaled = ScaledProblem::within(loaded.view());
     let mut leaves = Leaves::new(loaded, Findings::new(&scaled, &options.limits), options.certify);
-    let arguments = options.arguments;
-    let solved = if arguments.propagation || arguments.uniqueness {
-        Propagation::new(&scaled, &load_radius)
+    let few = scaled.patterns_from(0).1 <= EVERY_PATTERN_UP_TO;
+    let (method, tree) = if options.arguments.every_pattern && few {
+        let tree = every::try_all(loaded, &scaled, &mut leaves, options.certify, monitor);
+        (Method::EveryPattern, tree)
     } else {
-        None
+        search_large_group(loaded, &scaled, options, (&mut leaves, monitor))
     };
-    let proof = solved.as_ref().filter(|_| arguments.uniqueness);
-    let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut leaves, monitor));
-    let answered = unique.or_else(|| {
-        let worthwhile = arguments.low_rank && scaled.contacts() >= CELLS_FROM;
-        if worthwhile { by_cells(&scaled, &mut leaves, monitor) } else { None }
-    });
-    let (method, tree) = answered.unwrap_or_else(|| {
-        let propagation = solved.as_ref().filter(|_| arguments.propagation);
-        let tree = Tree::new(&scaled, propagation, &load_radius, options).run(&mut leaves, monitor);
-        (Method::BranchAndBound, tree)
-    });
     // Rounding errors in the walk along cells are not bounded.
     let exclusions_proven = !matches!(method, Method::Cells { .. });
-    let unproven = leaves.unproven();
-    let (mut findings, enclosures) = leaves.into_findings();
+    let (unproven, depends_on_ancestors) = (leaves.unproven(), leaves.depends_on_ancestors());
+    let mut findings = leaves.into_findings();
     findings.sort();
+    let solutions = findings.into_solutions();
     let report = GroupReport {
         contacts: (0..scaled.contacts()).collect(),
         method,
@@ -63,11 +57,41 @@ pub(super) fn search_group(
         pivots: tree.pivots,
         shares: tree.shares,
         loads: 1,
+        barren_loads: u64::from(solutions.admits_nothing()),
         unproven_patterns: unproven,
         proven: exclusions_proven && unproven == 0,
+        outcomes: (method == Method::EveryPattern).then(|| PatternOutcomes::of(&solutions)),
         exclusions: tree.exclusions,
     };
-    GroupAnswer { solutions: findings.into_solutions(), enclosures, report }
+    GroupAnswer { solutions, report, depends_on_ancestors }
+}
+
+/// Searches a group of which not every pattern is tried.
+fn search_large_group(
+    loaded: &LoadedProblem<'_>,
+    scaled: &ScaledProblem,
+    options: &SearchOptions,
+    (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
+) -> (Method, TreeReport) {
+    let load_radius = scaled.scaled_load(&loaded.right_hand_side_radius());
+    let arguments = options.arguments;
+    let solved = if arguments.propagation || arguments.uniqueness {
+        Propagation::new(scaled, &load_radius)
+    } else {
+        None
+    };
+    let continuous = (0..scaled.contacts()).all(|contact| !loaded.view().may_jump(contact));
+    let proof = solved.as_ref().filter(|_| arguments.uniqueness && continuous);
+    let unique = proof.and_then(|solved| by_uniqueness(scaled, solved, leaves, monitor));
+    let answered = unique.or_else(|| {
+        let large = scaled.contacts() >= CELLS_FROM && !loaded.has_spread_columns();
+        if arguments.low_rank && large { by_cells(scaled, leaves, monitor) } else { None }
+    });
+    answered.unwrap_or_else(|| {
+        let propagation = solved.as_ref().filter(|_| arguments.propagation);
+        let tree = Tree::new(scaled, propagation, &load_radius, options).run(leaves, monitor);
+        (Method::BranchAndBound, tree)
+    })
 }
 
 /// The only solution, if a proof says that there is exactly one.
@@ -79,16 +103,18 @@ fn by_uniqueness(
 ) -> Option<(Method, TreeReport)> {
     let method = uniqueness::proof(problem, solved)?;
     let pattern = uniqueness::only_pattern(problem, solved)?;
-    let mut report = TreeReport { nodes: 1, ..TreeReport::default() };
-    if !monitor.visit(0.0, 0) {
-        report.shares = PatternShares { unexplored: 1.0, ..PatternShares::default() };
-    } else if leaves.examine(pattern).is_err() {
-        monitor.stop(StopReason::SolutionLimit);
-    } else {
+    let shares = if monitor.visit(0.0, 0) {
+        match leaves.examine_only(&pattern) {
+            Ok(true) => {}
+            Ok(false) => return None,
+            Err(reason) => monitor.stop(reason),
+        }
         let examined = (-log2_patterns(problem)).exp2();
-        report.shares = PatternShares { uniqueness: 1.0 - examined, examined, ..PatternShares::default() };
-    }
-    Some((method, report))
+        PatternShares { uniqueness: 1.0 - examined, examined, ..PatternShares::default() }
+    } else {
+        PatternShares { unexplored: 1.0, ..PatternShares::default() }
+    };
+    Some((method, TreeReport { nodes: 1, shares, ..TreeReport::default() }))
 }
 
 /// The solutions among the cells of an arrangement, if the coupling is of low rank.
@@ -103,8 +129,8 @@ fn by_cells(
     for sides in candidates {
         let pattern: Vec<ContactState> =
             sides.iter().map(|&side| ContactState::PRESSED[usize::from(side)]).collect();
-        if leaves.examine(pattern).is_err() {
-            monitor.stop(StopReason::SolutionLimit);
+        if let Err(reason) = leaves.examine(&pattern) {
+            monitor.stop(reason);
             break;
         }
     }

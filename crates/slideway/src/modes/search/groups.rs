@@ -1,12 +1,12 @@
 //! Groups of contacts that depend on one another.
 //!
 //! Contact `k` acts on equation `i` where `c_k^+`, `c_k^-`, `d_k^+` or `d_k^-` has an entry in row
-//! `i`. The strongly connected components of that graph are the diagonal blocks of a block-triangular
+//! `i` that is not zero, or need not be within the bounds of the data. The strongly connected components of that graph are the diagonal blocks of a block-triangular
 //! problem: a group needs the solution of the groups that act on it, and no other (theory, section
 //! 4 (d)). A contact whose right-hand side jumps stays together with all equations that the jump
 //! reaches, because its gap states depend on all of them.
 
-use crate::modes::problem::{ModeProblem, Side};
+use crate::modes::certificate::ProblemView;
 
 /// Groups in an order in which each acts on later ones only.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    pub(super) fn new(problem: &ModeProblem) -> Self {
+    pub(super) fn new(problem: ProblemView<'_>) -> Self {
         let graph = coupling_graph(problem);
         let mut members = strong_components(&graph);
         // Tarjan's algorithm finishes what is acted on before what acts.
@@ -45,7 +45,7 @@ impl Groups {
     }
 
     /// All contacts in one group.
-    pub(super) fn whole(problem: &ModeProblem) -> Self {
+    pub(super) fn whole(problem: ProblemView<'_>) -> Self {
         Self { members: vec![(0..problem.contacts()).collect()], acts_on: vec![Vec::new()] }
     }
 
@@ -83,18 +83,14 @@ fn join(part_of: &mut [usize], one: usize, other: usize) {
 }
 
 /// For each contact the equations that it acts on, and the contacts that must stay with it.
-fn coupling_graph(problem: &ModeProblem) -> Vec<Vec<usize>> {
+fn coupling_graph(problem: ProblemView<'_>) -> Vec<Vec<usize>> {
     let contacts = problem.contacts();
     let mut graph: Vec<Vec<usize>> = vec![Vec::new(); contacts];
     for contact in 0..contacts {
         for row in (0..contacts).filter(|&row| row != contact) {
-            let nonzero = |side| {
-                problem.columns(side)[(row, contact)] != 0.0 || problem.jumps(side)[(row, contact)] != 0.0
-            };
-            if Side::BOTH.into_iter().any(nonzero) {
+            if problem.couples(contact, row) {
                 graph[contact].push(row);
-                let [from, to] = Side::BOTH.map(|side| problem.jumps(side)[(row, contact)]);
-                if problem.has_jump(contact) && from != to {
+                if problem.has_jump(contact) && problem.jumps_in_row(contact, row) {
                     graph[row].push(contact);
                 }
             }
@@ -154,6 +150,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector, dmatrix};
 
     use super::*;
+    use crate::modes::problem::ModeProblem;
 
     fn groups(coupling: &DMatrix<f64>, jumps: DMatrix<f64>) -> Groups {
         let contacts = coupling.nrows();
@@ -164,7 +161,7 @@ mod tests {
             DMatrix::zeros(contacts, contacts),
             DVector::zeros(contacts),
         );
-        Groups::new(&problem.expect("shapes fit"))
+        Groups::new((&problem.expect("shapes fit")).into())
     }
 
     #[test]

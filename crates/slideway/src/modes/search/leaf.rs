@@ -1,94 +1,107 @@
 //! The outcome of single patterns, and whether it is proven.
 
-use std::collections::HashMap;
-
 use super::load::LoadedProblem;
 use super::report::StopReason;
-use crate::modes::certificate::{Decision, ExactSet, Interval, IntervalModeProblem, decide};
-use crate::modes::findings::{Findings, PatternOutcome};
+use crate::modes::certificate::{Decision, decide};
+use crate::modes::decided::Filed;
+use crate::modes::findings::Findings;
 use crate::modes::solutions::ContactState;
 
-/// Proven bounds of the unknowns of each pattern that has a solution.
-pub(super) type Enclosures = HashMap<Vec<ContactState>, Vec<Interval>>;
-
-/// What proofs refer to.
-enum Proofs<'a> {
-    None,
-    Exact(&'a LoadedProblem),
-    /// All right-hand sides within bounds.
-    Within(Box<IntervalModeProblem>),
-}
-
-/// Solves patterns one by one.
+/// Decides patterns one by one.
 pub(super) struct Leaves<'a> {
-    proofs: Proofs<'a>,
+    problem: &'a LoadedProblem<'a>,
     findings: Findings<'a>,
-    enclosures: Enclosures,
+    certify: bool,
     /// Patterns whose outcome is not proven.
     unproven: u64,
+    decided_jointly: bool,
 }
 
 impl<'a> Leaves<'a> {
     /// Patterns of `problem`, of which `findings` has the scaled form.
-    pub(super) fn new(problem: &'a LoadedProblem, findings: Findings<'a>, certify: bool) -> Self {
-        let proofs = if !certify {
-            Proofs::None
-        } else if problem.is_exact() {
-            Proofs::Exact(problem)
-        } else {
-            problem.within_bounds().map_or(Proofs::None, |problem| Proofs::Within(Box::new(problem)))
-        };
-        Self { proofs, findings, enclosures: Enclosures::new(), unproven: 0 }
+    pub(super) fn new(problem: &'a LoadedProblem<'a>, findings: Findings<'a>, certify: bool) -> Self {
+        let exact = certify && problem.is_part_of_exact_problem();
+        let findings = if exact { findings.exact() } else { findings };
+        Self { problem, findings, certify, unproven: 0, decided_jointly: false }
     }
 
     /// Files what a pattern admits.
-    pub(super) fn examine(&mut self, mut pattern: Vec<ContactState>) -> Result<(), StopReason> {
-        let outcome = self.findings.examine_leaf(&mut pattern).map_err(|_| StopReason::SolutionLimit)?;
-        let verdict = match &self.proofs {
-            Proofs::None => None,
-            Proofs::Exact(loaded) => Some(decide(&loaded.problem, &pattern)),
-            Proofs::Within(problem) => Some(decide(problem.as_ref(), &pattern)),
-        };
-        match verdict.map(|verdict| verdict.decision).filter(|decision| confirms(decision, &outcome)) {
-            None => self.unproven += 1,
-            Some(Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) => {
-                self.enclosures.insert(pattern, unknowns);
-            }
-            Some(_) => {}
+    pub(super) fn examine(&mut self, pattern: &[ContactState]) -> Result<(), StopReason> {
+        if !self.certify {
+            return self.examine_within_tolerances(pattern);
         }
+        // Rational arithmetic on very many patterns takes too long.
+        if self.findings.has_examined_enough() && self.findings.is_suspect(pattern) {
+            self.findings.leave_unexamined(pattern, pattern.len());
+            return Ok(());
+        }
+        let decision = self.decide(pattern);
+        self.file(pattern, decision)
+    }
+
+    /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
+    /// together with the contacts that the right-hand side comes from.
+    fn decide(&mut self, pattern: &[ContactState]) -> Decision {
+        let decision = decide(self.problem.view(), pattern).decision;
+        if !matches!(decision, Decision::Undecided { .. }) || !self.problem.is_part_of_exact_problem() {
+            return decision;
+        }
+        self.decided_jointly = true;
+        self.problem.decide_jointly(pattern).unwrap_or(decision)
+    }
+
+    /// Files a pattern by its decision.
+    fn file(&mut self, pattern: &[ContactState], decision: Decision) -> Result<(), StopReason> {
+        let undecided = matches!(decision, Decision::Undecided { .. });
+        if undecided && self.problem.is_part_of_exact_problem() {
+            return self.examine_within_tolerances(pattern);
+        }
+        let filed = self.findings.file_decision(pattern, decision).map_err(|_| StopReason::SolutionLimit)?;
+        self.unproven += u64::from(filed == Filed::NotProven);
         Ok(())
     }
 
-    /// How many solutions, gap states and singular sets have been found so far.
+    fn examine_within_tolerances(&mut self, pattern: &[ContactState]) -> Result<(), StopReason> {
+        self.unproven += 1;
+        self.findings.examine_leaf(pattern).map_err(|_| StopReason::SolutionLimit)
+    }
+
+    /// Files the only pattern that can have a solution. False, with nothing filed, if it is not certain to
+    /// have it for all values within bounds.
+    pub(super) fn examine_only(&mut self, pattern: &[ContactState]) -> Result<bool, StopReason> {
+        if !self.certify {
+            return self.examine_within_tolerances(pattern).map(|()| true);
+        }
+        let decision = self.decide(pattern);
+        let certain = matches!(decision, Decision::Solution { .. } | Decision::Boundary { .. });
+        if certain { self.file(pattern, decision).map(|()| true) } else { Ok(false) }
+    }
+
+    /// Counts a pattern that is proven to have no solution and `D != 0`, with the size of `D` up to a factor
+    /// that is the same for all patterns without a gap.
+    pub(super) fn exclude(&mut self, pattern: &[ContactState], determinant: f64) {
+        let in_gap = pattern.contains(&ContactState::Gap);
+        if !in_gap {
+            self.findings.offer_closest(pattern, determinant);
+        }
+        self.findings.count_no_solution(in_gap);
+    }
+
+    /// How many solutions, gap states, singular sets and undecided patterns have been found so far.
     pub(super) fn found(&self) -> usize {
         self.findings.found()
+    }
+
+    /// Whether some pattern was decided together with the contacts that the right-hand side comes from.
+    pub(super) fn depends_on_ancestors(&self) -> bool {
+        self.decided_jointly
     }
 
     pub(super) fn unproven(&self) -> u64 {
         self.unproven
     }
 
-    pub(super) fn into_findings(self) -> (Findings<'a>, Enclosures) {
-        (self.findings, self.enclosures)
-    }
-}
-
-/// Whether a proven decision is what the solution within tolerances says.
-fn confirms(decision: &Decision, outcome: &PatternOutcome) -> bool {
-    match (decision, outcome) {
-        (Decision::NoSolution { .. }, PatternOutcome::NoSolution)
-        | (Decision::Singular { set: ExactSet::Empty }, PatternOutcome::Locked) => true,
-        (Decision::Solution { .. }, PatternOutcome::Solution { on_boundary }) => on_boundary.is_empty(),
-        (Decision::Boundary { zero, full_share, .. }, PatternOutcome::Solution { on_boundary }) => {
-            let mut exact: Vec<usize> = zero.iter().chain(full_share).copied().collect();
-            let mut found = on_boundary.clone();
-            exact.sort_unstable();
-            found.sort_unstable();
-            exact == found
-        }
-        (Decision::Singular { set }, PatternOutcome::Singular) => {
-            !matches!(set, ExactSet::Empty | ExactSet::NotComputed)
-        }
-        _ => false,
+    pub(super) fn into_findings(self) -> Findings<'a> {
+        self.findings
     }
 }

@@ -34,8 +34,10 @@
 mod cells;
 mod composition;
 mod count;
+mod every;
 mod group;
 mod groups;
+mod joined;
 mod leaf;
 mod load;
 mod low_rank;
@@ -45,6 +47,7 @@ mod propagation;
 mod relaxation;
 mod report;
 mod result;
+mod sieve;
 mod simplex;
 mod states;
 mod tree;
@@ -55,13 +58,14 @@ use std::ops::ControlFlow;
 pub use count::BigCount;
 pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
 pub use report::{
-    Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternShares, Progress,
-    SearchOptions, StopReason,
+    Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternOutcomes,
+    PatternShares, Progress, SearchOptions, StopReason,
 };
-pub use result::SearchResult;
+pub use result::{SearchResult, StateLists};
 pub use states::StateSet;
 
-use super::problem::{ModeProblem, ModeProblemError};
+use super::certificate::ProblemView;
+use super::problem::ModeProblemError;
 use composition::Composer;
 use monitor::Monitor;
 
@@ -89,11 +93,12 @@ use monitor::Monitor;
 /// assert_eq!(result.product.states().take(10).count(), 10);
 /// # Ok::<(), slideway::modes::ModeProblemError>(())
 /// ```
-pub fn search(
-    problem: &ModeProblem,
+pub fn search<'a>(
+    problem: impl Into<ProblemView<'a>>,
     options: &SearchOptions,
     progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<SearchResult, ModeProblemError> {
+    let problem = problem.into().without_zero_radii();
     let mut monitor = Monitor::new(options.nodes, progress);
     let mut composer = Composer::new(problem, options, &mut monitor);
     let product = composer.solve()?;

@@ -3,7 +3,10 @@
 use nalgebra::DVector;
 
 use super::count::BigCount;
-use crate::modes::solutions::{ContactState, GapState, ModeSolution, SingularMode, SolutionSet};
+use crate::modes::certificate::Interval;
+use crate::modes::solutions::{
+    Certificate, ContactState, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
+};
 
 /// All solutions of a set of contacts: one alternative of every factor, in any combination.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,6 +42,8 @@ pub enum GroupState {
     Gap(GapState),
     /// What a singular pattern admits; not empty.
     Singular(SingularMode),
+    /// Data within bounds only: no solution in the middle of the bounds, but perhaps for other values.
+    Undecided(UndecidedPattern),
 }
 
 /// How many solutions there are of each kind.
@@ -50,6 +55,8 @@ pub struct StateCounts {
     pub gap_states: BigCount,
     /// Combinations with the set of a singular pattern.
     pub singular: BigCount,
+    /// Combinations that may be solutions for some of the values within bounds only.
+    pub undecided: BigCount,
 }
 
 /// A combination of solutions of all groups.
@@ -66,6 +73,7 @@ impl GroupState {
             Self::Solution(_) => StateKind::Solution,
             Self::Gap(_) => StateKind::Gap,
             Self::Singular(_) => StateKind::Singular,
+            Self::Undecided(_) => StateKind::Undecided,
         }
     }
 
@@ -75,16 +83,35 @@ impl GroupState {
             Self::Solution(solution) => solution.pattern.iter().map(|&side| side.into()).collect(),
             Self::Gap(gap) => gap.pattern.clone(),
             Self::Singular(mode) => mode.pattern.clone(),
+            Self::Undecided(undecided) => undecided.pattern.clone(),
         }
     }
 
-    /// The signed normal forces of the group; none for a continuum.
+    /// What is proven of it; none for an undecided pattern.
+    pub fn certificate(&self) -> Option<&Certificate> {
+        match self {
+            Self::Solution(solution) => Some(&solution.certificate),
+            Self::Gap(gap) => Some(&gap.certificate),
+            Self::Singular(mode) => Some(&mode.certificate),
+            Self::Undecided(_) => None,
+        }
+    }
+
+    /// Proven bounds of its unknowns: `y_k`, or the share `lambda_k` of a contact in its gap.
+    pub fn unknowns(&self) -> Option<&[Interval]> {
+        match self {
+            Self::Undecided(undecided) => undecided.unknowns.as_deref(),
+            state => state.certificate().and_then(Certificate::unknowns),
+        }
+    }
+
+    /// The signed normal forces of the group; none for a continuum and an undecided pattern.
     pub fn normal_force(&self) -> Option<&DVector<f64>> {
         match self {
             Self::Solution(solution) => Some(&solution.normal_force),
             Self::Gap(gap) => Some(&gap.normal_force),
             Self::Singular(SingularMode { set: SolutionSet::Point(point), .. }) => Some(point),
-            Self::Singular(_) => None,
+            Self::Singular(_) | Self::Undecided(_) => None,
         }
     }
 }
@@ -98,16 +125,23 @@ pub enum StateKind {
     Gap,
     /// Some group is in a singular pattern.
     Singular,
+    /// Some group is in a pattern that is not decided within the bounds of the data.
+    Undecided,
 }
 
-/// Cumulated counts: solutions; with gap states; with singular sets.
-type Cumulated = [BigCount; 3];
+/// Cumulated counts: solutions; with gap states; with singular sets; with undecided patterns.
+type Cumulated = [BigCount; 4];
 
 impl SolutionProduct {
     /// The numbers of solutions, gap states and combinations with singular sets.
     pub fn counts(&self) -> StateCounts {
-        let [solutions, with_gaps, all] = self.cumulated();
-        StateCounts { gap_states: with_gaps.minus(&solutions), singular: all.minus(&with_gaps), solutions }
+        let [solutions, with_gaps, with_sets, all] = self.cumulated();
+        StateCounts {
+            gap_states: with_gaps.minus(&solutions),
+            singular: with_sets.minus(&with_gaps),
+            undecided: all.minus(&with_sets),
+            solutions,
+        }
     }
 
     /// All combinations one after the other. There may be very many: take what is needed.
@@ -115,17 +149,48 @@ impl SolutionProduct {
         Combinations { product: self, choices: Vec::new(), state: Walk::Start }
     }
 
+    /// The combinations that are at most of a kind; those of that kind come early.
+    #[must_use]
+    pub fn up_to(&self, kind: StateKind) -> Self {
+        let mut product = self.clone();
+        product.restrict(kind);
+        product
+    }
+
+    /// Drops what is beyond a kind, and returns the last kind of the combinations that are left; none if there
+    /// are no combinations.
+    fn restrict(&mut self, most: StateKind) -> Option<StateKind> {
+        let mut last = Some(StateKind::Solution);
+        for factor in &mut self.factors {
+            let mut sorted = Vec::new();
+            for mut alternative in std::mem::take(&mut factor.alternatives) {
+                let own = alternative.state.kind();
+                if own <= most
+                    && let Some(dependents) = alternative.dependents.restrict(most)
+                {
+                    sorted.push((own.max(dependents), alternative));
+                }
+            }
+            // The order among those of one kind stays.
+            sorted.sort_by_key(|(kind, _)| std::cmp::Reverse(*kind));
+            let first = sorted.first().map(|(kind, _)| *kind);
+            last = last.zip(first).map(|(one, other)| one.max(other));
+            factor.alternatives = sorted.into_iter().map(|(_, alternative)| alternative).collect();
+        }
+        last
+    }
+
     fn cumulated(&self) -> Cumulated {
-        let mut product = [1, 1, 1].map(BigCount::from);
+        let mut product = [1; 4].map(BigCount::from);
         for factor in &self.factors {
             let mut sums = Cumulated::default();
             for alternative in &factor.alternatives {
                 let counts = alternative.dependents.cumulated();
-                for kind in alternative.state.kind() as usize..3 {
+                for kind in alternative.state.kind() as usize..4 {
                     sums[kind] = sums[kind].plus(&counts[kind]);
                 }
             }
-            product = [0, 1, 2].map(|kind| product[kind].times(&sums[kind]));
+            product = [0, 1, 2, 3].map(|kind| product[kind].times(&sums[kind]));
         }
         product
     }

@@ -61,7 +61,10 @@ impl Propagation {
         let residual = (&inverse * &a - DMatrix::<f64>::identity(contacts, contacts)).abs();
         let rounding = (contacts + 4) as f64 * f64::EPSILON;
         let sizes = inverse.abs();
-        let slip = residual + &sizes * (a.abs() + b.abs()) * (2.0 * rounding);
+        let mut slip = residual + &sizes * (a.abs() + b.abs()) * (2.0 * rounding);
+        if let Some(spread) = problem.spread_of_columns() {
+            slip += &sizes * spread * 1.01;
+        }
         let frictionless = &inverse * problem.base();
         let jump_difference = -columns(ContactState::Gap);
         let offset_error = &sizes * (problem.load_size() * (4.0 * rounding) + load_radius * 1.01);

@@ -34,6 +34,8 @@ pub(super) struct Relaxation {
     /// Size of the terms of the right-hand side, and how much of them rounding may have changed.
     load_size: Vec<f64>,
     load_error: Vec<f64>,
+    /// How far each column of the program may be off, row by row; empty where it is exact.
+    spread: Vec<Vec<f64>>,
     /// Bounds of `y_k` that hold for every solution.
     largest: Vec<f64>,
 }
@@ -61,13 +63,15 @@ impl Relaxation {
     pub(super) fn new(problem: &ScaledProblem, load_radius: &DVector<f64>, largest: Vec<f64>) -> Self {
         let contacts = problem.contacts();
         let (mut columns, mut cost, mut first) = (Vec::new(), Vec::new(), Vec::new());
-        let mut column_scale = Vec::new();
+        let (mut column_scale, mut spread) = (Vec::new(), Vec::new());
         for contact in 0..contacts {
             first.push(columns.len());
             for &state in problem.states(contact) {
                 let column = problem.column(contact, state);
                 let scale = power_of_two_below(column.amax()).recip();
                 columns.push((column * scale).as_slice().to_vec());
+                let radius = problem.column_radius(contact, state);
+                spread.push(radius.map_or_else(Vec::new, |radius| (radius * scale).as_slice().to_vec()));
                 column_scale.push(scale);
                 cost.push(uneven_cost(cost.len()) * if state == ContactState::Gap { 0.01 } else { 1.0 });
             }
@@ -82,6 +86,7 @@ impl Relaxation {
             column_scale,
             load_size,
             load_error,
+            spread,
             largest,
         }
     }
@@ -146,7 +151,8 @@ impl Relaxation {
                 if bounds.lower[variable] == 0.0 && bounds.upper[variable] == 0.0 {
                     continue;
                 }
-                let error = rounding * size_of_terms(self.program.column(variable), &sizes);
+                let error = rounding * size_of_terms(self.program.column(variable), &sizes)
+                    + 1.01 * size_of_terms(&self.spread[variable], &sizes);
                 let (low, high) = (entry - error, entry + error);
                 if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
                     let row = basis.row_of(variable)?;

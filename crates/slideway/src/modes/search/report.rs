@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::states::StateSet;
 use crate::modes::enumeration::Limits;
+use crate::modes::solutions::{ClosestMode, PatternCounts, SingularMode, Solutions};
 
 /// What a search may use, and how much.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +38,7 @@ impl Default for SearchOptions {
 
 /// The arguments that a search may use besides the linear relaxation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(clippy::struct_excessive_bools, reason = "four independent switches")]
+#[expect(clippy::struct_excessive_bools, reason = "five independent switches")]
 pub struct Arguments {
     /// Splitting into groups of contacts.
     pub groups: bool,
@@ -47,11 +48,13 @@ pub struct Arguments {
     pub uniqueness: bool,
     /// Cells of a hyperplane arrangement where the coupling is of low rank.
     pub low_rank: bool,
+    /// Trying every pattern of groups of few contacts.
+    pub every_pattern: bool,
 }
 
 impl Default for Arguments {
     fn default() -> Self {
-        Self { groups: true, propagation: true, uniqueness: true, low_rank: true }
+        Self { groups: true, propagation: true, uniqueness: true, low_rank: true, every_pattern: true }
     }
 }
 
@@ -102,6 +105,8 @@ pub enum Method {
     },
     /// Branch and bound with interval propagation and linear relaxation.
     BranchAndBound,
+    /// Every pattern decided by itself, because there are few.
+    EveryPattern,
 }
 
 impl fmt::Display for Method {
@@ -111,6 +116,7 @@ impl fmt::Display for Method {
             Self::SingularValue => formatter.write_str("one solution, because sigma_max(G) < 1"),
             Self::Cells { rank } => write!(formatter, "cells of an arrangement, coupling of rank {rank}"),
             Self::BranchAndBound => formatter.write_str("branch and bound with linear relaxation"),
+            Self::EveryPattern => formatter.write_str("every pattern"),
         }
     }
 }
@@ -171,6 +177,31 @@ pub enum ExclusionArgument {
     Farkas(Vec<f64>),
 }
 
+/// The outcome of every pattern of a group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PatternOutcomes {
+    /// Outcomes of the patterns without gap states.
+    pub counts: PatternCounts,
+    /// Outcomes of the patterns with gap states.
+    pub gap_counts: PatternCounts,
+    /// Singular patterns that admit nothing, and those that were not examined.
+    pub locked: Vec<SingularMode>,
+    /// Up to four regular patterns with the smallest `|D|`, if the group has no solution.
+    pub closest: Vec<ClosestMode>,
+}
+
+impl PatternOutcomes {
+    pub(super) fn of(solutions: &Solutions) -> Self {
+        let locked = solutions.singular.iter().filter(|mode| mode.set.vertices().is_empty());
+        Self {
+            counts: solutions.counts,
+            gap_counts: solutions.gap_counts,
+            locked: locked.cloned().collect(),
+            closest: solutions.closest.clone(),
+        }
+    }
+}
+
 /// How one group of contacts was searched.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroupReport {
@@ -180,7 +211,8 @@ pub struct GroupReport {
     pub method: Method,
     /// Binary logarithm of the number of patterns, gap states included.
     pub log2_patterns: f64,
-    /// Nodes visited, or patterns tried with [`Method::Cells`] (a cell may be met several times).
+    /// Nodes visited, or patterns tried with [`Method::EveryPattern`] and [`Method::Cells`] (a cell may be met
+    /// several times).
     pub nodes: u64,
     /// Pivots of the linear programs.
     pub pivots: u64,
@@ -188,8 +220,11 @@ pub struct GroupReport {
     pub shares: PatternShares,
     /// Right-hand sides that the group was searched with.
     pub loads: u64,
-    /// Patterns whose outcome within tolerances was not confirmed by
-    /// [`certificate::decide`](crate::modes::certificate::decide).
+    /// Right-hand sides with which the group admits nothing: no solution, no gap state, no singular set.
+    pub barren_loads: u64,
+    /// The outcome of every pattern; only where each was tried, with one right-hand side.
+    pub outcomes: Option<PatternOutcomes>,
+    /// Patterns whose outcome is known within tolerances only.
     pub unproven_patterns: u64,
     /// Whether every exclusion and every outcome is established with error bounds, for the
     /// right-hand sides as given.
@@ -204,6 +239,8 @@ impl GroupReport {
         let weight = self.loads as f64 / (self.loads + other.loads) as f64;
         self.shares = self.shares.mean(&other.shares, weight);
         self.loads += other.loads;
+        self.barren_loads += other.barren_loads;
+        self.outcomes = None;
         self.nodes += other.nodes;
         self.pivots += other.pivots;
         self.unproven_patterns += other.unproven_patterns;

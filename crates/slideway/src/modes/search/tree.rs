@@ -97,7 +97,7 @@ impl<'a> Tree<'a> {
         };
         let pattern: Vec<ContactState> = node.states.iter().filter_map(|states| states.decided()).collect();
         if pattern.len() == node.states.len() {
-            return self.examine(pattern, leaves);
+            return self.examine(&pattern, leaves);
         }
         let (contact, preferred) = branching(&node.states, relaxed.as_deref());
         let basis = if relaxed.is_some() { Rc::new(basis) } else { node.basis };
@@ -126,7 +126,7 @@ impl<'a> Tree<'a> {
         true
     }
 
-    fn examine(&mut self, pattern: Vec<ContactState>, leaves: &mut Leaves<'_>) -> Result<(), StopReason> {
+    fn examine(&mut self, pattern: &[ContactState], leaves: &mut Leaves<'_>) -> Result<(), StopReason> {
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
         self.report.shares.examined += fraction_of_patterns(self.problem, &states);
         leaves.examine(pattern)

@@ -1,0 +1,140 @@
+//! Files what proofs say of patterns.
+
+use super::candidate::{Candidate, determinant, solve_pattern};
+use super::certificate::{Decision, ExactSet, Interval, Sign};
+use super::contact_set::ContactSet;
+use super::degenerate::{Examined, examine};
+use super::enumeration::EnumerationError;
+use super::findings::{Findings, SUSPECT_CONDITION};
+use super::scaling::ScaledProblem;
+use super::solutions::{Certificate, ContactState, SolutionSet, UndecidedPattern};
+
+/// Whether a decision settled a pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Filed {
+    /// As it was decided.
+    Proven,
+    /// Within tolerances, since what the pattern admits takes too much work to describe exactly.
+    NotProven,
+}
+
+/// What the middle of the bounds says of a pattern that is not decided within them.
+enum Centre {
+    Solution(Candidate),
+    Set(SolutionSet),
+    Nothing,
+    NotExamined,
+}
+
+impl Findings<'_> {
+    /// Files a pattern by its decision.
+    pub(super) fn file_decision(
+        &mut self,
+        pattern: &[ContactState],
+        decision: Decision,
+    ) -> Result<Filed, EnumerationError> {
+        match decision {
+            Decision::NoSolution { .. } => self.count_no_solution(pattern.contains(&ContactState::Gap)),
+            Decision::Solution { unknowns, determinant } => {
+                let candidate = decided_candidate(self.problem, pattern, &unknowns, determinant);
+                self.file_admissible(pattern, candidate, Certificate::Proven { unknowns })?;
+            }
+            Decision::Boundary { unknowns, zero, full_share, determinant } => {
+                let mut candidate = decided_candidate(self.problem, pattern, &unknowns, determinant);
+                for &contact in zero.iter().chain(&full_share) {
+                    let in_gap = pattern[contact] == ContactState::Gap;
+                    if in_gap { &mut candidate.at_end } else { &mut candidate.zero }.insert(contact);
+                }
+                let certificate = Certificate::Boundary { unknowns, zero, full_share };
+                self.file_admissible(pattern, candidate, certificate)?;
+            }
+            Decision::Singular { set: ExactSet::NotComputed } => {
+                self.examine_suspect(pattern)?;
+                return Ok(Filed::NotProven);
+            }
+            Decision::Singular { set } => {
+                self.examined += 1;
+                self.file_singular(pattern, set.normal_forces(pattern), Certificate::Singular);
+            }
+            Decision::Undecided { unknowns, in_doubt } => self.file_undecided(pattern, unknowns, in_doubt)?,
+        }
+        Ok(Filed::Proven)
+    }
+
+    /// Files a pattern whose outcome differs between values within bounds: as a state if it is one in
+    /// their middle.
+    fn file_undecided(
+        &mut self,
+        pattern: &[ContactState],
+        unknowns: Option<Vec<Interval>>,
+        in_doubt: Vec<usize>,
+    ) -> Result<(), EnumerationError> {
+        match self.centre(pattern) {
+            Centre::Solution(candidate) => {
+                let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
+                self.file_admissible(pattern, candidate, certificate)
+            }
+            Centre::Set(set) => {
+                let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
+                self.file_singular(pattern, set, certificate);
+                Ok(())
+            }
+            Centre::Nothing if self.undecided.len() >= self.limits.solutions => {
+                Err(EnumerationError::TooManySolutions { limit: self.limits.solutions })
+            }
+            Centre::Nothing => {
+                self.counts_of(pattern).undecided += 1;
+                self.undecided.push(UndecidedPattern { pattern: pattern.to_vec(), unknowns, in_doubt });
+                Ok(())
+            }
+            Centre::NotExamined => {
+                self.leave_unexamined(pattern, pattern.len());
+                Ok(())
+            }
+        }
+    }
+
+    /// What the pattern admits in the middle of the bounds, within tolerances.
+    fn centre(&mut self, pattern: &[ContactState]) -> Centre {
+        let judged = |candidate: Candidate| {
+            if candidate.admissible { Centre::Solution(candidate) } else { Centre::Nothing }
+        };
+        let candidate = solve_pattern(self.problem, pattern);
+        if let Some(candidate) = candidate.as_ref().filter(|found| found.condition < SUSPECT_CONDITION) {
+            return judged(candidate.clone());
+        }
+        if self.has_examined_enough() {
+            return Centre::NotExamined;
+        }
+        self.examined += 1;
+        match examine(self.problem, pattern, &mut self.bases) {
+            Examined::Regular => candidate.map_or(Centre::Nothing, judged),
+            Examined::Singular(set) if set.vertices().is_empty() => Centre::Nothing,
+            Examined::Singular(set) => Centre::Set(set),
+        }
+    }
+}
+
+/// The solution in the middle of its enclosure; contacts on a boundary are left to the caller.
+fn decided_candidate(
+    problem: &ScaledProblem,
+    pattern: &[ContactState],
+    unknowns: &[Interval],
+    sign: Sign,
+) -> Candidate {
+    let size = determinant(problem, pattern).abs();
+    let pressed = pattern.iter().zip(unknowns).filter(|(state, _)| **state != ContactState::Gap);
+    let none = ContactSet::none_of(pattern.len());
+    Candidate {
+        unknowns: nalgebra::DVector::from_iterator(
+            unknowns.len(),
+            unknowns.iter().map(|value| value.middle()),
+        ),
+        zero: none.clone(),
+        at_end: none,
+        admissible: true,
+        determinant: if sign == Sign::Negative { -size } else { size },
+        tolerance: pressed.map(|(_, value)| value.width()).fold(0.0, f64::max),
+        condition: 1.0,
+    }
+}

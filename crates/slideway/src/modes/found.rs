@@ -1,0 +1,148 @@
+//! One solution or gap state on the way to the result.
+
+use nalgebra::DVector;
+
+use super::candidate::Candidate;
+use super::problem::Side;
+use super::solutions::{Certificate, ContactState, GapShare, GapState, ModeSolution};
+
+/// A solution or gap state with the patterns that give it.
+pub(super) struct Found {
+    pub(super) candidate: Candidate,
+    pub(super) normal_force: DVector<f64>,
+    pub(super) patterns: Vec<Vec<ContactState>>,
+    pub(super) pattern_count: u64,
+    pub(super) certificate: Certificate,
+}
+
+impl Found {
+    /// The candidate of a pattern.
+    pub(super) fn new(pattern: &[ContactState], candidate: Candidate, certificate: Certificate) -> Self {
+        let signed = pattern.iter().zip(&candidate.unknowns).map(|(state, value)| state.sign() * value);
+        let normal_force = DVector::from_iterator(pattern.len(), signed);
+        Self { candidate, normal_force, patterns: vec![pattern.to_vec()], pattern_count: 1, certificate }
+    }
+
+    pub(super) fn pattern(&self) -> &[ContactState] {
+        &self.patterns[0]
+    }
+
+    pub(super) fn has_gap(&self) -> bool {
+        self.pattern().contains(&ContactState::Gap)
+    }
+
+    pub(super) fn agrees_with(&self, other: &Self) -> bool {
+        let tolerance = self.candidate.tolerance + other.candidate.tolerance;
+        (&self.normal_force - &other.normal_force).amax() <= tolerance
+    }
+
+    pub(super) fn absorb(&mut self, other: Self, listed: usize) {
+        self.pattern_count += other.pattern_count;
+        let room = listed.saturating_sub(self.patterns.len());
+        self.patterns.extend(other.patterns.into_iter().take(room));
+        self.certificate.absorb(other.certificate);
+        for contact in other.candidate.zero.iter() {
+            self.candidate.zero.insert(contact);
+            self.candidate.unknowns[contact] = 0.0;
+            self.normal_force[contact] = 0.0;
+        }
+    }
+
+    /// Whether another finding is the same state with some gaps closed, at the face where this
+    /// state's shares end.
+    pub(super) fn ends_at(&self, other: &Self, has_jump: &[bool]) -> bool {
+        let states = self.pattern().iter().zip(other.pattern()).enumerate();
+        let mut closed = 0;
+        for (contact, (&state, &face)) in states.filter(|(contact, _)| has_jump[*contact]) {
+            if state == face {
+                continue;
+            }
+            let end = if self.candidate.unknowns[contact] == 1.0 {
+                ContactState::Positive
+            } else {
+                ContactState::Negative
+            };
+            let at_end = self.candidate.at_end.contains(contact);
+            if !at_end || face != end {
+                return false;
+            }
+            closed += 1;
+        }
+        closed > 0 && self.agrees_with(other)
+    }
+
+    fn signs(&self) -> Vec<i8> {
+        let sign = |(contact, state): (usize, &ContactState)| match state {
+            _ if self.candidate.zero.contains(contact) => 0,
+            ContactState::Positive => 1,
+            ContactState::Negative => -1,
+            ContactState::Gap => 0,
+        };
+        self.pattern().iter().enumerate().map(sign).collect()
+    }
+
+    pub(super) fn into_mode_solution(self) -> ModeSolution {
+        let pattern = sides(self.pattern());
+        ModeSolution {
+            signs: self.signs(),
+            y: self.normal_force.abs(),
+            determinant: self.candidate.determinant,
+            oriented_determinant: oriented(self.candidate.determinant, &pattern),
+            pattern,
+            on_boundary: self.candidate.zero.iter().collect(),
+            patterns: self.patterns.iter().map(|pattern| sides(pattern)).collect(),
+            pattern_count: self.pattern_count,
+            tolerance: self.candidate.tolerance,
+            certificate: self.certificate,
+            normal_force: self.normal_force,
+        }
+    }
+
+    pub(super) fn into_gap_state(self) -> GapState {
+        let in_gap =
+            (0..self.pattern().len()).filter(|&contact| self.pattern()[contact] == ContactState::Gap);
+        let share = |contact| GapShare { contact, lambda: self.candidate.unknowns[contact] };
+        GapState {
+            pattern: self.pattern().to_vec(),
+            shares: in_gap.map(share).collect(),
+            signs: self.signs(),
+            y: self.normal_force.abs(),
+            determinant: self.candidate.determinant,
+            on_boundary: self.candidate.zero.iter().collect(),
+            patterns: self.patterns,
+            pattern_count: self.pattern_count,
+            tolerance: self.candidate.tolerance,
+            certificate: self.certificate,
+            normal_force: self.normal_force,
+        }
+    }
+}
+
+/// `p = D prod_k sigma_k` (theory, section 5).
+pub(super) fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
+    pattern.iter().fold(determinant, |product, side| product * side.sign())
+}
+
+/// The sides of a pattern without gaps.
+pub(super) fn sides(pattern: &[ContactState]) -> Vec<Side> {
+    pattern.iter().filter_map(|state| state.side()).collect()
+}
+
+impl Certificate {
+    /// Adds what is known of another pattern with the same solution.
+    fn absorb(&mut self, other: Self) {
+        let (
+            Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), in_doubt },
+            Self::OnBoundaryWithinBounds { unknowns: Some(others), in_doubt: more },
+        ) = (&mut *self, other)
+        else {
+            return;
+        };
+        for (interval, other) in unknowns.iter_mut().zip(others) {
+            *interval = interval.hull(other);
+        }
+        in_doubt.extend(more);
+        in_doubt.sort_unstable();
+        in_doubt.dedup();
+    }
+}
