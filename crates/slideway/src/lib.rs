@@ -24,6 +24,7 @@ pub mod fault;
 pub mod gallery;
 pub mod ids;
 pub mod influence;
+pub mod interval;
 pub mod kinetics;
 pub mod mechanism;
 pub mod model;

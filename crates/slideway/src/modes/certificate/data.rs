@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::interval::Interval;
+use crate::interval::Interval;
 use super::matrix::IntervalMatrix;
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, ProblemPart, Side};
 

@@ -6,7 +6,7 @@ use super::data::ProblemView;
 use super::elimination::IntegerSystem;
 use super::enclosure::ApproximateInverse;
 use super::exact::ExactSolution;
-use super::interval::{Interval, Sign};
+use crate::interval::{Interval, Sign};
 use super::polyhedron::ExactSet;
 use super::system::{BoundedVector, PatternSystem};
 use crate::modes::ContactState;

@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::interval::{Interval, Sign};
+use crate::interval::{Interval, Sign};
 use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 use super::system::BoundedVector;
 

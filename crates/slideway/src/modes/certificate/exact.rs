@@ -6,7 +6,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 
 use super::elimination::{Echelon, IntegerSystem};
-use super::interval::{Interval, Sign};
+use crate::interval::{Interval, Sign};
 use super::polyhedron::ExactSet;
 use crate::modes::{ContactState, ModeProblem};
 

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{Column, ProblemView};
-use super::interval::Interval;
+use crate::interval::Interval;
 use super::matrix::inner_product;
 use crate::modes::{ContactState, Side};
 

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{IntervalModeProblem, IntervalModeProblemError};
-use super::interval::Interval;
+use crate::interval::Interval;
 use super::matrix::IntervalMatrix;
 use crate::modes::{BySide, ModeProblemError, ProblemPart, Side};
 

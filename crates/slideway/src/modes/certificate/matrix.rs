@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::interval::{Interval, add_up};
+use crate::interval::{Interval, add_up};
 
 /// All real matrices that differ from `centre` by at most `radius`, entry by entry.
 ///

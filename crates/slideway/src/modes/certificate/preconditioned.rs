@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::ProblemView;
-use super::interval::Interval;
+use crate::interval::Interval;
 use super::matrix::{IntervalMatrix, product};
 use crate::modes::{ContactState, Side};
 

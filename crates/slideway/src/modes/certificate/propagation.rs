@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::data::ProblemView;
-use super::interval::{Interval, Sign};
+use crate::interval::{Interval, Sign};
 use super::matrix::{upper_product, upper_sum};
 use super::preconditioned::{BaseSystem, Preconditioned};
 use crate::modes::ContactState;

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::ProblemView;
-use super::interval::two_sum_remainder;
+use crate::interval::two_sum_remainder;
 use super::matrix::{IntervalMatrix, rounding};
 use crate::modes::{ContactState, Side};
 
