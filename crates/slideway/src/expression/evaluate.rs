@@ -95,7 +95,9 @@ fn fault(kind: ExpressionFaultKind, step: &Step) -> ExpressionFault {
 fn not_finite<T: Real>(operation: Operation, arguments: &[T], value: T) -> ExpressionFaultKind {
     let numbers = |count: usize| arguments[..count].iter().map(|argument| argument.middle()).collect();
     match operation {
-        Operation::Number { .. } | Operation::Symbol(_) => ExpressionFaultKind::ValueNotFinite { value: value.middle() },
+        Operation::Number { .. } | Operation::Symbol(_) => {
+            ExpressionFaultKind::ValueNotFinite { value: value.middle() }
+        }
         Operation::Unary(function) => {
             ExpressionFaultKind::NotFinite { operation: function.name(), arguments: numbers(1) }
         }

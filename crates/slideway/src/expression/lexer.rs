@@ -121,9 +121,7 @@ impl<'t> Lexer<'t> {
         let written = &self.text[start..self.position()];
         let plain: String = written.replace('_', "").replace('\u{2212}', "-");
         match plain.parse::<f64>() {
-            Ok(value) if value.is_finite() => {
-                Ok(TokenKind::Number(value, decimal::enclosure(value, &plain)))
-            }
+            Ok(value) if value.is_finite() => Ok(TokenKind::Number(value, decimal::enclosure(value, &plain))),
             _ => Err(ExpressionFaultKind::NumberTooLarge),
         }
     }

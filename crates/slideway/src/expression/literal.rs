@@ -124,7 +124,9 @@ impl<'t> Parser<'t> {
                     self.advance();
                 }
                 match self.peek(0) {
-                    Some(TokenKind::Number(value, _)) => whole_exponent(if negative { -value } else { value }),
+                    Some(TokenKind::Number(value, _)) => {
+                        whole_exponent(if negative { -value } else { value })
+                    }
                     _ => None,
                 }
             }

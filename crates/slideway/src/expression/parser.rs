@@ -157,13 +157,7 @@ impl<'t> Parser<'t> {
         whole
     }
 
-    pub(super) fn number(
-        &mut self,
-        value: f64,
-        enclosure: Interval,
-        inferred: Inferred,
-        span: Range<usize>,
-    ) {
+    pub(super) fn number(&mut self, value: f64, enclosure: Interval, inferred: Inferred, span: Range<usize>) {
         self.program.push(Operation::Number { value, enclosure, inferred }, span);
     }
 

@@ -11,7 +11,11 @@ use crate::interval::Interval;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Operation {
     /// A number that was written: the nearest to it, and where it lies.
-    Number { value: f64, enclosure: Interval, inferred: Inferred },
+    Number {
+        value: f64,
+        enclosure: Interval,
+        inferred: Inferred,
+    },
     Symbol(Symbol),
     Unary(Unary),
     Binary(Binary),

@@ -89,20 +89,16 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    pub(super) const ONE: Self = Self {
-        numerator: 1.0,
-        denominator: 1.0,
-        enclosures: [Interval::ONE; 2],
-        dimension: Dimension::NONE,
-    };
+    pub(super) const ONE: Self =
+        Self { numerator: 1.0, denominator: 1.0, enclosures: [Interval::ONE; 2], dimension: Dimension::NONE };
 
     /// This scale times `unit^exponent`; the fault is that the dimension or the factor leaves its range.
     pub(super) fn times(self, unit: &Unit, exponent: i8) -> Result<Self, ExpressionFaultKind> {
         let power = i32::from(exponent).abs();
         let (over, under) = (unit.numerator.powi(power), unit.denominator.powi(power));
         let (over, under) = if exponent < 0 { (under, over) } else { (over, under) };
-        let mut enclosed =
-            [unit.enclosed_numerator(), Interval::point(unit.denominator)].map(|part| part.power(Interval::point(f64::from(power))));
+        let mut enclosed = [unit.enclosed_numerator(), Interval::point(unit.denominator)]
+            .map(|part| part.power(Interval::point(f64::from(power))));
         if exponent < 0 {
             enclosed.swap(0, 1);
         }

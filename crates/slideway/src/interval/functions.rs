@@ -189,6 +189,10 @@ impl Real for Interval {
         wave(f64::cos, self, self / Self::PI)
     }
 
+    fn direction(self) -> [Self; 2] {
+        [self.cos(), self.sin()]
+    }
+
     fn tan(self) -> Self {
         let half_turns = half_turns_from_quarter(self);
         let has_pole = half_turns.lower.ceil() <= half_turns.upper.floor();

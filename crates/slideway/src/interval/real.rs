@@ -79,6 +79,9 @@ pub trait Real:
     /// Cosine.
     #[must_use]
     fn cos(self) -> Self;
+    /// The unit vector at this angle from the x axis; that of a plain number is exact along the axes, so that a guide
+    /// at 90 degrees is truly vertical.
+    fn direction(self) -> [Self; 2];
     /// Tangent.
     #[must_use]
     fn tan(self) -> Self;
@@ -173,6 +176,20 @@ impl Real for f64 {
 
     fn cos(self) -> Self {
         f64::cos(self)
+    }
+
+    fn direction(self) -> [Self; 2] {
+        let quarters = self / std::f64::consts::FRAC_PI_2;
+        let nearest = quarters.round();
+        if (quarters - nearest).abs() > 1e-15 * quarters.abs() {
+            return [f64::cos(self), f64::sin(self)];
+        }
+        match nearest.rem_euclid(4.0) {
+            0.0 => [1.0, 0.0],
+            1.0 => [0.0, 1.0],
+            2.0 => [-1.0, 0.0],
+            _ => [0.0, -1.0],
+        }
     }
 
     fn tan(self) -> Self {

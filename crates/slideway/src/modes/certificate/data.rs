@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::interval::Interval;
 use super::matrix::IntervalMatrix;
+use crate::interval::Interval;
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, ProblemPart, Side};
 
 /// Bounds that do not make a mode problem.

@@ -34,13 +34,13 @@ mod preconditioned;
 mod propagation;
 mod system;
 
+pub use crate::interval::{Interval, Sign};
 pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
 pub use exact::{ExactOutcome, solve_exactly};
 pub use exclusion::proves_empty;
 pub use influence::IntervalInfluence;
-pub use crate::interval::{Interval, Sign};
 pub use matrix::IntervalMatrix;
 pub use norm::proves_at_most_one;
 pub use polyhedron::ExactSet;
