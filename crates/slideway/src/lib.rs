@@ -19,6 +19,7 @@
 
 pub mod check;
 pub mod configuration;
+pub mod enclosure;
 pub mod expression;
 pub mod fault;
 pub mod gallery;

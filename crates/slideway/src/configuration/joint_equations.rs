@@ -19,25 +19,25 @@ struct Row<T> {
 }
 
 /// The joint equations, and below them those that fix the coordinates.
-pub(super) struct JointEquations<T = f64> {
+pub(crate) struct JointEquations<T = f64> {
     /// The joint of each row; nothing for the rows of coordinates.
-    pub(super) joints: Vec<Option<JointId>>,
+    pub(crate) joints: Vec<Option<JointId>>,
     /// Residuals (lengths divided by the size of the mechanism, angles in rad).
-    pub(super) residual: DVector<T>,
+    pub(crate) residual: DVector<T>,
     /// Derivatives with respect to (x/size, y/size, angle) of every body.
-    pub(super) jacobian: DMatrix<T>,
+    pub(crate) jacobian: DMatrix<T>,
 }
 
 impl<T: Real> JointEquations<T> {
     /// The joint equations alone.
-    pub(super) fn of_joints(mechanism: &Mechanism<T>, poses: &[Pose<T>]) -> Self {
+    pub(crate) fn of_joints(mechanism: &Mechanism<T>, poses: &[Pose<T>]) -> Self {
         let mut rows = Rows { mechanism, poses, list: Vec::new() };
         rows.joints();
         rows.assemble()
     }
 
     /// The joint equations and one for each coordinate, which wants the given value.
-    pub(super) fn with_coordinates(mechanism: &Mechanism<T>, poses: &[Pose<T>], values: &[T]) -> Self {
+    pub(crate) fn with_coordinates(mechanism: &Mechanism<T>, poses: &[Pose<T>], values: &[T]) -> Self {
         let mut rows = Rows { mechanism, poses, list: Vec::new() };
         rows.joints();
         rows.coordinates(values);

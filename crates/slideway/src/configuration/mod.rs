@@ -8,8 +8,9 @@ mod assembly;
 mod joint_equations;
 mod mobility;
 
+pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
-pub(crate) use mobility::{free_motions, motion_in_words, null_space};
+pub(crate) use mobility::{advance, free_motions, motion_in_words, null_space};
 
 use crate::fault::Faults;
 use crate::ids::{ContactId, Frame};
