@@ -19,11 +19,13 @@
 
 pub mod check;
 pub mod configuration;
+pub mod enclosure;
 pub mod expression;
 pub mod fault;
 pub mod gallery;
 pub mod ids;
 pub mod influence;
+pub mod interval;
 pub mod kinetics;
 pub mod mechanism;
 pub mod model;

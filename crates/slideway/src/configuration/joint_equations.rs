@@ -6,37 +6,38 @@
 
 use super::{Pose, middle_points, moved, turned};
 use crate::ids::{Frame, JointId};
+use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
 
 /// One scalar equation: its residual and its derivatives with respect to the poses.
-struct Row {
+struct Row<T> {
     joint: Option<JointId>,
-    residual: f64,
-    derivatives: Vec<(usize, f64)>,
+    residual: T,
+    derivatives: Vec<(usize, T)>,
 }
 
 /// The joint equations, and below them those that fix the coordinates.
-pub(super) struct JointEquations {
+pub(crate) struct JointEquations<T = f64> {
     /// The joint of each row; nothing for the rows of coordinates.
-    pub(super) joints: Vec<Option<JointId>>,
+    pub(crate) joints: Vec<Option<JointId>>,
     /// Residuals (lengths divided by the size of the mechanism, angles in rad).
-    pub(super) residual: DVector<f64>,
+    pub(crate) residual: DVector<T>,
     /// Derivatives with respect to (x/size, y/size, angle) of every body.
-    pub(super) jacobian: DMatrix<f64>,
+    pub(crate) jacobian: DMatrix<T>,
 }
 
-impl JointEquations {
+impl<T: Real> JointEquations<T> {
     /// The joint equations alone.
-    pub(super) fn of_joints(mechanism: &Mechanism, poses: &[Pose]) -> Self {
+    pub(crate) fn of_joints(mechanism: &Mechanism<T>, poses: &[Pose<T>]) -> Self {
         let mut rows = Rows { mechanism, poses, list: Vec::new() };
         rows.joints();
         rows.assemble()
     }
 
     /// The joint equations and one for each coordinate, which wants the given value.
-    pub(super) fn with_coordinates(mechanism: &Mechanism, poses: &[Pose], values: &[f64]) -> Self {
+    pub(crate) fn with_coordinates(mechanism: &Mechanism<T>, poses: &[Pose<T>], values: &[T]) -> Self {
         let mut rows = Rows { mechanism, poses, list: Vec::new() };
         rows.joints();
         rows.coordinates(values);
@@ -44,13 +45,13 @@ impl JointEquations {
     }
 }
 
-struct Rows<'m> {
-    mechanism: &'m Mechanism,
-    poses: &'m [Pose],
-    list: Vec<Row>,
+struct Rows<'m, T> {
+    mechanism: &'m Mechanism<T>,
+    poses: &'m [Pose<T>],
+    list: Vec<Row<T>>,
 }
 
-impl Rows<'_> {
+impl<T: Real> Rows<'_, T> {
     fn joints(&mut self) {
         for (index, joint) in self.mechanism.joints.iter().enumerate() {
             let id = Some(JointId(index));
@@ -65,48 +66,48 @@ impl Rows<'_> {
         }
     }
 
-    fn slider(&mut self, joint: Option<JointId>, slider: &Slider) {
+    fn slider(&mut self, joint: Option<JointId>, slider: &Slider<T>) {
         let normal = rot90(self.direction(slider));
         let [block, guide] = middle_points(slider);
         self.distance(joint, [&block, &guide], normal, Some(slider.guide));
         if slider.kind != SliderKind::Pin {
             let residual = self.angle(slider.block) - self.angle(slider.guide);
             let mut row = Row { joint, residual, derivatives: Vec::new() };
-            add_angle(&mut row, slider.block, 1.0);
-            add_angle(&mut row, slider.guide, -1.0);
+            add_angle(&mut row, slider.block, T::one());
+            add_angle(&mut row, slider.guide, -T::one());
             self.list.push(row);
         }
     }
 
-    fn coordinates(&mut self, values: &[f64]) {
+    fn coordinates(&mut self, values: &[T]) {
         for (coordinate, value) in self.mechanism.coordinates.iter().zip(values) {
-            let wanted = value - coordinate.drawn_at;
+            let wanted = *value - coordinate.drawn_at;
             match coordinate.kind {
                 CoordinateKind::Slide(joint) => {
                     if let Some(slider) = self.mechanism.slider(joint) {
                         let [block, guide] = middle_points(slider);
                         self.distance(None, [&block, &guide], self.direction(slider), Some(slider.guide));
-                        self.want(wanted / self.mechanism.size);
+                        self.want(wanted / self.size());
                     }
                 }
                 CoordinateKind::Rotation(body, against) => {
                     let residual = self.angle(Frame::Body(body)) - self.angle(against);
                     let mut row = Row { joint: None, residual, derivatives: Vec::new() };
-                    add_angle(&mut row, Frame::Body(body), 1.0);
-                    add_angle(&mut row, against, -1.0);
+                    add_angle(&mut row, Frame::Body(body), T::one());
+                    add_angle(&mut row, against, -T::one());
                     self.list.push(row);
                     self.want(wanted);
                 }
                 CoordinateKind::Displacement(point, axis) => {
                     let drawn = Attachment { frame: Frame::Ground, position: point.position };
                     self.distance(None, [&point, &drawn], axis, None);
-                    self.want(wanted / self.mechanism.size);
+                    self.want(wanted / self.size());
                 }
             }
         }
     }
 
-    fn want(&mut self, value: f64) {
+    fn want(&mut self, value: T) {
         if let Some(row) = self.list.last_mut() {
             row.residual -= value;
         }
@@ -116,15 +117,15 @@ impl Rows<'_> {
     fn distance(
         &mut self,
         joint: Option<JointId>,
-        [first, second]: [&Attachment; 2],
-        axis: Vector2<f64>,
+        [first, second]: [&Attachment<T>; 2],
+        axis: Vector2<T>,
         axis_frame: Option<Frame>,
     ) {
-        let size = self.mechanism.size;
+        let size = self.size();
         let places = [first, second].map(|point| moved(self.mechanism, self.poses, point));
         let between = places[0] - places[1];
         let mut row = Row { joint, residual: axis.dot(&between) / size, derivatives: Vec::new() };
-        for (point, place, sign) in [(first, places[0], 1.0), (second, places[1], -1.0)] {
+        for (point, place, sign) in [(first, places[0], T::one()), (second, places[1], -T::one())] {
             if let Some(body) = point.frame.body() {
                 let arm = place - self.poses[body.index()].position;
                 row.derivatives.push((3 * body.index(), sign * axis.x));
@@ -139,15 +140,19 @@ impl Rows<'_> {
         self.list.push(row);
     }
 
-    fn angle(&self, frame: Frame) -> f64 {
-        frame.body().map_or(0.0, |body| self.poses[body.index()].angle)
+    fn size(&self) -> T {
+        T::exactly(self.mechanism.size)
     }
 
-    fn direction(&self, slider: &Slider) -> Vector2<f64> {
+    fn angle(&self, frame: Frame) -> T {
+        frame.body().map_or(T::zero(), |body| self.poses[body.index()].angle)
+    }
+
+    fn direction(&self, slider: &Slider<T>) -> Vector2<T> {
         turned(self.angle(slider.guide), slider.tangent)
     }
 
-    fn assemble(self) -> JointEquations {
+    fn assemble(self) -> JointEquations<T> {
         let mut jacobian = DMatrix::zeros(self.list.len(), 3 * self.poses.len());
         let mut residual = DVector::zeros(self.list.len());
         for (index, row) in self.list.iter().enumerate() {
@@ -160,7 +165,7 @@ impl Rows<'_> {
     }
 }
 
-fn add_angle(row: &mut Row, frame: Frame, derivative: f64) {
+fn add_angle<T>(row: &mut Row<T>, frame: Frame, derivative: T) {
     if let Some(body) = frame.body() {
         row.derivatives.push((3 * body.index() + 2, derivative));
     }

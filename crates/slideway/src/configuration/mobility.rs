@@ -5,6 +5,7 @@ use super::joint_equations::JointEquations;
 use super::{Configuration, Pose};
 use crate::fault::FaultKind;
 use crate::ids::JointId;
+use crate::interval::Real;
 use crate::mechanism::{JointKind, Mechanism, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, SVD, Vector2};
@@ -272,10 +273,11 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
 }
 
 /// Moves the poses by a vector of (x/size, y/size, angle) for every body.
-pub(super) fn advance(mechanism: &Mechanism, poses: &mut [Pose], step: &DVector<f64>) {
+pub(crate) fn advance<T: Real>(mechanism: &Mechanism<T>, poses: &mut [Pose<T>], step: &DVector<T>) {
+    let size = T::exactly(mechanism.size);
     for (index, pose) in poses.iter_mut().enumerate() {
-        pose.position.x += mechanism.size * step[3 * index];
-        pose.position.y += mechanism.size * step[3 * index + 1];
+        pose.position.x += size * step[3 * index];
+        pose.position.y += size * step[3 * index + 1];
         pose.angle += step[3 * index + 2];
     }
 }

@@ -8,70 +8,72 @@ mod assembly;
 mod joint_equations;
 mod mobility;
 
+pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
-pub(crate) use mobility::{free_motions, motion_in_words, null_space};
+pub(crate) use mobility::{advance, free_motions, motion_in_words, null_space};
 
 use crate::fault::Faults;
 use crate::ids::{ContactId, Frame};
+use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Slider, rot90};
 use crate::model::CarriedBy;
-use nalgebra::{Rotation2, Vector2};
+use nalgebra::Vector2;
 
 /// Position of a body against the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
+pub struct Pose<T = f64> {
     /// Centre of mass (m).
-    pub position: Vector2<f64>,
+    pub position: Vector2<T>,
     /// Rotation (rad), not reduced to one turn.
-    pub angle: f64,
+    pub angle: T,
 }
 
 /// Velocity of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Velocity {
+pub struct Velocity<T = f64> {
     /// Velocity of the centre of mass (m/s).
-    pub linear: Vector2<f64>,
+    pub linear: Vector2<T>,
     /// Angular velocity (rad/s), counter-clockwise positive.
-    pub angular: f64,
+    pub angular: T,
 }
 
 /// A mechanism's state: positions and velocities of all bodies.
 #[derive(Debug, Clone)]
-pub struct Configuration {
+pub struct Configuration<T = f64> {
     /// Pose of each body.
-    pub poses: Vec<Pose>,
+    pub poses: Vec<Pose<T>>,
     /// Velocity of each body.
-    pub velocities: Vec<Velocity>,
+    pub velocities: Vec<Velocity<T>>,
     /// Value of each chosen coordinate (m or rad).
-    pub coordinates: Vec<f64>,
+    pub coordinates: Vec<T>,
     /// Rate of each chosen coordinate.
-    pub rates: Vec<f64>,
+    pub rates: Vec<T>,
     /// Time (s).
-    pub time: f64,
+    pub time: T,
 }
 
 /// A sliding joint in a configuration.
 #[derive(Debug, Clone, Copy)]
-pub struct Slide {
+pub struct Slide<T = f64> {
     /// Tangent u of the guide.
-    pub tangent: Vector2<f64>,
+    pub tangent: Vector2<T>,
     /// Normal n = rot90(u).
-    pub normal: Vector2<f64>,
+    pub normal: Vector2<T>,
     /// Displacement of the block against the guide along u, zero in the drawing (m).
-    pub displacement: f64,
+    pub displacement: T,
 }
 
 /// A contact in a configuration.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactGeometry {
+pub struct ContactGeometry<T = f64> {
     /// The point P on the centre line of the guide.
-    pub point: Vector2<f64>,
+    pub point: Vector2<T>,
     /// Tangent u of the guide.
-    pub tangent: Vector2<f64>,
+    pub tangent: Vector2<T>,
     /// Normal n = rot90(u).
-    pub normal: Vector2<f64>,
+    pub normal: Vector2<T>,
     /// Velocity of the block's material point against the guide's at P, along u (m/s).
-    pub sliding_velocity: f64,
+    pub sliding_velocity: T,
 }
 
 impl Configuration {
@@ -94,49 +96,51 @@ impl Configuration {
             time: mechanism.time,
         }
     }
+}
 
+impl<T: Real> Configuration<T> {
     /// Rotation of a frame (rad).
-    pub fn angle(&self, frame: Frame) -> f64 {
-        frame.body().map_or(0.0, |body| self.poses[body.index()].angle)
+    pub fn angle(&self, frame: Frame) -> T {
+        frame.body().map_or(T::zero(), |body| self.poses[body.index()].angle)
     }
 
     /// Angular velocity of a frame (rad/s).
-    pub fn angular_velocity(&self, frame: Frame) -> f64 {
-        frame.body().map_or(0.0, |body| self.velocities[body.index()].angular)
+    pub fn angular_velocity(&self, frame: Frame) -> T {
+        frame.body().map_or(T::zero(), |body| self.velocities[body.index()].angular)
     }
 
     /// A direction of the drawing, turned with a frame.
-    pub fn direction(&self, frame: Frame, drawn: Vector2<f64>) -> Vector2<f64> {
+    pub fn direction(&self, frame: Frame, drawn: Vector2<T>) -> Vector2<T> {
         turned(self.angle(frame), drawn)
     }
 
     /// Where a point of the drawing is now.
-    pub fn position(&self, mechanism: &Mechanism, point: &Attachment) -> Vector2<f64> {
+    pub fn position(&self, mechanism: &Mechanism<T>, point: &Attachment<T>) -> Vector2<T> {
         moved(mechanism, &self.poses, point)
     }
 
     /// Vector from the centre of mass of a frame to a place; zero for ground.
-    pub fn arm(&self, frame: Frame, place: Vector2<f64>) -> Vector2<f64> {
+    pub fn arm(&self, frame: Frame, place: Vector2<T>) -> Vector2<T> {
         frame.body().map_or(Vector2::zeros(), |body| place - self.poses[body.index()].position)
     }
 
     /// Velocity of the material point of a frame that is at a place (m/s).
-    pub fn velocity_at(&self, frame: Frame, place: Vector2<f64>) -> Vector2<f64> {
+    pub fn velocity_at(&self, frame: Frame, place: Vector2<T>) -> Vector2<T> {
         frame.body().map_or(Vector2::zeros(), |body| {
             let velocity = self.velocities[body.index()];
-            velocity.linear + velocity.angular * rot90(self.arm(frame, place))
+            velocity.linear + rot90(self.arm(frame, place)) * velocity.angular
         })
     }
 
     /// A sliding joint in this configuration.
-    pub fn slide(&self, mechanism: &Mechanism, slider: &Slider) -> Slide {
+    pub fn slide(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Slide<T> {
         let tangent = self.direction(slider.guide, slider.tangent);
         let [block, guide] = middle_points(slider).map(|point| self.position(mechanism, &point));
         Slide { tangent, normal: rot90(tangent), displacement: tangent.dot(&(block - guide)) }
     }
 
     /// A contact in this configuration.
-    pub fn contact(&self, mechanism: &Mechanism, id: ContactId) -> ContactGeometry {
+    pub fn contact(&self, mechanism: &Mechanism<T>, id: ContactId) -> ContactGeometry<T> {
         let contact = &mechanism.contacts[id.index()];
         let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
         let tangent = self.direction(slider.guide, slider.tangent);
@@ -144,14 +148,14 @@ impl Configuration {
             CarriedBy::Block => slider.block,
             CarriedBy::Guide => slider.guide,
         };
-        let drawn = slider.at + contact.offset * slider.tangent;
+        let drawn = slider.at + slider.tangent * contact.offset;
         let point = self.position(mechanism, &Attachment { frame, position: drawn });
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
         ContactGeometry { point, tangent, normal: rot90(tangent), sliding_velocity: tangent.dot(&relative) }
     }
 
     /// Supported length of a block slider: distance of front from rear contact along the guide (m).
-    pub fn overlap(&self, mechanism: &Mechanism, slider: &Slider) -> Option<f64> {
+    pub fn overlap(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Option<T> {
         let [front, rear] = slider.contacts[..] else { return None };
         let front = self.contact(mechanism, front);
         Some(front.tangent.dot(&(front.point - self.contact(mechanism, rear).point)))
@@ -164,12 +168,16 @@ fn drawing_poses(mechanism: &Mechanism) -> Vec<Pose> {
 }
 
 /// A vector turned by an angle.
-fn turned(angle: f64, vector: Vector2<f64>) -> Vector2<f64> {
-    if angle == 0.0 { vector } else { Rotation2::new(angle) * vector }
+fn turned<T: Real>(angle: T, vector: Vector2<T>) -> Vector2<T> {
+    if angle.is_zero() {
+        return vector;
+    }
+    let (cos, sin) = (angle.cos(), angle.sin());
+    Vector2::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y)
 }
 
 /// Where a point of the drawing is when the bodies have these poses.
-fn moved(mechanism: &Mechanism, poses: &[Pose], point: &Attachment) -> Vector2<f64> {
+fn moved<T: Real>(mechanism: &Mechanism<T>, poses: &[Pose<T>], point: &Attachment<T>) -> Vector2<T> {
     match point.frame.body() {
         None => point.position,
         Some(body) => {
@@ -181,11 +189,11 @@ fn moved(mechanism: &Mechanism, poses: &[Pose], point: &Attachment) -> Vector2<f
 }
 
 /// The middle of the block as a point of the block, and of the guide.
-fn middle_points(slider: &Slider) -> [Attachment; 2] {
+fn middle_points<T: Real>(slider: &Slider<T>) -> [Attachment<T>; 2] {
     [slider.block, slider.guide].map(|frame| Attachment { frame, position: slider.at })
 }
 
 /// The unit of a coordinate.
-pub fn unit(kind: &CoordinateKind) -> &'static str {
+pub fn unit<T>(kind: &CoordinateKind<T>) -> &'static str {
     if kind.is_angle() { "rad" } else { "m" }
 }

@@ -5,22 +5,23 @@ use super::function::Binary;
 use super::names::Symbol;
 use super::parser::MAX_DEPTH;
 use super::program::{Expression, Operation, Step};
+use crate::interval::Real;
 
 /// The values of everything a name can stand for, in SI units.
 #[derive(Clone, Copy, Debug)]
-pub struct Values<'a> {
+pub struct Values<'a, T = f64> {
     /// Parameters, in the order in which they were added to [`Names`](super::Names).
-    pub parameters: &'a [f64],
+    pub parameters: &'a [T],
     /// Coordinates, in the same way.
-    pub coordinates: &'a [f64],
+    pub coordinates: &'a [T],
     /// Rates of change of the coordinates, in the order of the coordinates.
-    pub rates: &'a [f64],
+    pub rates: &'a [T],
     /// Time, in s.
-    pub time: f64,
+    pub time: T,
 }
 
-impl Values<'_> {
-    fn of(&self, symbol: Symbol) -> Result<f64, ExpressionFaultKind> {
+impl<T: Real> Values<'_, T> {
+    fn of(&self, symbol: Symbol) -> Result<T, ExpressionFaultKind> {
         let value = match symbol {
             Symbol::Parameter(index) => self.parameters.get(index).copied(),
             Symbol::Coordinate(index) => self.coordinates.get(index).copied(),
@@ -38,7 +39,7 @@ const USUAL_HEIGHT: usize = 16;
 const MAX_HEIGHT: usize = MAX_DEPTH + 2;
 
 impl Expression {
-    /// The value in SI units.
+    /// The value in SI units; of intervals, one that holds all values that the expression has there.
     ///
     /// # Errors
     ///
@@ -53,21 +54,21 @@ impl Expression {
     /// assert_eq!(fault.kind, ExpressionFaultKind::DivisionByZero { numerator: 1.0 });
     /// assert_eq!(fault.span, 4..7);
     /// ```
-    pub fn evaluate(&self, values: &Values<'_>) -> Result<f64, ExpressionFault> {
+    pub fn evaluate<T: Real>(&self, values: &Values<'_, T>) -> Result<T, ExpressionFault> {
         if self.greatest_height() <= USUAL_HEIGHT {
-            run(self.steps(), values, &mut [0.0; USUAL_HEIGHT])
+            run(self.steps(), values, &mut [T::zero(); USUAL_HEIGHT])
         } else {
-            run(self.steps(), values, &mut [0.0; MAX_HEIGHT])
+            run(self.steps(), values, &mut [T::zero(); MAX_HEIGHT])
         }
     }
 }
 
 /// Runs the steps; `stack[..height]` holds the values not yet used.
-fn run(steps: &[Step], values: &Values<'_>, stack: &mut [f64]) -> Result<f64, ExpressionFault> {
+fn run<T: Real>(steps: &[Step], values: &Values<'_, T>, stack: &mut [T]) -> Result<T, ExpressionFault> {
     let mut height = 0;
     for step in steps {
         let value = match step.operation {
-            Operation::Number { value, .. } => value,
+            Operation::Number { value, enclosure, .. } => T::written(value, enclosure),
             Operation::Symbol(symbol) => values.of(symbol).map_err(|kind| fault(kind, step))?,
             Operation::Unary(function) => {
                 height -= 1;
@@ -91,17 +92,20 @@ fn fault(kind: ExpressionFaultKind, step: &Step) -> ExpressionFault {
     ExpressionFault::new(kind, step.span.clone())
 }
 
-fn not_finite(operation: Operation, arguments: &[f64], value: f64) -> ExpressionFaultKind {
+fn not_finite<T: Real>(operation: Operation, arguments: &[T], value: T) -> ExpressionFaultKind {
+    let numbers = |count: usize| arguments[..count].iter().map(|argument| argument.middle()).collect();
     match operation {
-        Operation::Number { .. } | Operation::Symbol(_) => ExpressionFaultKind::ValueNotFinite { value },
-        Operation::Unary(function) => {
-            ExpressionFaultKind::NotFinite { operation: function.name(), arguments: arguments[..1].to_vec() }
+        Operation::Number { .. } | Operation::Symbol(_) => {
+            ExpressionFaultKind::ValueNotFinite { value: value.middle() }
         }
-        Operation::Binary(Binary::Divide) if arguments[1] == 0.0 => {
-            ExpressionFaultKind::DivisionByZero { numerator: arguments[0] }
+        Operation::Unary(function) => {
+            ExpressionFaultKind::NotFinite { operation: function.name(), arguments: numbers(1) }
+        }
+        Operation::Binary(Binary::Divide) if arguments[1].is_zero() => {
+            ExpressionFaultKind::DivisionByZero { numerator: arguments[0].middle() }
         }
         Operation::Binary(function) => {
-            ExpressionFaultKind::NotFinite { operation: function.name(), arguments: arguments[..2].to_vec() }
+            ExpressionFaultKind::NotFinite { operation: function.name(), arguments: numbers(2) }
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Operators and functions of expressions: their names and their values.
 
+use crate::interval::Real;
+
 /// A function or operator of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unary {
@@ -102,7 +104,7 @@ impl Unary {
     }
 
     /// The value at `x`; not finite outside the function's domain and where it overflows.
-    pub(super) fn value(self, x: f64) -> f64 {
+    pub(super) fn value<T: Real>(self, x: T) -> T {
         match self {
             Self::Negate => -x,
             Self::Sin => x.sin(),
@@ -116,13 +118,11 @@ impl Unary {
             Self::Tanh => x.tanh(),
             Self::Sqrt => x.sqrt(),
             Self::Abs => x.abs(),
-            Self::Sign if x == 0.0 => 0.0,
-            Self::Sign => x.signum(),
+            Self::Sign => x.sign(),
             Self::Exp => x.exp(),
             Self::Ln => x.ln(),
             Self::Log10 => x.log10(),
-            Self::Step if x < 0.0 => 0.0,
-            Self::Step => 1.0,
+            Self::Step => x.step(),
         }
     }
 }
@@ -140,13 +140,13 @@ impl Binary {
     }
 
     /// The value at `x` and `y`; not finite outside the function's domain and where it overflows.
-    pub(super) fn value(self, x: f64, y: f64) -> f64 {
+    pub(super) fn value<T: Real>(self, x: T, y: T) -> T {
         match self {
             Self::Add => x + y,
             Self::Subtract => x - y,
             Self::Multiply => x * y,
             Self::Divide => x / y,
-            Self::Power => x.powf(y),
+            Self::Power => x.power(y),
             Self::Atan2 => x.atan2(y),
             Self::Hypot => x.hypot(y),
             Self::Min => x.min(y),

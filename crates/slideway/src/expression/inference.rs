@@ -45,7 +45,7 @@ impl Expression {
         for step in self.steps() {
             let span = step.span.clone();
             let part = match step.operation {
-                Operation::Number { value, inferred } => Part { inferred, constant: Some(value), span },
+                Operation::Number { value, inferred, .. } => Part { inferred, constant: Some(value), span },
                 Operation::Symbol(symbol) => Part { inferred: of(symbol), constant: None, span },
                 Operation::Unary(function) => {
                     let x = stack.pop().unwrap_or_else(Part::unknown);

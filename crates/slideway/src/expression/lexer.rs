@@ -4,12 +4,15 @@ use std::iter::Peekable;
 use std::ops::Range;
 use std::str::CharIndices;
 
+use super::decimal;
 use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::names::{continues_name, starts_name};
+use crate::interval::Interval;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TokenKind<'t> {
-    Number(f64),
+    /// The number nearest to the one that is written, and where that lies.
+    Number(f64, Interval),
     /// A name, a unit, or one of the unit signs `°` and `%`.
     Name(&'t str),
     /// An exponent such as `²`.
@@ -118,7 +121,7 @@ impl<'t> Lexer<'t> {
         let written = &self.text[start..self.position()];
         let plain: String = written.replace('_', "").replace('\u{2212}', "-");
         match plain.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(TokenKind::Number(value)),
+            Ok(value) if value.is_finite() => Ok(TokenKind::Number(value, decimal::enclosure(value, &plain))),
             _ => Err(ExpressionFaultKind::NumberTooLarge),
         }
     }

@@ -9,6 +9,7 @@ use super::lexer::TokenKind;
 use super::names::{is_reserved, nearest};
 use super::parser::{Parser, Read};
 use super::unit::{self, Scale, UNITS, Unit};
+use crate::interval::Interval;
 
 /// How a unit is joined to what stands before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,10 +24,10 @@ const MAX_PROPOSALS: usize = 3;
 
 impl<'t> Parser<'t> {
     /// A number and its unit, if one follows; returns the place of both.
-    pub(super) fn literal(&mut self, number: f64) -> Read {
+    pub(super) fn literal(&mut self, number: f64, enclosure: Interval) -> Read {
         let mut span = self.advance();
         if !matches!(self.peek(0), Some(TokenKind::Name(_))) {
-            self.number(number, Inferred::Number, span.clone());
+            self.number(number, enclosure, Inferred::Number, span.clone());
             return Ok(span);
         }
         let mut scale = Some(Scale::ONE);
@@ -39,14 +40,15 @@ impl<'t> Parser<'t> {
             });
         }
         if let Some(scale) = scale {
-            self.quantity(scale.in_si(number), scale, span.clone());
+            let enclosure = scale.enclosed_in_si(enclosure);
+            self.quantity(scale.in_si(number), enclosure, scale, span.clone());
         }
         Ok(span)
     }
 
-    fn quantity(&mut self, value: f64, scale: Scale, span: Range<usize>) {
+    fn quantity(&mut self, value: f64, enclosure: Interval, scale: Scale, span: Range<usize>) {
         if value.is_finite() {
-            self.number(value, Inferred::Known(scale.dimension()), span);
+            self.number(value, enclosure, Inferred::Known(scale.dimension()), span);
         } else {
             self.faults.push(ExpressionFault::new(ExpressionFaultKind::NumberTooLarge, span));
         }
@@ -122,7 +124,9 @@ impl<'t> Parser<'t> {
                     self.advance();
                 }
                 match self.peek(0) {
-                    Some(TokenKind::Number(value)) => whole_exponent(if negative { -value } else { value }),
+                    Some(TokenKind::Number(value, _)) => {
+                        whole_exponent(if negative { -value } else { value })
+                    }
                     _ => None,
                 }
             }

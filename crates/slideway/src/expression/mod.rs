@@ -33,6 +33,7 @@
 //! assert_eq!(height.evaluate(&values), Ok(0.025));
 //! ```
 
+mod decimal;
 mod dimension;
 mod evaluate;
 mod fault;

@@ -10,6 +10,7 @@ use super::lexer::{Token, TokenKind, tokens};
 use super::names::{Names, PI, RATE, Symbol, nearest_function};
 use super::program::{Expression, Operation};
 use super::unit;
+use crate::interval::Interval;
 
 /// The longest text of an expression, in bytes.
 pub const MAX_LENGTH: usize = 10_000;
@@ -150,13 +151,14 @@ impl<'t> Parser<'t> {
     fn superscript(&mut self, base: &Range<usize>, exponent: i8) -> Range<usize> {
         let span = self.advance();
         let whole = base.start..span.end;
-        self.number(f64::from(exponent), Inferred::Number, span);
+        let exponent = f64::from(exponent);
+        self.number(exponent, Interval::point(exponent), Inferred::Number, span);
         self.program.push(Operation::Binary(Binary::Power), whole.clone());
         whole
     }
 
-    pub(super) fn number(&mut self, value: f64, inferred: Inferred, span: Range<usize>) {
-        self.program.push(Operation::Number { value, inferred }, span);
+    pub(super) fn number(&mut self, value: f64, enclosure: Interval, inferred: Inferred, span: Range<usize>) {
+        self.program.push(Operation::Number { value, enclosure, inferred }, span);
     }
 
     /// A number, name, call or parenthesis, with signs before it.
@@ -165,7 +167,7 @@ impl<'t> Parser<'t> {
             return Err(self.here(ExpressionFaultKind::UnexpectedEnd));
         };
         match kind {
-            TokenKind::Number(value) => self.literal(value),
+            TokenKind::Number(value, enclosure) => self.literal(value, enclosure),
             TokenKind::Name(name) if self.peek(1) == Some(TokenKind::Open) => self.call(name),
             TokenKind::Name(name) => Ok(self.name(name)),
             TokenKind::Open => {
@@ -201,7 +203,7 @@ impl<'t> Parser<'t> {
     fn name(&mut self, name: &str) -> Range<usize> {
         let span = self.advance();
         if name == PI {
-            self.number(consts::PI, Inferred::Number, span.clone());
+            self.number(consts::PI, Interval::PI, Inferred::Number, span.clone());
         } else if let Some(symbol) = self.names.lookup(name) {
             self.program.push(Operation::Symbol(symbol), span.clone());
         } else {

@@ -2,13 +2,20 @@
 
 use std::ops::Range;
 
+use super::decimal;
 use super::dimension::Inferred;
 use super::function::{Binary, Unary};
 use super::names::Symbol;
+use crate::interval::Interval;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Operation {
-    Number { value: f64, inferred: Inferred },
+    /// A number that was written: the nearest to it, and where it lies.
+    Number {
+        value: f64,
+        enclosure: Interval,
+        inferred: Inferred,
+    },
     Symbol(Symbol),
     Unary(Unary),
     Binary(Binary),
@@ -43,8 +50,17 @@ impl Expression {
     /// assert_eq!(Expression::constant(2.5).evaluate(&values), Ok(2.5));
     /// ```
     pub fn constant(value: f64) -> Self {
+        Self::number(value, Interval::point(value))
+    }
+
+    /// A plain number that was written as a decimal, of which `value` is the nearest.
+    pub(crate) fn decimal(value: f64, written: &str) -> Self {
+        Self::number(value, decimal::enclosure(value, written))
+    }
+
+    fn number(value: f64, enclosure: Interval) -> Self {
         let mut expression = Self::default();
-        expression.push(Operation::Number { value, inferred: Inferred::Number }, 0..0);
+        expression.push(Operation::Number { value, enclosure, inferred: Inferred::Number }, 0..0);
         expression
     }
 

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::dimension::Dimension;
 use super::fault::ExpressionFaultKind;
+use crate::interval::{Interval, Real};
 
 /// A unit: its value in SI is `numerator / denominator`.
 ///
@@ -62,6 +63,17 @@ pub(super) const UNITS: &[Unit] = &[
     unit("rpm", PI / 30.0, 1.0, Dimension::ANGULAR_VELOCITY),
 ];
 
+impl Unit {
+    /// Where the numerator lies: it is a whole number, or a fraction of pi that is rounded twice.
+    fn enclosed_numerator(&self) -> Interval {
+        let value = self.numerator;
+        if value.fract() == 0.0 {
+            return Interval::point(value);
+        }
+        Interval::around(value, 2.0 * f64::EPSILON * value)
+    }
+}
+
 pub(super) fn find(name: &str) -> Option<&'static Unit> {
     UNITS.iter().find(|unit| unit.name == name)
 }
@@ -71,22 +83,31 @@ pub(super) fn find(name: &str) -> Option<&'static Unit> {
 pub(super) struct Scale {
     numerator: f64,
     denominator: f64,
+    /// Where numerator and denominator lie.
+    enclosures: [Interval; 2],
     dimension: Dimension,
 }
 
 impl Scale {
-    pub(super) const ONE: Self = Self { numerator: 1.0, denominator: 1.0, dimension: Dimension::NONE };
+    pub(super) const ONE: Self =
+        Self { numerator: 1.0, denominator: 1.0, enclosures: [Interval::ONE; 2], dimension: Dimension::NONE };
 
     /// This scale times `unit^exponent`; the fault is that the dimension or the factor leaves its range.
     pub(super) fn times(self, unit: &Unit, exponent: i8) -> Result<Self, ExpressionFaultKind> {
         let power = i32::from(exponent).abs();
         let (over, under) = (unit.numerator.powi(power), unit.denominator.powi(power));
         let (over, under) = if exponent < 0 { (under, over) } else { (over, under) };
+        let mut enclosed = [unit.enclosed_numerator(), Interval::point(unit.denominator)]
+            .map(|part| part.power(Interval::point(f64::from(power))));
+        if exponent < 0 {
+            enclosed.swap(0, 1);
+        }
         let factor = unit.dimension.power(exponent);
         let dimension = factor.and_then(|factor| self.dimension.times(factor));
         let scale = Self {
             numerator: self.numerator * over,
             denominator: self.denominator * under,
+            enclosures: [self.enclosures[0] * enclosed[0], self.enclosures[1] * enclosed[1]],
             dimension: dimension.ok_or(ExpressionFaultKind::DimensionTooLarge)?,
         };
         if scale.numerator.is_finite() && scale.denominator.is_finite() {
@@ -99,6 +120,11 @@ impl Scale {
     /// The SI value of `number` in this unit, possibly infinite.
     pub(super) fn in_si(self, number: f64) -> f64 {
         number * self.numerator / self.denominator
+    }
+
+    /// Where the SI value lies of a number in this unit that lies in `number`.
+    pub(super) fn enclosed_in_si(self, number: Interval) -> Interval {
+        number * self.enclosures[0] / self.enclosures[1]
     }
 
     pub(super) fn dimension(self) -> Dimension {

@@ -3,28 +3,29 @@
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, Frame};
-use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Quantity};
+use crate::interval::Real;
+use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Quantity, length};
 use nalgebra::Vector2;
 
 /// A force at a place, or a couple, on a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wrench {
+pub struct Wrench<T = f64> {
     /// What it acts on.
     pub frame: Frame,
     /// Where the force acts (m).
-    pub place: Vector2<f64>,
+    pub place: Vector2<T>,
     /// The force (N).
-    pub force: Vector2<f64>,
+    pub force: Vector2<T>,
     /// The couple (N m), counter-clockwise positive.
-    pub couple: f64,
+    pub couple: T,
 }
 
-impl Wrench {
-    fn force(frame: Frame, place: Vector2<f64>, force: Vector2<f64>) -> Self {
-        Self { frame, place, force, couple: 0.0 }
+impl<T: Real> Wrench<T> {
+    fn force(frame: Frame, place: Vector2<T>, force: Vector2<T>) -> Self {
+        Self { frame, place, force, couple: T::zero() }
     }
 
-    fn couple(frame: Frame, couple: f64) -> Self {
+    fn couple(frame: Frame, couple: T) -> Self {
         Self { frame, place: Vector2::zeros(), force: Vector2::zeros(), couple }
     }
 }
@@ -33,7 +34,10 @@ impl Wrench {
 const GREATEST: f64 = 1e100;
 
 /// All weights and loads in a configuration.
-pub(super) fn applied(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<Wrench>, Faults> {
+pub(super) fn applied<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+) -> Result<Vec<Wrench<T>>, Faults> {
     let mut loads = Loads { mechanism, configuration, wrenches: Vec::new() };
     loads.weights();
     let mut faults = Faults::default();
@@ -42,7 +46,9 @@ pub(super) fn applied(mechanism: &Mechanism, configuration: &Configuration) -> R
         if let Err(fault) = loads.load(load) {
             faults.push(fault);
         }
-        let is_usual = |wrench: &Wrench| wrench.force.amax() < GREATEST && wrench.couple.abs() < GREATEST;
+        let is_usual = |wrench: &Wrench<T>| {
+            [wrench.force.x, wrench.force.y, wrench.couple].iter().all(|part| part.magnitude() < GREATEST)
+        };
         if !loads.wrenches[first..].iter().all(is_usual) {
             let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
             faults.push(Fault::new(kind, load.place.clone()));
@@ -52,11 +58,11 @@ pub(super) fn applied(mechanism: &Mechanism, configuration: &Configuration) -> R
 }
 
 /// A unit effort of a drive and its reaction.
-pub(crate) fn unit_effort(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    effort: &Effort,
-) -> Vec<Wrench> {
+pub(crate) fn unit_effort<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    effort: &Effort<T>,
+) -> Vec<Wrench<T>> {
     match *effort {
         Effort::Force { at, direction, turns, reaction } => {
             let direction = if turns { configuration.direction(at.frame, direction) } else { direction };
@@ -65,39 +71,39 @@ pub(crate) fn unit_effort(
             [Wrench::force(at.frame, place, direction)].into_iter().chain(opposite).collect()
         }
         Effort::Torque { body, reaction } => {
-            let opposite = reaction.map(|frame| Wrench::couple(frame, -1.0));
-            [Wrench::couple(body, 1.0)].into_iter().chain(opposite).collect()
+            let opposite = reaction.map(|frame| Wrench::couple(frame, -T::one()));
+            [Wrench::couple(body, T::one())].into_iter().chain(opposite).collect()
         }
     }
 }
 
-struct Loads<'m> {
-    mechanism: &'m Mechanism,
-    configuration: &'m Configuration,
-    wrenches: Vec<Wrench>,
+struct Loads<'m, T> {
+    mechanism: &'m Mechanism<T>,
+    configuration: &'m Configuration<T>,
+    wrenches: Vec<Wrench<T>>,
 }
 
-impl Loads<'_> {
+impl<T: Real> Loads<'_, T> {
     fn weights(&mut self) {
         for (index, body) in self.mechanism.bodies.iter().enumerate() {
-            let weight = body.mass * self.mechanism.gravity;
+            let weight = self.mechanism.gravity * body.mass;
             let place = self.configuration.poses[index].position;
             self.wrenches.push(Wrench::force(Frame::Body(BodyId(index)), place, weight));
         }
     }
 
-    fn quantity(&self, quantity: Quantity) -> Result<f64, Fault> {
+    fn quantity(&self, quantity: Quantity<T>) -> Result<T, Fault> {
         let Configuration { coordinates, rates, time, .. } = self.configuration;
         self.mechanism.quantity(quantity, coordinates, rates, *time)
     }
 
-    fn load(&mut self, load: &Load) -> Result<(), Fault> {
+    fn load(&mut self, load: &Load<T>) -> Result<(), Fault> {
         match &load.kind {
             LoadKind::Force { at, components, axes, turns, reaction } => {
                 let mut force = Vector2::zeros();
                 for (component, axis) in components.iter().zip(axes) {
                     let axis = if *turns { self.configuration.direction(at.frame, *axis) } else { *axis };
-                    force += self.quantity(*component)? * axis;
+                    force += axis * self.quantity(*component)?;
                 }
                 let place = self.configuration.position(self.mechanism, at);
                 self.wrenches.push(Wrench::force(at.frame, place, force));
@@ -132,7 +138,7 @@ impl Loads<'_> {
         Ok(())
     }
 
-    fn couples(&mut self, body: Frame, reaction: Option<Frame>, moment: f64) {
+    fn couples(&mut self, body: Frame, reaction: Option<Frame>, moment: T) {
         self.wrenches.push(Wrench::couple(body, moment));
         if let Some(reaction) = reaction {
             self.wrenches.push(Wrench::couple(reaction, -moment));
@@ -142,48 +148,50 @@ impl Loads<'_> {
     /// Pulls its ends together with k (length - free length).
     fn spring(
         &mut self,
-        load: &Load,
-        between: &[Attachment; 2],
-        stiffness: f64,
-        free_length: f64,
+        load: &Load<T>,
+        between: &[Attachment<T>; 2],
+        stiffness: T,
+        free_length: T,
     ) -> Result<(), Fault> {
         let [first, second] = self.places(between);
         let axis = second - first;
-        let pull = if free_length == 0.0 {
-            stiffness * axis
+        let pull = if free_length.is_zero() {
+            axis * stiffness
         } else {
-            let length = axis.norm();
-            let tension = stiffness * (length - free_length);
-            if tension == 0.0 { Vector2::zeros() } else { tension * direction(load, axis)? }
+            let tension = stiffness * (length(axis) - free_length);
+            if tension.is_zero() { Vector2::zeros() } else { direction(load, axis)? * tension }
         };
         self.pull(between, [first, second], pull);
         Ok(())
     }
 
     /// Pulls its ends together with c times the rate of its length.
-    fn damper(&mut self, load: &Load, between: &[Attachment; 2], damping: f64) -> Result<(), Fault> {
-        if damping == 0.0 {
+    fn damper(&mut self, load: &Load<T>, between: &[Attachment<T>; 2], damping: T) -> Result<(), Fault> {
+        if damping.is_zero() {
             return Ok(());
         }
         let [first, second] = self.places(between);
         let axis = direction(load, second - first)?;
         let relative = self.configuration.velocity_at(between[1].frame, second)
             - self.configuration.velocity_at(between[0].frame, first);
-        self.pull(between, [first, second], damping * axis.dot(&relative) * axis);
+        self.pull(between, [first, second], axis * (damping * axis.dot(&relative)));
         Ok(())
     }
 
-    fn places(&self, between: &[Attachment; 2]) -> [Vector2<f64>; 2] {
+    fn places(&self, between: &[Attachment<T>; 2]) -> [Vector2<T>; 2] {
         between.each_ref().map(|end| self.configuration.position(self.mechanism, end))
     }
 
-    fn pull(&mut self, between: &[Attachment; 2], places: [Vector2<f64>; 2], pull: Vector2<f64>) {
+    fn pull(&mut self, between: &[Attachment<T>; 2], places: [Vector2<T>; 2], pull: Vector2<T>) {
         self.wrenches.push(Wrench::force(between[0].frame, places[0], pull));
         self.wrenches.push(Wrench::force(between[1].frame, places[1], -pull));
     }
 }
 
-fn direction(load: &Load, axis: Vector2<f64>) -> Result<Vector2<f64>, Fault> {
-    axis.try_normalize(0.0)
-        .ok_or_else(|| Fault::new(FaultKind::ZeroLength { load: load.name.to_string() }, load.place.clone()))
+fn direction<T: Real>(load: &Load<T>, axis: Vector2<T>) -> Result<Vector2<T>, Fault> {
+    let length = length(axis);
+    if length.lower() > 0.0 {
+        return Ok(axis / length);
+    }
+    Err(Fault::new(FaultKind::ZeroLength { load: load.name.to_string() }, load.place.clone()))
 }

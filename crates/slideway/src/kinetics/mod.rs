@@ -21,11 +21,13 @@ pub(crate) use loads::unit_effort as effort_forces;
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
+use crate::interval::Real;
 use crate::mechanism::{JointKind, Mechanism, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
 use rows::ConstraintRow;
 use system::{Factorization, Singular};
+pub(crate) use system::{equilibration, scaled};
 
 /// What a component of the vector of reactions is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +49,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    fn new(mechanism: &Mechanism) -> Self {
+    fn new<T: Real>(mechanism: &Mechanism<T>) -> Self {
         let mut reactions = Vec::new();
         for (index, joint) in mechanism.joints.iter().enumerate() {
             let id = JointId(index);
@@ -120,18 +122,11 @@ impl KineticEquations {
     /// Loads without a value or direction; a motion without inertia; drives that cannot produce their motion;
     /// equations too ill-conditioned to be solved.
     pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
-        let layout = Layout::new(mechanism);
-        let contacts: Vec<ContactGeometry> =
-            (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
-        let applied = loads::applied(mechanism, configuration)?;
-        let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
-        let coordinate_rows = rows::coordinates(mechanism, configuration);
-        let builder = Builder { mechanism, configuration, layout: &layout };
-        let matrix = builder.matrix(&constraints, &coordinate_rows);
-        let load = builder.load(&applied, &constraints, &coordinate_rows)?;
-        let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
-        let factorization =
-            Factorization::new(matrix).map_err(|singular| builder.singular_fault(&singular))?;
+        let assembled = Assembled::new(mechanism, configuration)?;
+        let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows } = assembled;
+        let factorization = Factorization::new(matrix).map_err(|singular| {
+            Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular)
+        })?;
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
     }
 
@@ -164,15 +159,53 @@ impl KineticEquations {
     }
 }
 
-struct Builder<'a> {
-    mechanism: &'a Mechanism,
-    configuration: &'a Configuration,
+/// The kinetic equations of a mechanism in a configuration, not factored: rounded, or within intervals.
+#[derive(Debug, Clone)]
+pub(crate) struct Assembled<T> {
+    /// Where the unknowns stand.
+    pub(crate) layout: Layout,
+    /// The contacts in this configuration.
+    pub(crate) contacts: Vec<ContactGeometry<T>>,
+    /// Weights and loads.
+    applied: Vec<Wrench<T>>,
+    /// [[M, -G^T, -B], [G, 0, 0], [C, 0, 0]]
+    pub(crate) matrix: DMatrix<T>,
+    /// Right-hand side without friction: f, gamma, prescribed accelerations.
+    pub(crate) load: DVector<T>,
+    /// Unit friction of each contact at its face where the normal force is positive, and where it is negative.
+    pub(crate) friction: Vec<[DVector<T>; 2]>,
+    coordinate_rows: Vec<ConstraintRow<T>>,
+}
+
+impl<T: Real> Assembled<T> {
+    /// The equations of a mechanism in a configuration.
+    ///
+    /// # Errors
+    /// Loads without a value or direction.
+    pub(crate) fn new(mechanism: &Mechanism<T>, configuration: &Configuration<T>) -> Result<Self, Faults> {
+        let layout = Layout::new(mechanism);
+        let contacts: Vec<ContactGeometry<T>> =
+            (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
+        let applied = loads::applied(mechanism, configuration)?;
+        let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
+        let coordinate_rows = rows::coordinates(mechanism, configuration);
+        let builder = Builder { mechanism, configuration, layout: &layout };
+        let matrix = builder.matrix(&constraints, &coordinate_rows);
+        let load = builder.load(&applied, &constraints, &coordinate_rows)?;
+        let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
+        Ok(Self { layout, contacts, applied, matrix, load, friction, coordinate_rows })
+    }
+}
+
+struct Builder<'a, T = f64> {
+    mechanism: &'a Mechanism<T>,
+    configuration: &'a Configuration<T>,
     layout: &'a Layout,
 }
 
-impl Builder<'_> {
+impl<T: Real> Builder<'_, T> {
     /// [[M, -G^T, -B], [G, 0, 0], [C, 0, 0]]
-    fn matrix(&self, constraints: &[ConstraintRow], coordinates: &[ConstraintRow]) -> DMatrix<f64> {
+    fn matrix(&self, constraints: &[ConstraintRow<T>], coordinates: &[ConstraintRow<T>]) -> DMatrix<T> {
         let size = self.layout.len();
         let mut matrix = DMatrix::zeros(size, size);
         for (index, body) in self.mechanism.bodies.iter().enumerate() {
@@ -201,10 +234,10 @@ impl Builder<'_> {
 
     fn load(
         &self,
-        applied: &[Wrench],
-        constraints: &[ConstraintRow],
-        coordinates: &[ConstraintRow],
-    ) -> Result<DVector<f64>, Faults> {
+        applied: &[Wrench<T>],
+        constraints: &[ConstraintRow<T>],
+        coordinates: &[ConstraintRow<T>],
+    ) -> Result<DVector<T>, Faults> {
         let mut load = DVector::zeros(self.layout.len());
         for wrench in applied {
             self.add(wrench, |row, value| load[row] += value);
@@ -229,10 +262,10 @@ impl Builder<'_> {
 
     /// W_k^{+} and W_k^{-}: a unit friction force, -u on the block and u on the guide, at the pressed face
     /// P - sign(N) (h/2) n.
-    fn friction(&self, id: ContactId, contact: &ContactGeometry) -> [DVector<f64>; 2] {
-        [1.0, -1.0].map(|sign| {
+    fn friction(&self, id: ContactId, contact: &ContactGeometry<T>) -> [DVector<T>; 2] {
+        [T::one(), -T::one()].map(|sign| {
             let mut column = DVector::zeros(self.layout.len());
-            for wrench in friction_forces(self.mechanism, id, contact, sign, 1.0) {
+            for wrench in friction_forces(self.mechanism, id, contact, sign, T::one()) {
                 self.add(&wrench, |row, value| column[row] += value);
             }
             column
@@ -240,7 +273,7 @@ impl Builder<'_> {
     }
 
     /// Adds a force or couple on a body to the three equations of that body.
-    fn add(&self, wrench: &Wrench, mut add: impl FnMut(usize, f64)) {
+    fn add(&self, wrench: &Wrench<T>, mut add: impl FnMut(usize, T)) {
         let Some(body) = wrench.frame.body() else { return };
         let row = self.layout.acceleration(body);
         let arm = self.configuration.arm(wrench.frame, wrench.place);
@@ -248,7 +281,9 @@ impl Builder<'_> {
         add(row + 1, wrench.force.y);
         add(row + 2, rot90(arm).dot(&wrench.force) + wrench.couple);
     }
+}
 
+impl Builder<'_> {
     /// Which motion or drive makes the equations singular: read off a vector that they map to zero.
     fn singular_fault(&self, singular: &Singular) -> Fault {
         let Singular { null_vector, weights, condition } = singular;
@@ -289,16 +324,16 @@ impl Builder<'_> {
 
 /// The friction force `friction` of a contact as forces on block and guide, acting at the face that is pressed
 /// when the normal force has this sign (theory, section 1).
-pub(crate) fn friction_forces(
-    mechanism: &Mechanism,
+pub(crate) fn friction_forces<T: Real>(
+    mechanism: &Mechanism<T>,
     id: ContactId,
-    contact: &ContactGeometry,
-    sign: f64,
-    friction: f64,
-) -> [Wrench; 2] {
+    contact: &ContactGeometry<T>,
+    sign: T,
+    friction: T,
+) -> [Wrench<T>; 2] {
     let slider =
         mechanism.slider(mechanism.contacts[id.index()].joint).expect("contacts belong to sliding joints");
-    let place = contact.point - sign * (slider.height / 2.0) * contact.normal;
-    let on = |frame: Frame, force: Vector2<f64>| Wrench { frame, place, force, couple: 0.0 };
-    [on(slider.block, -friction * contact.tangent), on(slider.guide, friction * contact.tangent)]
+    let place = contact.point - contact.normal * (sign * (slider.height / T::exactly(2.0)));
+    let on = |frame: Frame, force: Vector2<T>| Wrench { frame, place, force, couple: T::zero() };
+    [on(slider.block, contact.tangent * -friction), on(slider.guide, contact.tangent * friction)]
 }

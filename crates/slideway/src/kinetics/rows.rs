@@ -3,14 +3,15 @@
 use super::{Layout, Reaction};
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
+use crate::interval::Real;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism, rot90};
 use nalgebra::{DVector, Vector2};
 
 /// One row: entries by the index of the acceleration, and the right-hand side.
-#[derive(Debug, Clone, Default)]
-pub(super) struct ConstraintRow {
-    pub(super) entries: Vec<(usize, f64)>,
-    pub(super) right_hand_side: f64,
+#[derive(Debug, Clone)]
+pub(super) struct ConstraintRow<T = f64> {
+    pub(super) entries: Vec<(usize, T)>,
+    pub(super) right_hand_side: T,
 }
 
 impl ConstraintRow {
@@ -18,22 +19,28 @@ impl ConstraintRow {
     pub(super) fn times(&self, unknowns: &DVector<f64>) -> f64 {
         self.entries.iter().map(|(index, value)| value * unknowns[*index]).sum()
     }
+}
+
+impl<T: Real> ConstraintRow<T> {
+    fn empty() -> Self {
+        Self { entries: Vec::new(), right_hand_side: T::zero() }
+    }
 
     /// Adds sign * axis . (acceleration of the material point of `frame` at `place`).
     ///
     /// The acceleration is a_c + alpha x r - omega^2 r; its last term goes to the right-hand side.
-    fn add(&mut self, configuration: &Configuration, frame: Frame, place: Vector2<f64>, axis: Vector2<f64>) {
+    fn add(&mut self, configuration: &Configuration<T>, frame: Frame, place: Vector2<T>, axis: Vector2<T>) {
         let Some(body) = frame.body() else { return };
         let arm = configuration.arm(frame, place);
         let first = 3 * body.index();
         self.entries.push((first, axis.x));
         self.entries.push((first + 1, axis.y));
         self.entries.push((first + 2, axis.dot(&rot90(arm))));
-        self.right_hand_side += configuration.angular_velocity(frame).powi(2) * axis.dot(&arm);
+        self.right_hand_side += configuration.angular_velocity(frame).square() * axis.dot(&arm);
     }
 
     /// Adds sign * (angular acceleration of `frame`).
-    fn add_rotation(&mut self, frame: Frame, sign: f64) {
+    fn add_rotation(&mut self, frame: Frame, sign: T) {
         if let Some(body) = frame.body() {
             self.entries.push((3 * body.index() + 2, sign));
         }
@@ -41,12 +48,12 @@ impl ConstraintRow {
 }
 
 /// The rows of all reactions, in the order of the layout.
-pub(super) fn constraints(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    contacts: &[ContactGeometry],
+pub(super) fn constraints<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    contacts: &[ContactGeometry<T>],
     layout: &Layout,
-) -> Vec<ConstraintRow> {
+) -> Vec<ConstraintRow<T>> {
     let row = |reaction: &Reaction| match *reaction {
         Reaction::Hinge(joint, axis) => hinge(mechanism, configuration, joint, axis),
         Reaction::Normal(contact) => {
@@ -59,8 +66,13 @@ pub(super) fn constraints(
 }
 
 /// Both points of a hinge have the same acceleration.
-fn hinge(mechanism: &Mechanism, configuration: &Configuration, joint: JointId, axis: usize) -> ConstraintRow {
-    let mut row = ConstraintRow::default();
+fn hinge<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    joint: JointId,
+    axis: usize,
+) -> ConstraintRow<T> {
+    let mut row = ConstraintRow::empty();
     if let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind {
         let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
         row.add(configuration, first.frame, configuration.position(mechanism, first), axis);
@@ -73,34 +85,38 @@ fn hinge(mechanism: &Mechanism, configuration: &Configuration, joint: JointId, a
 ///
 /// A contact that is carried by the guide stays on a line of the block; block and guide turn together there, so
 /// that the row is the same.
-fn normal(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
+fn normal<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
     joint: JointId,
-    contact: &ContactGeometry,
-) -> ConstraintRow {
-    let mut row = ConstraintRow::default();
+    contact: &ContactGeometry<T>,
+) -> ConstraintRow<T> {
+    let mut row = ConstraintRow::empty();
     if let Some(slider) = mechanism.slider(joint) {
         row.add(configuration, slider.block, contact.point, contact.normal);
         row.add(configuration, slider.guide, contact.point, -contact.normal);
-        row.right_hand_side += 2.0 * configuration.angular_velocity(slider.guide) * contact.sliding_velocity;
+        row.right_hand_side +=
+            T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.sliding_velocity;
     }
     row
 }
 
-fn no_relative_rotation(mechanism: &Mechanism, joint: JointId) -> ConstraintRow {
-    let mut row = ConstraintRow::default();
+fn no_relative_rotation<T: Real>(mechanism: &Mechanism<T>, joint: JointId) -> ConstraintRow<T> {
+    let mut row = ConstraintRow::empty();
     if let Some(slider) = mechanism.slider(joint) {
-        row.add_rotation(slider.block, 1.0);
-        row.add_rotation(slider.guide, -1.0);
+        row.add_rotation(slider.block, T::one());
+        row.add_rotation(slider.guide, -T::one());
     }
     row
 }
 
 /// The rows that give the accelerations of the coordinates: C a - right-hand side.
-pub(super) fn coordinates(mechanism: &Mechanism, configuration: &Configuration) -> Vec<ConstraintRow> {
-    let row = |kind: CoordinateKind| {
-        let mut row = ConstraintRow::default();
+pub(super) fn coordinates<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+) -> Vec<ConstraintRow<T>> {
+    let row = |kind: CoordinateKind<T>| {
+        let mut row = ConstraintRow::empty();
         match kind {
             // s'' = u . (a_block - a_guide), both at the place of the block: the Coriolis term is normal to u.
             CoordinateKind::Slide(joint) => {
@@ -113,8 +129,8 @@ pub(super) fn coordinates(mechanism: &Mechanism, configuration: &Configuration) 
                 }
             }
             CoordinateKind::Rotation(body, against) => {
-                row.add_rotation(Frame::Body(body), 1.0);
-                row.add_rotation(against, -1.0);
+                row.add_rotation(Frame::Body(body), T::one());
+                row.add_rotation(against, -T::one());
             }
             CoordinateKind::Displacement(point, axis) => {
                 row.add(configuration, point.frame, configuration.position(mechanism, &point), axis);

@@ -1,6 +1,7 @@
 //! Factorization of the kinetic equations: equilibrated, fully pivoted, with a step of refinement.
 
 use crate::configuration::null_space;
+use crate::interval::Real;
 use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
 
 /// Pivots below this multiple of the greatest count as zero; the equations are then singular.
@@ -80,13 +81,21 @@ impl Factorization {
     }
 }
 
-fn scaled(matrix: &DMatrix<f64>, rows: &DVector<f64>, columns: &DVector<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| rows[i] * matrix[(i, j)] * columns[j])
+/// A matrix with rows and columns multiplied by powers of two.
+pub(crate) fn scaled<T: Real>(
+    matrix: &DMatrix<T>,
+    rows: &DVector<f64>,
+    columns: &DVector<f64>,
+) -> DMatrix<T> {
+    let factor = T::exactly;
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+        factor(rows[i]) * matrix[(i, j)] * factor(columns[j])
+    })
 }
 
 /// Powers of two by which rows and columns are multiplied so that their greatest entries are near one
 /// (Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices, 2001).
-fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64>) {
+pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64>) {
     let mut rows = DVector::from_element(matrix.nrows(), 1.0);
     let mut columns = DVector::from_element(matrix.ncols(), 1.0);
     for _ in 0..6 {

@@ -2,10 +2,10 @@
 
 use super::{
     Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, Joint, JointKind, Load, LoadKind,
-    Mechanism, Quantity, Slider, rot90,
+    Mechanism, Quantity, Slider, length, rot90,
 };
-use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
+use crate::interval::Real;
 use crate::model::{
     self, Along, Effort as ModelEffort, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
     Moment, SliderKind,
@@ -14,28 +14,25 @@ use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// A model beside the values of its formulas.
-pub(super) struct Evaluation<'m> {
-    model: &'m Model,
-    values: Vec<f64>,
+pub(super) struct Evaluation<'m, T> {
+    pub(super) model: &'m Model,
+    pub(super) values: Vec<T>,
 }
 
-impl<'m> Evaluation<'m> {
-    pub(super) fn new(model: &'m Model) -> Result<Self, Faults> {
-        Ok(Self { model, values: model.constants()? })
-    }
-
-    pub(super) fn mechanism(&self) -> Mechanism {
+impl<T: Real> Evaluation<'_, T> {
+    /// The mechanism; its size is left to be found.
+    pub(super) fn mechanism(&self) -> Mechanism<T> {
         let model = self.model;
         let mut contacts = Vec::new();
         let numbered = model.joints.iter().enumerate();
-        let joints: Vec<Joint> =
+        let joints: Vec<Joint<T>> =
             numbered.map(|(index, joint)| self.joint(JointId(index), joint, &mut contacts)).collect();
         let bodies = (0..model.bodies.len()).map(|index| self.body(BodyId(index), &joints)).collect();
         let coordinates = model.coordinates.iter().map(|coordinate| self.coordinate(coordinate)).collect();
-        let mut mechanism = Mechanism {
+        Mechanism {
             title: model.title.clone(),
             gravity: self.gravity(),
-            time: model.time.map_or(0.0, |time| self.value(time)),
+            time: model.time.map_or(T::zero(), |time| self.value(time)),
             bodies,
             joints,
             contacts,
@@ -45,16 +42,14 @@ impl<'m> Evaluation<'m> {
             size: 1.0,
             parameters: model.parameter_values(&self.values),
             formulas: Arc::clone(&model.formulas),
-        };
-        mechanism.size = size(&mechanism);
-        mechanism
+        }
     }
 
-    fn value(&self, id: FormulaId) -> f64 {
+    fn value(&self, id: FormulaId) -> T {
         self.values[id.index()]
     }
 
-    fn quantity(&self, id: FormulaId) -> Quantity {
+    fn quantity(&self, id: FormulaId) -> Quantity<T> {
         if self.model.formula(id).moves() {
             Quantity::Varying(id)
         } else {
@@ -62,37 +57,38 @@ impl<'m> Evaluation<'m> {
         }
     }
 
-    fn vector(&self, components: [FormulaId; 2]) -> Vector2<f64> {
+    fn vector(&self, components: [FormulaId; 2]) -> Vector2<T> {
         Vector2::new(self.value(components[0]), self.value(components[1]))
     }
 
-    fn gravity(&self) -> Vector2<f64> {
+    fn gravity(&self) -> Vector2<T> {
         match self.model.gravity {
             Gravity::None => Vector2::zeros(),
-            Gravity::Down(magnitude) => Vector2::new(0.0, -self.value(magnitude)),
+            Gravity::Down(magnitude) => Vector2::new(T::zero(), -self.value(magnitude)),
             Gravity::Components(components) => self.vector(components),
         }
     }
 
-    fn attachment(&self, attachment: &model::Attachment) -> Attachment {
+    fn attachment(&self, attachment: &model::Attachment) -> Attachment<T> {
         Attachment { frame: attachment.frame, position: self.vector(attachment.position) }
     }
 
     /// Unit vector of a direction; the model has made sure that two points differ.
-    fn direction(&self, along: &Along) -> Vector2<f64> {
+    fn direction(&self, along: &Along) -> Vector2<T> {
         match along {
-            Along::Angle(angle) => unit_vector(self.value(*angle)),
+            Along::Angle(angle) => self.value(*angle).direction().into(),
             Along::Points(points) => {
                 let [from, to] = points.as_ref();
-                (self.vector(to.position) - self.vector(from.position)).normalize()
+                let between = self.vector(to.position) - self.vector(from.position);
+                between / length(between)
             }
         }
     }
 
-    fn body(&self, id: BodyId, joints: &[Joint]) -> Body {
+    fn body(&self, id: BodyId, joints: &[Joint<T>]) -> Body<T> {
         let body = &self.model.bodies[id.index()];
         let (mass, moment_of_inertia, centre_of_mass) = match &body.inertia {
-            Inertia::Massless => (0.0, 0.0, mean_joint_place(Frame::Body(id), joints)),
+            Inertia::Massless => (T::zero(), T::zero(), mean_joint_place(Frame::Body(id), joints)),
             Inertia::Massive { mass, centre_of_mass, moment } => {
                 let mass = self.value(*mass);
                 let (moment, middle) = self.moment_of_inertia(moment, mass);
@@ -113,19 +109,21 @@ impl<'m> Evaluation<'m> {
     }
 
     /// Moment of inertia about the centre of mass, and the middle of a bar.
-    fn moment_of_inertia(&self, moment: &Moment, mass: f64) -> (f64, Vector2<f64>) {
+    fn moment_of_inertia(&self, moment: &Moment, mass: T) -> (T, Vector2<T>) {
         match moment {
             Moment::Given(moment) => (self.value(*moment), Vector2::zeros()),
             Moment::Bar([from, to]) => {
                 let (from, to) = (self.vector(*from), self.vector(*to));
-                (mass * (to - from).norm_squared() / 12.0, (from + to) / 2.0)
+                (mass * square(to - from) / T::exactly(12.0), (from + to) / T::exactly(2.0))
             }
-            Moment::Rectangle(sides) => (mass * self.vector(*sides).norm_squared() / 12.0, Vector2::zeros()),
-            Moment::Disc(radius) => (mass * self.value(*radius).powi(2) / 2.0, Vector2::zeros()),
+            Moment::Rectangle(sides) => {
+                (mass * square(self.vector(*sides)) / T::exactly(12.0), Vector2::zeros())
+            }
+            Moment::Disc(radius) => (mass * self.value(*radius).square() / T::exactly(2.0), Vector2::zeros()),
         }
     }
 
-    fn joint(&self, id: JointId, joint: &model::Joint, contacts: &mut Vec<Contact>) -> Joint {
+    fn joint(&self, id: JointId, joint: &model::Joint, contacts: &mut Vec<Contact<T>>) -> Joint<T> {
         let kind = match &joint.kind {
             model::JointKind::Hinge(ends) => {
                 JointKind::Hinge(ends.each_ref().map(|end| self.attachment(end)))
@@ -135,20 +133,22 @@ impl<'m> Evaluation<'m> {
         Joint { name: joint.name.clone(), place: joint.place.clone(), kind }
     }
 
-    fn slider(&self, slider: &model::Slider, joint: JointId, contacts: &mut Vec<Contact>) -> Slider {
-        let length = slider.length.map_or(0.0, |length| self.value(length));
-        let height = slider.height.map_or(0.0, |height| self.value(height));
+    fn slider(&self, slider: &model::Slider, joint: JointId, contacts: &mut Vec<Contact<T>>) -> Slider<T> {
+        let length = slider.length.map_or(T::zero(), |length| self.value(length));
+        let height = slider.height.map_or(T::zero(), |height| self.value(height));
         let offsets: &[f64] = if slider.kind == SliderKind::Block { &[0.5, -0.5] } else { &[0.0] };
         let first = contacts.len();
         for (contact, offset) in slider.contacts.iter().zip(offsets) {
             contacts.push(Contact {
                 name: contact.name.clone(),
                 joint,
-                offset: offset * length,
+                offset: T::exactly(*offset) * length,
                 carried_by: contact.carried_by,
                 mu: contact.mu.map(|mu| self.value(mu)),
                 mu_static: contact.mu_static.map(|mu| self.value(mu)),
-                preload: contact.preload.map(|preload| preload.map_or(0.0, |preload| self.value(preload))),
+                preload: contact
+                    .preload
+                    .map(|preload| preload.map_or(T::zero(), |preload| self.value(preload))),
                 preload_line: contact.preload_line,
                 stiffness: contact.stiffness.map(|stiffness| self.value(stiffness)),
             });
@@ -167,7 +167,7 @@ impl<'m> Evaluation<'m> {
         }
     }
 
-    fn load(&self, load: &model::Load) -> Load {
+    fn load(&self, load: &model::Load) -> Load<T> {
         let kind = match &load.kind {
             ModelLoadKind::Force { at, force, frame, reaction } => {
                 let (components, axes) = match force {
@@ -176,7 +176,7 @@ impl<'m> Evaluation<'m> {
                     }
                     model::ForceValue::Along(magnitude, along) => {
                         let axis = self.direction(along);
-                        ([self.quantity(*magnitude), Quantity::Constant(0.0)], [axis, rot90(axis)])
+                        ([self.quantity(*magnitude), Quantity::Constant(T::zero())], [axis, rot90(axis)])
                     }
                 };
                 let turns = *frame == ForceFrame::Body;
@@ -187,7 +187,7 @@ impl<'m> Evaluation<'m> {
             }
             ModelLoadKind::Spring { between, stiffness, free_length } => {
                 let between = between.each_ref().map(|end| self.attachment(end));
-                let drawn = (between[0].position - between[1].position).norm();
+                let drawn = length(between[0].position - between[1].position);
                 LoadKind::Spring {
                     between,
                     stiffness: self.quantity(*stiffness),
@@ -202,7 +202,7 @@ impl<'m> Evaluation<'m> {
             ModelLoadKind::TorsionalSpring { between, stiffness, free_angle } => LoadKind::TorsionalSpring {
                 between: *between,
                 stiffness: self.quantity(*stiffness),
-                free_angle: free_angle.map_or(Quantity::Constant(0.0), |angle| self.quantity(angle)),
+                free_angle: free_angle.map_or(Quantity::Constant(T::zero()), |angle| self.quantity(angle)),
             },
             ModelLoadKind::TorsionalDamper { between, damping } => {
                 LoadKind::TorsionalDamper { between: *between, damping: self.quantity(*damping) }
@@ -211,7 +211,7 @@ impl<'m> Evaluation<'m> {
         Load { name: load.name.clone(), place: load.place.clone(), kind }
     }
 
-    fn drive(&self, drive: &model::Drive) -> Drive {
+    fn drive(&self, drive: &model::Drive) -> Drive<T> {
         let effort = match &drive.effort {
             ModelEffort::Force { at, direction, frame, reaction } => Effort::Force {
                 at: self.attachment(at),
@@ -225,12 +225,12 @@ impl<'m> Evaluation<'m> {
             name: drive.name.clone(),
             place: drive.place.clone(),
             coordinate: drive.coordinate,
-            acceleration: drive.acceleration.map_or(Quantity::Constant(0.0), |id| self.quantity(id)),
+            acceleration: drive.acceleration.map_or(Quantity::Constant(T::zero()), |id| self.quantity(id)),
             effort,
         }
     }
 
-    fn coordinate(&self, coordinate: &model::Coordinate) -> Coordinate {
+    fn coordinate(&self, coordinate: &model::Coordinate) -> Coordinate<T> {
         let kind = match &coordinate.kind {
             model::CoordinateKind::Slide(joint) => CoordinateKind::Slide(*joint),
             model::CoordinateKind::Rotation { body, relative_to } => {
@@ -243,34 +243,23 @@ impl<'m> Evaluation<'m> {
                 CoordinateKind::Displacement(self.attachment(point), Vector2::y())
             }
         };
-        let drawn_at = coordinate.drawn_at.map_or(0.0, |id| self.value(id));
+        let drawn_at = coordinate.drawn_at.map_or(T::zero(), |id| self.value(id));
         Coordinate {
             name: coordinate.name.clone(),
             place: coordinate.place.clone(),
             kind,
             drawn_at,
             value: coordinate.value.map_or(drawn_at, |id| self.value(id)),
-            rate: coordinate.rate.map_or(0.0, |id| self.value(id)),
+            rate: coordinate.rate.map_or(T::zero(), |id| self.value(id)),
         }
     }
 }
 
-/// The unit vector at an angle; exact along the axes, so that a guide at 90 degrees is truly vertical.
-fn unit_vector(angle: f64) -> Vector2<f64> {
-    let quarters = angle / std::f64::consts::FRAC_PI_2;
-    let nearest = quarters.round();
-    if (quarters - nearest).abs() > 1e-15 * quarters.abs() {
-        return Vector2::new(angle.cos(), angle.sin());
-    }
-    match nearest.rem_euclid(4.0) {
-        0.0 => Vector2::new(1.0, 0.0),
-        1.0 => Vector2::new(0.0, 1.0),
-        2.0 => Vector2::new(-1.0, 0.0),
-        _ => Vector2::new(0.0, -1.0),
-    }
+fn square<T: Real>(vector: Vector2<T>) -> T {
+    vector.x.square() + vector.y.square()
 }
 
-fn mean_joint_place(frame: Frame, joints: &[Joint]) -> Vector2<f64> {
+fn mean_joint_place<T: Real>(frame: Frame, joints: &[Joint<T>]) -> Vector2<T> {
     let mut sum = Vector2::zeros();
     let mut count = 0.0;
     for joint in joints {
@@ -285,11 +274,11 @@ fn mean_joint_place(frame: Frame, joints: &[Joint]) -> Vector2<f64> {
             count += 1.0;
         }
     }
-    if count > 0.0 { sum / count } else { sum }
+    if count > 0.0 { sum / T::exactly(count) } else { sum }
 }
 
 /// The greatest extent of the drawing.
-fn size(mechanism: &Mechanism) -> f64 {
+pub(super) fn size(mechanism: &Mechanism) -> f64 {
     let mut places: Vec<Vector2<f64>> = Vec::new();
     for body in &mechanism.bodies {
         places.push(body.centre_of_mass);

@@ -8,6 +8,7 @@ mod evaluation;
 use crate::expression::Values;
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
+use crate::interval::{Interval, Real};
 use crate::model::{CarriedBy, Formula, Model, PreloadLine, SliderKind};
 use evaluation::Evaluation;
 use nalgebra::Vector2;
@@ -16,82 +17,82 @@ use std::sync::Arc;
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
-/// A mechanism in its reference drawing.
+/// A mechanism in its reference drawing: its numbers are rounded (`T` is `f64`), or lie within intervals.
 #[derive(Debug, Clone)]
-pub struct Mechanism {
+pub struct Mechanism<T = f64> {
     /// One line that says what it is.
     pub title: Option<String>,
     /// Acceleration of free fall (m/s^2).
-    pub gravity: Vector2<f64>,
+    pub gravity: Vector2<T>,
     /// Time of the state (s).
-    pub time: f64,
+    pub time: T,
     /// The moving bodies.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<Body<T>>,
     /// The joints.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<Joint<T>>,
     /// The contacts with friction, in the order of their joints.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<Contact<T>>,
     /// The loads.
-    pub loads: Vec<Load>,
+    pub loads: Vec<Load<T>>,
     /// The drives.
-    pub drives: Vec<Drive>,
+    pub drives: Vec<Drive<T>>,
     /// The chosen coordinates.
-    pub coordinates: Vec<Coordinate>,
-    /// The greatest distance between two of its places (m); 1 if they all coincide.
+    pub coordinates: Vec<Coordinate<T>>,
+    /// The greatest distance between two of its places (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
-    parameters: Vec<f64>,
+    parameters: Vec<T>,
     formulas: Arc<Vec<Formula>>,
 }
 
 /// A rigid body.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub struct Body<T = f64> {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
     /// Mass (kg), zero for a massless body.
-    pub mass: f64,
+    pub mass: T,
     /// Moment of inertia about the centre of mass (kg m^2).
-    pub moment_of_inertia: f64,
+    pub moment_of_inertia: T,
     /// Centre of mass in the drawing; for a massless body the mean of the places of its joints.
-    pub centre_of_mass: Vector2<f64>,
+    pub centre_of_mass: Vector2<T>,
     /// Its named points in the drawing.
-    pub points: Vec<(Arc<str>, Vector2<f64>)>,
+    pub points: Vec<(Arc<str>, Vector2<T>)>,
 }
 
 /// A point that moves with a frame.
 #[derive(Debug, Clone, Copy)]
-pub struct Attachment {
+pub struct Attachment<T = f64> {
     /// What it moves with.
     pub frame: Frame,
     /// Its place in the drawing.
-    pub position: Vector2<f64>,
+    pub position: Vector2<T>,
 }
 
 /// A joint.
 #[derive(Debug, Clone)]
-pub struct Joint {
+pub struct Joint<T = f64> {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
     /// What it is.
-    pub kind: JointKind,
+    pub kind: JointKind<T>,
 }
 
 /// The kinds of joint.
 #[derive(Debug, Clone)]
-pub enum JointKind {
+pub enum JointKind<T = f64> {
     /// A frictionless hinge.
-    Hinge([Attachment; 2]),
+    Hinge([Attachment<T>; 2]),
     /// A sliding joint.
-    Slider(Slider),
+    Slider(Slider<T>),
 }
 
 /// A sliding joint (theory, section 1).
 #[derive(Debug, Clone)]
-pub struct Slider {
+pub struct Slider<T = f64> {
     /// Which of the three kinds.
     pub kind: SliderKind,
     /// The block.
@@ -99,82 +100,82 @@ pub struct Slider {
     /// The guide.
     pub guide: Frame,
     /// Middle of the block in the drawing, on the centre line of the guide.
-    pub at: Vector2<f64>,
+    pub at: Vector2<T>,
     /// Tangent u of the guide in the drawing; the normal is n = rot90(u).
-    pub tangent: Vector2<f64>,
+    pub tangent: Vector2<T>,
     /// Distance of the contacts or length of the pressed face in the drawing (m).
-    pub length: f64,
+    pub length: T,
     /// Distance of the rubbing faces (m), negative where the block surrounds the guide.
-    pub height: f64,
+    pub height: T,
     /// Whether the block surrounds the guide, so that the opposite faces press.
     pub around: bool,
     /// Limits of the displacement (m).
-    pub travel: Option<[f64; 2]>,
+    pub travel: Option<[T; 2]>,
     /// Its contacts: front and rear of a block slider, else the only one.
     pub contacts: Vec<ContactId>,
 }
 
 /// A contact with friction.
 #[derive(Debug, Clone)]
-pub struct Contact {
+pub struct Contact<T = f64> {
     /// "joint", "joint.front" or "joint.rear".
     pub name: Arc<str>,
     /// The sliding joint it belongs to.
     pub joint: JointId,
     /// Distance from the middle of the block along the tangent in the drawing (m).
-    pub offset: f64,
+    pub offset: T,
     /// What it travels with.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
-    pub mu: [f64; 2],
+    pub mu: [T; 2],
     /// Static friction coefficient, likewise.
-    pub mu_static: [f64; 2],
+    pub mu_static: [T; 2],
     /// Preload (N), likewise.
-    pub preload: [f64; 2],
+    pub preload: [T; 2],
     /// Where the preload's friction acts.
     pub preload_line: PreloadLine,
     /// Stiffness of the guide (N/m), if the model gives it.
-    pub stiffness: Option<f64>,
+    pub stiffness: Option<T>,
 }
 
-impl Contact {
+impl<T: Real> Contact<T> {
     /// Whether the contact has neither friction nor preload.
     pub fn is_frictionless(&self) -> bool {
-        self.mu == [0.0; 2] && self.preload == [0.0; 2]
+        self.mu == [T::zero(); 2] && self.preload == [T::zero(); 2]
     }
 }
 
 /// A number that may depend on the motion.
 #[derive(Debug, Clone, Copy)]
-pub enum Quantity {
+pub enum Quantity<T = f64> {
     /// A constant.
-    Constant(f64),
+    Constant(T),
     /// A formula of coordinates, rates and time.
     Varying(FormulaId),
 }
 
 /// A load.
 #[derive(Debug, Clone)]
-pub struct Load {
+pub struct Load<T = f64> {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
     /// What it is.
-    pub kind: LoadKind,
+    pub kind: LoadKind<T>,
 }
 
 /// The kinds of load.
 #[derive(Debug, Clone)]
-pub enum LoadKind {
+pub enum LoadKind<T = f64> {
     /// A force at a point.
     Force {
         /// Where it acts.
-        at: Attachment,
+        at: Attachment<T>,
         /// Components: along x and y, or along the drawn direction and zero.
-        components: [Quantity; 2],
+        components: [Quantity<T>; 2],
         /// The directions of the components in the drawing.
-        axes: [Vector2<f64>; 2],
+        axes: [Vector2<T>; 2],
         /// Whether the directions turn with the body.
         turns: bool,
         /// What the opposite force acts on.
@@ -185,47 +186,47 @@ pub enum LoadKind {
         /// The body.
         body: Frame,
         /// Its moment (N m).
-        moment: Quantity,
+        moment: Quantity<T>,
         /// What the opposite torque acts on.
         reaction: Option<Frame>,
     },
     /// A spring.
     Spring {
         /// Its ends.
-        between: [Attachment; 2],
+        between: [Attachment<T>; 2],
         /// Stiffness (N/m).
-        stiffness: Quantity,
+        stiffness: Quantity<T>,
         /// Length without force (m).
-        free_length: Quantity,
+        free_length: Quantity<T>,
     },
     /// A damper.
     Damper {
         /// Its ends.
-        between: [Attachment; 2],
+        between: [Attachment<T>; 2],
         /// Damping coefficient (N s/m).
-        damping: Quantity,
+        damping: Quantity<T>,
     },
     /// A torsional spring.
     TorsionalSpring {
         /// The bodies.
         between: [Frame; 2],
         /// Torsional stiffness (N m).
-        stiffness: Quantity,
+        stiffness: Quantity<T>,
         /// Rotation without torque, from the drawing (rad).
-        free_angle: Quantity,
+        free_angle: Quantity<T>,
     },
     /// A torsional damper.
     TorsionalDamper {
         /// The bodies.
         between: [Frame; 2],
         /// Torsional damping coefficient (N m s).
-        damping: Quantity,
+        damping: Quantity<T>,
     },
 }
 
 /// A prescribed motion.
 #[derive(Debug, Clone)]
-pub struct Drive {
+pub struct Drive<T = f64> {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the model file.
@@ -233,20 +234,20 @@ pub struct Drive {
     /// The coordinate whose motion is prescribed.
     pub coordinate: CoordinateId,
     /// The prescribed acceleration.
-    pub acceleration: Quantity,
+    pub acceleration: Quantity<T>,
     /// The unknown effort.
-    pub effort: Effort,
+    pub effort: Effort<T>,
 }
 
 /// The unknown force or torque of a drive.
 #[derive(Debug, Clone, Copy)]
-pub enum Effort {
+pub enum Effort<T = f64> {
     /// A force (N) along a line of action.
     Force {
         /// Where it acts.
-        at: Attachment,
+        at: Attachment<T>,
         /// Its direction in the drawing.
-        direction: Vector2<f64>,
+        direction: Vector2<T>,
         /// Whether the direction turns with the body.
         turns: bool,
         /// What the opposite force acts on.
@@ -263,33 +264,33 @@ pub enum Effort {
 
 /// A chosen coordinate.
 #[derive(Debug, Clone)]
-pub struct Coordinate {
+pub struct Coordinate<T = f64> {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
     /// What it measures.
-    pub kind: CoordinateKind,
+    pub kind: CoordinateKind<T>,
     /// Its value in the drawing (m or rad).
-    pub drawn_at: f64,
+    pub drawn_at: T,
     /// Its value in the state.
-    pub value: f64,
+    pub value: T,
     /// Its rate in the state.
-    pub rate: f64,
+    pub rate: T,
 }
 
 /// What a coordinate measures.
 #[derive(Debug, Clone, Copy)]
-pub enum CoordinateKind {
+pub enum CoordinateKind<T = f64> {
     /// Displacement of a sliding joint.
     Slide(JointId),
     /// Rotation of a body against a frame.
     Rotation(BodyId, Frame),
     /// Displacement of a point in a direction.
-    Displacement(Attachment, Vector2<f64>),
+    Displacement(Attachment<T>, Vector2<T>),
 }
 
-impl CoordinateKind {
+impl<T> CoordinateKind<T> {
     /// Whether the coordinate is an angle.
     pub fn is_angle(&self) -> bool {
         matches!(self, Self::Rotation(..))
@@ -302,7 +303,8 @@ impl Mechanism {
     /// # Errors
     /// Every value that is not finite or not allowed, or too large or small to compute with.
     pub fn new(model: &Model) -> Result<Self, Faults> {
-        let mechanism = Evaluation::new(model)?.mechanism();
+        let mut mechanism = Evaluation { model, values: model.constants()? }.mechanism();
+        mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
         Ok(mechanism)
     }
@@ -344,9 +346,27 @@ impl Mechanism {
         }
         faults.or(())
     }
+}
 
+impl Mechanism<Interval> {
+    /// Intervals that hold the numbers of the mechanism that a model describes, which `nominal` has rounded. The
+    /// parameters in `given` have their values from there.
+    ///
+    /// # Errors
+    /// Every formula that has no finite or allowed value for some of the numbers within bounds.
+    pub(crate) fn enclosing(
+        nominal: &Mechanism,
+        model: &Model,
+        given: &[(usize, Interval)],
+    ) -> Result<Self, Faults> {
+        let values = model.enclosed_constants(given)?;
+        Ok(Self { size: nominal.size, ..Evaluation { model, values }.mechanism() })
+    }
+}
+
+impl<T: Real> Mechanism<T> {
     /// The sliding joint with this number, if it is one.
-    pub fn slider(&self, joint: JointId) -> Option<&Slider> {
+    pub fn slider(&self, joint: JointId) -> Option<&Slider<T>> {
         match &self.joints[joint.index()].kind {
             JointKind::Slider(slider) => Some(slider),
             JointKind::Hinge(_) => None,
@@ -364,11 +384,11 @@ impl Mechanism {
     /// A fault if a formula has no finite or allowed value there.
     pub fn quantity(
         &self,
-        quantity: Quantity,
-        coordinates: &[f64],
-        rates: &[f64],
-        time: f64,
-    ) -> Result<f64, Fault> {
+        quantity: Quantity<T>,
+        coordinates: &[T],
+        rates: &[T],
+        time: T,
+    ) -> Result<T, Fault> {
         match quantity {
             Quantity::Constant(value) => Ok(value),
             Quantity::Varying(id) => {
@@ -380,6 +400,11 @@ impl Mechanism {
 }
 
 /// A vector turned by a right angle counter-clockwise: n = rot90(u).
-pub fn rot90(vector: Vector2<f64>) -> Vector2<f64> {
+pub fn rot90<T: Real>(vector: Vector2<T>) -> Vector2<T> {
     Vector2::new(-vector.y, vector.x)
+}
+
+/// Length of a vector.
+pub(crate) fn length<T: Real>(vector: Vector2<T>) -> T {
+    (vector.x.square() + vector.y.square()).sqrt()
 }

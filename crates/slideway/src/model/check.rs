@@ -5,6 +5,7 @@ use super::{Along, BODY_LIMIT, JointKind, LoadKind, Model, NamedPoint, Slider};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
+use crate::interval::{Interval, Real};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -21,7 +22,7 @@ impl Model {
         }
         self.order_parameters(&mut faults);
         self.check_dimensions(&mut faults);
-        let values = self.allowed_values(&mut faults);
+        let values = self.allowed_values(&[], &mut faults);
         self.check_relations(&values, &mut faults);
         if complete {
             self.check_connections(&values, &mut faults);
@@ -55,13 +56,24 @@ impl Model {
     /// A fault for each value that is not finite or not allowed.
     pub fn constants(&self) -> Result<Vec<f64>, Faults> {
         let mut faults = Faults::default();
-        let values = self.allowed_values(&mut faults);
+        let values = self.allowed_values(&[], &mut faults);
         self.check_relations(&values, &mut faults);
         faults.or(values.into_iter().map(Option::unwrap_or_default).collect())
     }
 
+    /// Intervals that hold the exact values of all formulas that do not depend on the motion, 0 for the others;
+    /// `given` has the values of the parameters whose own formulas do not count.
+    ///
+    /// # Errors
+    /// A fault for each formula that has no finite or allowed value for some of the numbers within bounds.
+    pub(crate) fn enclosed_constants(&self, given: &[(usize, Interval)]) -> Result<Vec<Interval>, Faults> {
+        let mut faults = Faults::default();
+        let values = self.allowed_values(given, &mut faults);
+        faults.or(values.into_iter().map(|value| value.unwrap_or(Interval::ZERO)).collect())
+    }
+
     /// The values of the parameters among those of all formulas.
-    pub fn parameter_values(&self, constants: &[f64]) -> Vec<f64> {
+    pub fn parameter_values<T: Real>(&self, constants: &[T]) -> Vec<T> {
         self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
     }
 
@@ -163,12 +175,20 @@ impl Model {
         }
     }
 
-    fn allowed_values(&self, faults: &mut Faults) -> Vec<Option<f64>> {
-        let mut parameters = vec![0.0; self.parameters.len()];
+    /// The values of all formulas that have one without the motion; the parameters in `given` have theirs from there.
+    fn allowed_values<T: Real>(&self, given: &[(usize, T)], faults: &mut Faults) -> Vec<Option<T>> {
+        let mut parameters = vec![T::zero(); self.parameters.len()];
         let mut values = vec![None; self.formulas.len()];
+        for &(index, value) in given {
+            values[self.parameters[index].value.index()] = Some(value);
+        }
         let mut unknown = vec![false; self.parameters.len()];
         for &index in &self.evaluation_order {
             let id = self.parameters[index].value;
+            if let Some(value) = values[id.index()] {
+                parameters[index] = value;
+                continue;
+            }
             unknown[index] = self.formula(id).broken || self.used_parameters(id).any(|used| unknown[used]);
             if unknown[index] || self.formula(id).moves() {
                 continue;
@@ -185,6 +205,9 @@ impl Model {
             self.parameters.iter().map(|parameter| parameter.value).collect();
         for (index, formula) in self.formulas.iter().enumerate() {
             let id = FormulaId(index);
+            if values[index].is_some() {
+                continue;
+            }
             if formula.broken || formula.moves() || self.used_parameters(id).any(|used| unknown[used]) {
                 continue;
             }

@@ -3,6 +3,7 @@
 use super::quantity::{Quantity, Span, Written};
 use crate::expression::{Dimension, Expression, ExpressionFault, Inferred, Symbol, Values};
 use crate::fault::{Fault, FaultKind, Place, Source};
+use crate::interval::Real;
 
 /// Where a formula stands.
 #[derive(Debug, Clone)]
@@ -70,25 +71,25 @@ impl Formula {
     ///
     /// # Errors
     /// A fault if the value is not finite or not allowed.
-    pub fn constant(&self, parameters: &[f64]) -> Result<f64, Fault> {
-        self.value(&Values { parameters, coordinates: &[], rates: &[], time: 0.0 })
+    pub fn constant<T: Real>(&self, parameters: &[T]) -> Result<T, Fault> {
+        self.value(&Values { parameters, coordinates: &[], rates: &[], time: T::zero() })
     }
 
     /// Its value in a state.
     ///
     /// # Errors
     /// A fault if the value is not finite or not allowed.
-    pub fn value(&self, values: &Values<'_>) -> Result<f64, Fault> {
+    pub fn value<T: Real>(&self, values: &Values<'_, T>) -> Result<T, Fault> {
         let value = self.expression.evaluate(values).map_err(|fault| self.origin.fault(fault))?;
         let (allowed, wanted) = match self.allowed {
             Allowed::Any => (true, ""),
-            Allowed::Positive => (value > 0.0, "greater than zero"),
-            Allowed::NotNegative => (value >= 0.0, "at least zero"),
+            Allowed::Positive => (value.lower() > 0.0, "greater than zero"),
+            Allowed::NotNegative => (value.lower() >= 0.0, "at least zero"),
         };
         if allowed {
             return Ok(value);
         }
-        let kind = FaultKind::OutOfRange { what: self.what.to_string(), wanted, value };
+        let kind = FaultKind::OutOfRange { what: self.what.to_string(), wanted, value: value.lower() };
         Err(Fault::new(kind, self.origin.place()))
     }
 

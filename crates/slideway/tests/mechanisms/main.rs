@@ -8,6 +8,7 @@ mod drawing;
 mod random_mechanisms;
 
 mod configuration;
+mod enclosure;
 mod gallery;
 mod gallery_frictionless;
 mod guided_slider;

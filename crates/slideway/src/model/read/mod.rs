@@ -231,7 +231,10 @@ impl<'t> Reader<'t> {
             expression_start: expression_start(quantity, self.text),
         };
         let parsed = match &quantity.written {
-            Written::Number(value) if value.is_finite() => Some(Expression::constant(*value)),
+            Written::Number(value) if value.is_finite() => {
+                let written = self.text.get(quantity.span.clone()).unwrap_or_default();
+                Some(Expression::decimal(*value, written))
+            }
             Written::Number(_) => {
                 self.fault(FaultKind::NotFinite { what: what.clone() }, &quantity.span);
                 None

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::interval::Interval;
 use super::matrix::IntervalMatrix;
+use crate::interval::Interval;
 use crate::modes::problem::SAME_JUMP;
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, ProblemPart, Side};
 

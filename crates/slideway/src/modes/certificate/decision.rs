@@ -6,9 +6,9 @@ use super::data::ProblemView;
 use super::elimination::IntegerSystem;
 use super::enclosure::ApproximateInverse;
 use super::exact::ExactSolution;
-use super::interval::{Interval, Sign};
 use super::polyhedron::ExactSet;
 use super::system::{BoundedVector, PatternSystem};
+use crate::interval::{Interval, Sign};
 use crate::modes::ContactState;
 
 /// Vertices and directions tried, at most, to describe what a singular pattern admits.

@@ -4,7 +4,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 
 use super::data::ProblemView;
-use super::interval::Sign;
+use crate::interval::Sign;
 use crate::modes::{ContactState, ModeProblem};
 
 /// Equations `A z = b` as integers, row by row `[A | b]`. Rows are scaled by powers of two.

@@ -13,9 +13,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::interval::{Interval, Sign};
 use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 use super::system::BoundedVector;
+use crate::interval::{Interval, Sign};
 
 /// How often a trial bound is enlarged.
 const INFLATIONS: usize = 16;

@@ -6,8 +6,8 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 
 use super::elimination::{Echelon, IntegerSystem};
-use super::interval::{Interval, Sign};
 use super::polyhedron::ExactSet;
+use crate::interval::{Interval, Sign};
 use crate::modes::{ContactState, ModeProblem};
 
 /// What the equations of one pattern admit, exactly.

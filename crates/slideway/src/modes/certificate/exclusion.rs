@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{Column, ProblemView};
-use super::interval::Interval;
 use super::matrix::inner_product;
+use crate::interval::Interval;
 use crate::modes::{ContactState, Side};
 
 /// Products within this fraction of their terms' size may be zero but for rounding and for the bounds

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{IntervalModeProblem, IntervalModeProblemError};
-use super::interval::Interval;
 use super::matrix::IntervalMatrix;
+use crate::interval::Interval;
 use crate::modes::{BySide, ModeProblemError, ProblemPart, Side};
 
 /// Influence coefficients and friction parameters of `r` contacts within bounds: what

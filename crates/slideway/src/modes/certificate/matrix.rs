@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::interval::{Interval, add_up};
+use crate::interval::{Interval, add_up};
 
 /// All real matrices that differ from `centre` by at most `radius`, entry by entry.
 ///
@@ -78,7 +78,8 @@ impl IntervalMatrix {
         Self { centre: self.centre.transpose(), radius: self.radius.transpose() }
     }
 
-    pub(super) fn from_intervals(entries: &DMatrix<Interval>) -> Option<Self> {
+    /// The matrices whose entries lie in the given intervals; none if one of these is unbounded.
+    pub fn from_intervals(entries: &DMatrix<Interval>) -> Option<Self> {
         Self::from_bounds(&entries.map(Interval::lower), &entries.map(Interval::upper))
     }
 }

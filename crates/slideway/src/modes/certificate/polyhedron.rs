@@ -4,7 +4,7 @@ use dashu_ratio::RBig;
 use nalgebra::DVector;
 
 use super::elimination::Echelon;
-use super::interval::Interval;
+use crate::interval::Interval;
 use crate::modes::{ContactState, SolutionSet};
 
 /// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1`

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::ProblemView;
-use super::interval::Interval;
 use super::matrix::{IntervalMatrix, product};
+use crate::interval::Interval;
 use crate::modes::{ContactState, Side};
 
 /// The equations

@@ -3,9 +3,9 @@
 use nalgebra::DVector;
 
 use super::data::ProblemView;
-use super::interval::{Interval, Sign};
 use super::matrix::{upper_product, upper_sum};
 use super::preconditioned::{BaseSystem, Preconditioned};
+use crate::interval::{Interval, Sign};
 use crate::modes::ContactState;
 
 /// How often bounds are tightened, at most.

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::ProblemView;
-use super::interval::two_sum_remainder;
 use super::matrix::{IntervalMatrix, rounding};
+use crate::interval::two_sum_remainder;
 use crate::modes::{ContactState, Side};
 
 /// The equations `A z = b` of one pattern; `z_k` is `y_k`, or `lambda_k` for a contact in its gap.

@@ -1,0 +1,162 @@
+//! From kinetic equations within intervals to bounds of the influence coefficients.
+
+use super::{NotEnclosed, solution};
+use crate::configuration::Configuration;
+use crate::ids::ContactId;
+use crate::interval::{Interval, Sign};
+use crate::kinetics::{Assembled, Reaction, equilibration, scaled};
+use crate::mechanism::{Contact, Mechanism, Slider};
+use crate::model::{self, JointKind, Model, PreloadLine, SliderKind};
+use crate::modes::BySide;
+use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
+use nalgebra::{DMatrix, DVector};
+
+/// A mechanism in its configuration, all within intervals.
+pub(super) struct Coefficients<'a> {
+    pub(super) model: &'a Model,
+    pub(super) mechanism: &'a Mechanism<Interval>,
+    pub(super) configuration: &'a Configuration<Interval>,
+    pub(super) equations: &'a Assembled<Interval>,
+}
+
+impl Coefficients<'_> {
+    /// Bounds of everything that the mode problem is made of.
+    pub(super) fn influence(&self) -> Result<IntervalInfluence, NotEnclosed> {
+        let velocity_signs = self.velocity_signs()?;
+        let contacts = &self.mechanism.contacts;
+        let normal_forces = self.normal_forces().ok_or(NotEnclosed::Equations)?;
+        let positive = normal_forces.columns(1, contacts.len()).into_owned();
+        let eta = [positive.clone(), self.negative_versions(positive)];
+        let preload = self.preload_columns(&eta);
+        let values = |of: &dyn Fn(&Contact<Interval>) -> Interval| {
+            bounded(&DMatrix::from_fn(contacts.len(), 1, |k, _| of(&contacts[k])))
+        };
+        Ok(IntervalInfluence {
+            eta: BySide { positive: bounded(&eta[0])?, negative: bounded(&eta[1])? },
+            eta_preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },
+            mu: BySide { positive: values(&|k| k.mu[0])?, negative: values(&|k| k.mu[1])? },
+            preload: BySide { positive: values(&|k| k.preload[0])?, negative: values(&|k| k.preload[1])? },
+            velocity_signs,
+            frictionless: bounded(&normal_forces.columns(0, 1).into_owned())?,
+        })
+    }
+
+    /// The normal forces without friction (column 0), and what a unit friction of each contact adds to them at the face
+    /// that is pressed when its normal force is positive; none if the equations are not proven to be regular.
+    fn normal_forces(&self) -> Option<DMatrix<Interval>> {
+        let Assembled { matrix, load, friction, layout, .. } = self.equations;
+        let (rows, columns) = equilibration(&matrix.map(Interval::middle));
+        let right = DMatrix::from_fn(load.len(), 1 + friction.len(), |row, column| {
+            let value = if column == 0 { load[row] } else { friction[column - 1][0][row] };
+            value * Interval::point(rows[row])
+        });
+        let solution = solution(&scaled(matrix, &rows, &columns), &right)?;
+        let normal: Option<Vec<usize>> =
+            (0..friction.len()).map(|k| layout.reaction(Reaction::Normal(ContactId(k)))).collect();
+        let normal = normal?;
+        Some(DMatrix::from_fn(normal.len(), 1 + friction.len(), |contact, column| {
+            let row = normal[contact];
+            solution.entry(row, column) * Interval::point(columns[row])
+        }))
+    }
+
+    /// The influence of friction at the other faces.
+    ///
+    /// Between both faces friction differs by a couple `h` on the block and its opposite on the guide. These do not
+    /// turn against each other, so that the couple changes no acceleration and no other joint: the couple of a guided
+    /// slider takes it up, or the two contacts of a block slider with their distance `o`,
+    ///
+    /// ```text
+    /// eta_jk^- = eta_jk^+ - h/o (front), + h/o (rear),      eta_jk^- = eta_jk^+ else
+    /// ```
+    fn negative_versions(&self, mut eta: DMatrix<Interval>) -> DMatrix<Interval> {
+        for k in 0..eta.ncols() {
+            let Some(slider) = self.slider(k).filter(|slider| has_two_faces(slider)) else { continue };
+            let [front, rear] = slider.contacts[..] else { continue };
+            let overlap = self.configuration.overlap(self.mechanism, slider);
+            let difference = slider.height / overlap.unwrap_or(Interval::REAL_LINE);
+            eta[(front.index(), k)] -= difference;
+            eta[(rear.index(), k)] += difference;
+        }
+        eta
+    }
+
+    /// The columns of the preload's friction: at the pressed face, or in the middle between both.
+    fn preload_columns(&self, eta: &[DMatrix<Interval>; 2]) -> [DMatrix<Interval>; 2] {
+        let mut preload = eta.clone();
+        for (k, contact) in self.mechanism.contacts.iter().enumerate() {
+            if contact.preload_line == PreloadLine::Centre && self.slider(k).is_some_and(has_two_faces) {
+                let half = Interval::point(0.5);
+                let centre = (eta[0].column(k) + eta[1].column(k)) * half;
+                preload.iter_mut().for_each(|side| side.set_column(k, &centre));
+            }
+        }
+        preload
+    }
+
+    /// The signs s_k of the sliding velocities; where there is no friction one that is not known is 0.
+    fn velocity_signs(&self) -> Result<DVector<f64>, NotEnclosed> {
+        let contacts = self.mechanism.contacts.iter().zip(&self.equations.contacts);
+        let sign =
+            |(contact, geometry): (&Contact<Interval>, &crate::configuration::ContactGeometry<Interval>)| {
+                let velocity = geometry.sliding_velocity;
+                match velocity.sign() {
+                    Some(Sign::Positive) => Ok(1.0),
+                    Some(Sign::Negative) => Ok(-1.0),
+                    _ if contact.is_frictionless() => Ok(0.0),
+                    _ => Err(NotEnclosed::SlidingDirection { contact: contact.name.to_string(), velocity }),
+                }
+            };
+        let signs: Vec<f64> = contacts.map(sign).collect::<Result<_, _>>()?;
+        Ok(DVector::from_vec(signs))
+    }
+
+    /// The same mode problem with `d_k` on the right-hand side wherever it is the same on both sides,
+    /// `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
+    pub(super) fn without_shared_jumps(
+        &self,
+        influence: &IntervalInfluence,
+    ) -> Result<IntervalInfluence, NotEnclosed> {
+        let contacts = self.mechanism.contacts.len();
+        let entries = |matrix: &IntervalMatrix| DMatrix::from_fn(contacts, 1, |row, _| matrix.entry(row, 0));
+        let mut preload = [&influence.preload.positive, &influence.preload.negative].map(entries);
+        let mut right = entries(&influence.frictionless);
+        for k in (0..contacts).filter(|&k| self.has_shared_jump(k)) {
+            let force = preload[0][k] * Interval::point(influence.velocity_signs[k]);
+            for row in 0..contacts {
+                right[row] += force * influence.eta_preload.positive.entry(row, k);
+            }
+            preload.iter_mut().for_each(|side| side[k] = Interval::ZERO);
+        }
+        Ok(IntervalInfluence {
+            preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },
+            frictionless: bounded(&right)?,
+            ..influence.clone()
+        })
+    }
+
+    /// Whether `d_k^+` and `d_k^-` are the same number: one formula of the preload, and one line of its friction.
+    fn has_shared_jump(&self, contact: usize) -> bool {
+        let Contact { joint, preload_line, .. } = self.mechanism.contacts[contact];
+        let Some(slider) = self.mechanism.slider(joint) else { return false };
+        let one_line = preload_line == PreloadLine::Centre || !has_two_faces(slider);
+        let JointKind::Slider(written) = &self.model.joints[joint.index()].kind else { return false };
+        let at = slider.contacts.iter().position(|id| id.index() == contact);
+        let formulas =
+            at.and_then(|at| written.contacts.get(at)).map(|contact: &model::Contact| contact.preload);
+        one_line && formulas.is_some_and(|[positive, negative]| positive == negative)
+    }
+
+    fn slider(&self, contact: usize) -> Option<&Slider<Interval>> {
+        self.mechanism.slider(self.mechanism.contacts[contact].joint)
+    }
+}
+
+/// Whether it makes a difference at which face friction acts.
+fn has_two_faces(slider: &Slider<Interval>) -> bool {
+    slider.kind == SliderKind::Block && slider.height != Interval::ZERO
+}
+
+fn bounded(entries: &DMatrix<Interval>) -> Result<IntervalMatrix, NotEnclosed> {
+    IntervalMatrix::from_intervals(entries).ok_or(NotEnclosed::Equations)
+}

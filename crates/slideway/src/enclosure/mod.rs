@@ -1,0 +1,177 @@
+//! Rigorous bounds of a mechanism's influence coefficients, so that proofs speak of the mechanism itself.
+//!
+//! The other stages compute with rounded numbers. This one repeats what they did in interval arithmetic: the formulas
+//! of the model (a number such as 0.1 is the decimal that is written), the positions on the joints by an interval
+//! Newton operator around the computed ones, the velocities and the kinetic equations by verified linear solutions.
+//! What it returns holds for the exact mechanism that the model file describes, and for every value of parameters that
+//! are only known within bounds, in the one configuration near the computed one that has the coordinates of the model.
+//!
+//! ```
+//! use slideway::configuration::Configuration;
+//! use slideway::enclosure::{UncertainParameters, enclosure};
+//! use slideway::interval::Interval;
+//! use slideway::mechanism::Mechanism;
+//! use slideway::model::Model;
+//! use slideway::modes::ContactState::{Negative, Positive};
+//! use slideway::modes::certificate::{Decision, decide};
+//!
+//! let model = Model::parse(slideway::gallery::find("klepp-2002").expect("in the gallery").text)?;
+//! let mechanism = Mechanism::new(&model)?;
+//! let configuration = Configuration::new(&mechanism)?;
+//! let range = Interval::new(0.5, 0.51).expect("bounds in order");
+//! let uncertain = UncertainParameters::default().with("mu_1", range);
+//! let enclosed = enclosure(&model, &uncertain, &mechanism, &configuration)?;
+//! // This solution persists for all friction coefficients from 0.5 to 0.51.
+//! let decision = decide(&enclosed.problem, &[Positive, Negative, Positive]).decision;
+//! assert!(matches!(decision, Decision::Solution { .. }));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod coefficients;
+mod motion;
+
+use crate::configuration::Configuration;
+use crate::fault::{Faults, nearest};
+use crate::interval::Interval;
+use crate::kinetics::Assembled;
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::modes::certificate::{
+    IntervalInfluence, IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
+};
+use coefficients::Coefficients;
+use nalgebra::DMatrix;
+
+/// Parameters of a model that are known only within bounds (SI units). Each formula that uses one is evaluated for the
+/// whole range; the formula of the parameter itself does not count.
+///
+/// Every parameter may be uncertain, those that change positions, too, as long as the joints hold for the whole range.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct UncertainParameters {
+    entries: Vec<(String, Interval)>,
+}
+
+impl UncertainParameters {
+    /// Adds the bounds of a parameter; later ones replace earlier ones.
+    #[must_use]
+    pub fn with(mut self, name: &str, bounds: Interval) -> Self {
+        self.entries.retain(|(other, _)| other != name);
+        self.entries.push((name.to_owned(), bounds));
+        self
+    }
+
+    /// Whether all parameters have the values of the model.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// The bounds by the number of the parameter.
+    fn of(&self, model: &Model) -> Result<Vec<(usize, Interval)>, NotEnclosed> {
+        let number = |(name, bounds): &(String, Interval)| {
+            let known = || model.parameters.iter().map(|parameter| &*parameter.name);
+            let index = known().position(|other| other == name).ok_or_else(|| {
+                NotEnclosed::UnknownParameter { name: name.clone(), nearest: nearest(name, known()) }
+            })?;
+            if bounds.magnitude().is_finite() {
+                Ok((index, *bounds))
+            } else {
+                Err(NotEnclosed::Unbounded { name: name.clone() })
+            }
+        };
+        self.entries.iter().map(number).collect()
+    }
+}
+
+/// What is known of the mode problem of an exact mechanism, or of one with uncertain parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnclosedModeProblem {
+    /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a column have
+    /// the same bounds where theory says that they are equal.
+    pub influence: IntervalInfluence,
+    /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are moved to
+    /// the right-hand side, so that they do not look like a jump.
+    pub problem: IntervalModeProblem,
+}
+
+/// Why the numbers of a mechanism could not be enclosed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotEnclosed {
+    /// Bounds are stated for a parameter that the model does not have.
+    #[error("there is no parameter `{name}`{}", nearest.as_ref().map_or(String::new(), |name| format!("; did you mean `{name}`?")))]
+    UnknownParameter {
+        /// The name.
+        name: String,
+        /// The name most like it.
+        nearest: Option<String>,
+    },
+    /// A parameter has an infinite bound.
+    #[error("the bounds of {name} are not finite")]
+    Unbounded {
+        /// The parameter.
+        name: String,
+    },
+    /// A formula or load has no value, or one that is not allowed, for some of the numbers within bounds.
+    #[error("within the bounds of the parameters and of rounding: {0}")]
+    Values(Faults),
+    /// No neighbourhood of the computed positions was proven to hold exactly one solution of the joint equations.
+    #[error(
+        "the positions could not be enclosed: the joint equations are too near to a singular position, or the parameters too uncertain"
+    )]
+    Positions,
+    /// The equations of the velocities were not proven to be regular.
+    #[error(
+        "the velocities could not be enclosed: the joint equations are too near to a singular position, or the parameters too uncertain"
+    )]
+    Velocities,
+    /// The kinetic equations were not proven to be regular.
+    #[error(
+        "the kinetic equations could not be enclosed: they are too ill-conditioned, or the parameters too uncertain"
+    )]
+    Equations,
+    /// The direction in which a contact slides is not certain.
+    #[error(
+        "the direction in which {contact} slides is not certain: its sliding velocity is from {:e} to {:e} m/s",
+        velocity.lower(), velocity.upper()
+    )]
+    SlidingDirection {
+        /// The contact.
+        contact: String,
+        /// Bounds of its sliding velocity (m/s).
+        velocity: Interval,
+    },
+    /// A number of the mode problem has no finite bounds.
+    #[error("the mode problem could not be enclosed: {0}")]
+    Problem(#[from] IntervalModeProblemError),
+}
+
+/// Bounds of the mode problem of the mechanism that `model` describes, for all values of the parameters in `uncertain`.
+///
+/// `mechanism` and `configuration` are what the earlier stages made of the same model. The configuration meant is the
+/// one near `configuration` in which the coordinates have the values of the model; that there is exactly one for each
+/// value of the parameters is proven. Units are those of the model (N).
+///
+/// # Errors
+/// [`NotEnclosed`] if it could not be proven; nothing is known then.
+pub fn enclosure(
+    model: &Model,
+    uncertain: &UncertainParameters,
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<EnclosedModeProblem, NotEnclosed> {
+    let given = uncertain.of(model)?;
+    let mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
+    let configuration = motion::enclosed(&mechanism, configuration)?;
+    let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
+    let coefficients =
+        Coefficients { model, mechanism: &mechanism, configuration: &configuration, equations: &equations };
+    let influence = coefficients.influence()?;
+    let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
+    Ok(EnclosedModeProblem { influence, problem })
+}
+
+/// Bounds of the solutions of a linear system; none if it is not proven to be regular.
+fn solution(matrix: &DMatrix<Interval>, right_hand_side: &DMatrix<Interval>) -> Option<IntervalMatrix> {
+    let matrix = IntervalMatrix::from_intervals(matrix)?;
+    let right_hand_side = IntervalMatrix::from_intervals(right_hand_side)?;
+    Some(enclose_solution(&matrix, &right_hand_side)?.solution)
+}
