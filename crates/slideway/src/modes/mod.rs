@@ -45,6 +45,7 @@ mod contact_set;
 mod degenerate;
 mod enumeration;
 pub mod exhaustive;
+pub mod existence;
 mod findings;
 mod problem;
 mod scaling;
