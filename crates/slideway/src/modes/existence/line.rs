@@ -24,11 +24,24 @@ pub(super) struct Line {
     pub(super) right_hand_side: [DVector<f64>; 2],
 }
 
-/// Inequalities `W z + offset >= 0`, one for each row of `W`.
-#[derive(Debug, Clone)]
-pub(super) struct Conditions {
-    pub(super) weights: DMatrix<f64>,
-    pub(super) offsets: DVector<f64>,
+/// An inequality `w . z + offset >= 0` of one or two unknowns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Condition {
+    /// Unknowns and their weights.
+    pub(super) weights: [(usize, f64); 2],
+    pub(super) offset: f64,
+}
+
+impl Condition {
+    /// `w . column`.
+    pub(super) fn times(&self, column: &[f64]) -> f64 {
+        self.weights.iter().map(|&(unknown, weight)| weight * column[unknown]).sum()
+    }
+
+    /// `|w| . |column|`.
+    pub(super) fn magnitude(&self, column: &[f64]) -> f64 {
+        self.weights.iter().map(|&(unknown, weight)| (weight * column[unknown]).abs()).sum()
+    }
 }
 
 /// Why a part of the line ends.
@@ -94,7 +107,7 @@ impl Line {
     /// A determinant and a Cramer numerator of equations that are linear in `t` are polynomials whose zeros are
     /// eigenvalues (theory, section 6), so nothing is scanned: the range is cut at the zeros of the determinant,
     /// then at those of one condition after the other.
-    pub(super) fn extent(&self, conditions: &Conditions, range: [f64; 2]) -> Extent {
+    pub(super) fn extent(&self, conditions: &[Condition], range: [f64; 2]) -> Extent {
         let Some(reduced) = self.reduced(conditions, range) else { return Extent::SingularThroughout };
         match parts(&reduced, range) {
             Some(parts) => Extent::Parts(parts),
@@ -103,13 +116,12 @@ impl Line {
     }
 
     /// The equations at the base point with the best pivots.
-    fn reduced(&self, conditions: &Conditions, range: [f64; 2]) -> Option<Reduced> {
+    fn reduced(&self, conditions: &[Condition], range: [f64; 2]) -> Option<Reduced> {
         let mut best: Option<(f64, f64, LU<f64, Dyn, Dyn>)> = None;
         for fraction in BASE_POINTS {
             let at = range[0] + fraction * (range[1] - range[0]);
             let lu = self.matrix_at(at).lu();
-            let pivots = lu.u().diagonal().abs();
-            let ratio = if pivots.is_empty() { 1.0 } else { pivots.min() / pivots.max() };
+            let ratio = pivot_ratio(&lu);
             if ratio.is_finite() && best.as_ref().is_none_or(|(known, ..)| ratio > *known) {
                 best = Some((ratio, at, lu));
             }
@@ -163,6 +175,12 @@ impl Line {
         };
         Some(far.iter().zip(close.iter()).map(limit).collect())
     }
+}
+
+/// The smallest pivot over the greatest; 1 without equations.
+pub(super) fn pivot_ratio(lu: &LU<f64, Dyn, Dyn>) -> f64 {
+    let pivots = lu.lu_internal().diagonal();
+    if pivots.is_empty() { 1.0 } else { pivots.amin() / pivots.amax() }
 }
 
 /// The parts of a range in which all conditions hold; none if eigenvalues could not be computed.

@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::problem::{BySide, ModeProblem, Side};
 use super::solutions::ContactState;
-use line::{Cause, Conditions, End, Extent, Line, Part};
+use line::{Cause, Condition, End, Extent, Line, Part};
 
 pub use counts::{CountInterval, counts};
 pub use line::Limit;
@@ -251,15 +251,16 @@ impl ModeProblemLine {
     }
 
     fn mode<'p>(&self, pattern: &'p [ContactState], options: &ExistenceOptions) -> Mode<'p> {
-        let mut conditions = ConditionList { unknowns: self.right_hand_side[0].len(), rows: Vec::new() };
+        let mut mode =
+            Mode { pattern, line: self.line(pattern), conditions: Vec::new(), meanings: Vec::new() };
         for (contact, &state) in pattern.iter().enumerate() {
             if state == ContactState::Gap {
-                conditions.add(&[(contact, 1.0)], 0.0, Meaning::Gap(contact));
-                conditions.add(&[(contact, -1.0)], 1.0, Meaning::Gap(contact));
+                mode.require([(contact, 1.0), NONE], 0.0, Meaning::Gap(contact));
+                mode.require([(contact, -1.0), NONE], 1.0, Meaning::Gap(contact));
             } else {
-                conditions.add(&[(contact, 1.0)], 0.0, Meaning::Side(contact));
+                mode.require([(contact, 1.0), NONE], 0.0, Meaning::Side(contact));
                 if let Some(greatest) = options.greatest_normal_force {
-                    conditions.add(&[(contact, -1.0)], greatest, Meaning::Greatest(contact));
+                    mode.require([(contact, -1.0), NONE], greatest, Meaning::Greatest(contact));
                 }
             }
         }
@@ -267,11 +268,10 @@ impl ModeProblemLine {
             let pressure = if pattern[bound.contact] == ContactState::Gap { 0.0 } else { bound.factor };
             for sign in [1.0, -1.0] {
                 let weights = [(bound.contact, pressure), (pattern.len() + bound.output, sign)];
-                conditions.add(&weights, 0.0, Meaning::Bound(index));
+                mode.require(weights, 0.0, Meaning::Bound(index));
             }
         }
-        let (conditions, meanings) = conditions.finish();
-        Mode { pattern, line: self.line(pattern), conditions, meanings }
+        mode
     }
 }
 
@@ -288,45 +288,24 @@ enum Meaning {
     Greatest(usize),
 }
 
-/// Conditions in the making.
-struct ConditionList {
-    unknowns: usize,
-    rows: Vec<ConditionRow>,
-}
-
-/// `sum weights z + offset >= 0`.
-struct ConditionRow {
-    weights: Vec<(usize, f64)>,
-    offset: f64,
-    meaning: Meaning,
-}
-
-impl ConditionList {
-    fn add(&mut self, weights: &[(usize, f64)], offset: f64, meaning: Meaning) {
-        self.rows.push(ConditionRow { weights: weights.to_vec(), offset, meaning });
-    }
-
-    fn finish(self) -> (Conditions, Vec<Meaning>) {
-        let mut weights = DMatrix::zeros(self.rows.len(), self.unknowns);
-        for (index, row) in self.rows.iter().enumerate() {
-            for &(column, weight) in &row.weights {
-                weights[(index, column)] = weight;
-            }
-        }
-        let offsets = DVector::from_iterator(self.rows.len(), self.rows.iter().map(|row| row.offset));
-        (Conditions { weights, offsets }, self.rows.into_iter().map(|row| row.meaning).collect())
-    }
-}
-
 /// One pattern along the line.
 struct Mode<'p> {
     pattern: &'p [ContactState],
     line: Line,
-    conditions: Conditions,
+    conditions: Vec<Condition>,
     meanings: Vec<Meaning>,
 }
 
+/// No second unknown in a condition.
+const NONE: (usize, f64) = (0, 0.0);
+
 impl Mode<'_> {
+    /// Adds the condition `weights . z + offset >= 0`.
+    fn require(&mut self, weights: [(usize, f64); 2], offset: f64, meaning: Meaning) {
+        self.conditions.push(Condition { weights, offset });
+        self.meanings.push(meaning);
+    }
+
     /// Where the mode exists. Up to infinity the equations are taken with the parameter `u = 1/t`: multiplied by `u` they
     /// have the same solution.
     fn extent(&self, range: [f64; 2]) -> Extent {

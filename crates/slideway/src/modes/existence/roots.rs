@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU, Schur};
 
-use super::line::{Conditions, Line, Value};
+use super::line::{Condition, Line, Value, pivot_ratio};
 
 /// An eigenvalue with an imaginary part below this share of it may be a double real one.
 const REAL: f64 = 1e-5;
@@ -24,11 +24,11 @@ pub(super) struct Reduced {
     k: DMatrix<f64>,
     /// The varying part of `z_0` and `z_1`.
     sources: [DVector<f64>; 2],
-    /// `W X`.
+    /// `w . X` of every condition.
     couplings: DMatrix<f64>,
-    /// `W z_0 + offset` and `W z_1`.
+    /// `w . z_0 + offset` and `w . z_1`.
     values: [DVector<f64>; 2],
-    /// `|W| |z_0| + |offset|`.
+    /// `|w| . |z_0| + |offset|`.
     magnitudes: DVector<f64>,
 }
 
@@ -36,7 +36,7 @@ impl Reduced {
     /// Reduces the equations at a base point with the factorization given.
     pub(super) fn new(
         line: &Line,
-        conditions: &Conditions,
+        conditions: &[Condition],
         base: f64,
         lu: &LU<f64, Dyn, Dyn>,
     ) -> Option<Self> {
@@ -44,19 +44,26 @@ impl Reduced {
         let varying: Vec<usize> =
             (0..slope.ncols()).filter(|&column| slope.column(column).amax() > 0.0).collect();
         let x = lu.solve(&slope.select_columns(&varying))?;
-        let solutions = [line.right_hand_side_at(base), line.right_hand_side[1].clone()];
-        let [start, rate] = solutions.map(|load| lu.solve(&load));
-        let (start, rate) = (start?, rate?);
-        let weights = &conditions.weights;
-        let magnitudes = weights.abs() * start.abs() + conditions.offsets.abs();
+        let start = lu.solve(&line.right_hand_side_at(base))?;
+        let constant_load = line.right_hand_side[1].iter().all(|&entry| entry == 0.0);
+        let rate =
+            if constant_load { DVector::zeros(start.len()) } else { lu.solve(&line.right_hand_side[1])? };
         let all_finite = x.iter().chain(start.iter()).chain(rate.iter()).all(|value| value.is_finite());
+        let list = |value: &dyn Fn(&Condition) -> f64| {
+            DVector::from_iterator(conditions.len(), conditions.iter().map(value))
+        };
         all_finite.then(|| Self {
             base,
             k: x.select_rows(&varying),
             sources: [start.select_rows(&varying), rate.select_rows(&varying)],
-            couplings: weights * &x,
-            values: [weights * &start + &conditions.offsets, weights * &rate],
-            magnitudes,
+            couplings: DMatrix::from_fn(conditions.len(), varying.len(), |row, column| {
+                conditions[row].times(x.column(column).as_slice())
+            }),
+            values: [
+                list(&|condition| condition.times(start.as_slice()) + condition.offset),
+                list(&|condition| condition.times(rate.as_slice())),
+            ],
+            magnitudes: list(&|condition| condition.magnitude(start.as_slice()) + condition.offset.abs()),
         })
     }
 
@@ -118,8 +125,8 @@ impl Reduced {
         Some(sorted(places.collect()))
     }
 
-    /// Where a condition may vanish: zeros of `(W z + offset) det(I + tau K)`, the determinant of
-    /// `[[I + tau K, source], [tau W X, value]]`. None if the eigenvalues could not be computed.
+    /// Where a condition may vanish: zeros of `(w . z + offset) det(I + tau K)`, the determinant of
+    /// `[[I + tau K, source], [tau w . X, value]]`. None if the eigenvalues could not be computed.
     pub(super) fn zeros(&self, condition: usize) -> Option<Vec<Root>> {
         let [constant, linear] = [0, 1].map(|power| self.values[power][condition]);
         let taus = match self.k.nrows() {
@@ -156,8 +163,7 @@ impl Reduced {
         let mut best: Option<(f64, f64, DMatrix<f64>)> = None;
         for shift in [0.0, 0.618 * extent, -0.382 * extent, 2.618 * extent] {
             let lu = (&constant + &slope * shift).lu();
-            let pivots = lu.u().diagonal().abs();
-            let ratio = pivots.min() / pivots.max();
+            let ratio = pivot_ratio(&lu);
             if best.as_ref().is_none_or(|(known, ..)| ratio > *known)
                 && let Some(matrix) = lu.solve(&slope)
             {
