@@ -3,92 +3,10 @@
 
 use std::error::Error;
 
-use nalgebra::{DMatrix, DVector, dvector};
-use serde::Deserialize;
-use slideway::modes::{
-    BySide, ContactState, InfluenceCoefficients, Limits, ModeProblem, ModeSolution, Side, Solutions,
-    enumerate,
-};
+mod klepp_example;
 
-#[derive(Deserialize)]
-struct Reference {
-    parameters: Parameters,
-    printed: Vec<Printed>,
-    intervals: Vec<Intervals>,
-}
-
-#[derive(Deserialize)]
-struct Parameters {
-    alpha_deg: f64,
-    b_over_l: f64,
-    h_over_l: f64,
-    mu_2: f64,
-    mu_3: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "PascalCase")]
-struct PrintedSolution {
-    n: Vec<f64>,
-    f: Vec<f64>,
-    #[serde(rename = "F_total")]
-    f_total: f64,
-}
-
-#[derive(Deserialize)]
-struct Printed {
-    mu_1: f64,
-    #[serde(rename = "F0")]
-    preload: [f64; 3],
-    velocity: f64,
-    solutions: Vec<PrintedSolution>,
-}
-
-#[derive(Deserialize)]
-struct Intervals {
-    #[serde(rename = "F0")]
-    preload: [f64; 3],
-    velocity: f64,
-    modes: Vec<Interval>,
-}
-
-#[derive(Deserialize)]
-struct Interval {
-    signs: String,
-    from: f64,
-    to: f64,
-}
-
-fn reference() -> Result<Reference, Box<dyn Error>> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/klepp-2002.toml");
-    Ok(toml::from_str(&std::fs::read_to_string(path)?)?)
-}
-
-/// The problem from the closed forms of the paper's section 6.
-fn example(parameters: &Parameters, mu_1: f64, preload: [f64; 3], velocity: f64) -> ModeProblem {
-    let tangent = parameters.alpha_deg.to_radians().tan();
-    let arm = parameters.h_over_l / (2.0 * parameters.b_over_l);
-    let eta = |side: Side| {
-        let (two, three) = (arm * side.sign(), -arm * side.sign());
-        #[rustfmt::skip]
-        let entries = [
-            -tangent / 2.0, tangent / 2.0, tangent / 2.0,
-            tangent / 4.0, two - tangent / 4.0, three - tangent / 4.0,
-            -tangent / 4.0, two + tangent / 4.0, three + tangent / 4.0,
-        ];
-        DMatrix::from_row_slice(3, 3, &entries)
-    };
-    let eta = BySide { positive: eta(Side::Positive), negative: eta(Side::Negative) };
-    ModeProblem::from_influence(&InfluenceCoefficients {
-        eta_preload: eta.clone(),
-        eta,
-        mu: BySide::same(dvector![mu_1, parameters.mu_2, parameters.mu_3]),
-        preload: BySide::same(DVector::from_row_slice(&preload)),
-        velocity_signs: DVector::repeat(3, velocity),
-        frictionless: dvector![0.5, 0.25, -0.25],
-    })
-    .expect("the example's data are finite and of one size")
-}
+use klepp_example::{example, reference};
+use slideway::modes::{ContactState, Limits, ModeSolution, Solutions, enumerate};
 
 fn solve(mu_1: f64, preload: [f64; 3], velocity: f64) -> Result<Solutions, Box<dyn Error>> {
     let problem = example(&reference()?.parameters, mu_1, preload, velocity);

@@ -46,6 +46,7 @@ mod decided;
 mod degenerate;
 mod enumeration;
 pub mod exhaustive;
+pub mod existence;
 mod findings;
 mod found;
 mod problem;

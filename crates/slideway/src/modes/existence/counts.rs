@@ -1,0 +1,88 @@
+//! How many solutions there are along a line of parameters.
+
+use nalgebra::DVector;
+
+use super::{Existence, ModeInterval, ModeProblemLine};
+use crate::modes::solutions::ContactState;
+
+/// Ends closer than this share of the larger one are the same.
+const SAME_END: f64 = 1e-10;
+/// Solutions that differ by less than this share of the largest force are the same.
+const SAME_SOLUTION: f64 = 1e-8;
+
+/// An interval of the parameter with the same number of solutions throughout.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CountInterval {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends; possibly infinite.
+    pub to: f64,
+    /// Number of solutions.
+    pub solutions: usize,
+    /// Number of preload-gap states, which do not count as solutions.
+    pub gap_states: usize,
+}
+
+/// The number of solutions in each interval of a range, neighbours with equal numbers joined.
+///
+/// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same solution,
+/// as they do when a normal force is zero throughout.
+pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
+    let mut intervals: Vec<CountInterval> = Vec::new();
+    for cell in cells(existence, range) {
+        let inside = middle(cell);
+        let present: Vec<&ModeInterval> =
+            existence.modes.iter().filter(|mode| mode.from.at < inside && inside < mode.to.at).collect();
+        let (gaps, pressed): (Vec<_>, Vec<_>) =
+            present.into_iter().partition(|mode| mode.pattern.contains(&ContactState::Gap));
+        let [solutions, gap_states] = [pressed, gaps].map(|modes| line.distinct(&modes, inside));
+        match intervals.last_mut() {
+            Some(last) if (last.solutions, last.gap_states) == (solutions, gap_states) => last.to = cell[1],
+            _ => intervals.push(CountInterval { from: cell[0], to: cell[1], solutions, gap_states }),
+        }
+    }
+    intervals
+}
+
+/// The range, cut at the ends of all modes.
+fn cells(existence: &Existence, range: [f64; 2]) -> Vec<[f64; 2]> {
+    let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
+    let mut ends: Vec<f64> = ends.chain(range).collect();
+    ends.sort_by(f64::total_cmp);
+    ends.dedup_by(|next, kept| *next - *kept <= SAME_END * next.abs() || *next == *kept);
+    ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// A place inside a cell.
+fn middle([from, to]: [f64; 2]) -> f64 {
+    if to.is_infinite() { 2.0 * from } else { f64::midpoint(from, to) }
+}
+
+impl ModeProblemLine {
+    /// Number of different solutions of some modes at a parameter where all of them exist.
+    fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
+        if modes.len() < 2 {
+            return modes.len();
+        }
+        let mut known: Vec<DVector<f64>> = Vec::with_capacity(modes.len());
+        for mode in modes {
+            let Some(force) = self.normal_force(&mode.pattern, at) else { continue };
+            let same = |other: &DVector<f64>| {
+                (other - &force).amax() <= SAME_SOLUTION * force.amax().max(other.amax())
+            };
+            if !known.iter().any(same) {
+                known.push(force);
+            }
+        }
+        known.len()
+    }
+
+    /// Signed normal forces of a pattern, 0 in a gap; none where its determinant vanishes.
+    pub fn normal_force(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
+        let unknowns = self.line(pattern).solution(at)?;
+        Some(DVector::from_iterator(
+            pattern.len(),
+            pattern.iter().zip(unknowns.iter()).map(|(state, y)| state.sign() * y),
+        ))
+    }
+}
