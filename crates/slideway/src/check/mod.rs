@@ -24,7 +24,6 @@ use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Model, SliderKind};
-use crate::modes::Limits;
 use crate::solve::{check_size, mode_problem, velocity_signs};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -184,7 +183,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
     // What is too large to be solved is too large to be analysed further.
-    check_size(&mechanism, &Limits::default())?;
+    check_size(&mechanism)?;
     let drawing = Configuration::drawing(&mechanism);
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));

@@ -18,7 +18,7 @@ pub use text::{Style, to_text};
 use serde::Serialize;
 
 /// Version of the layout of a [`Report`]; changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway/solve/1";
+pub const SCHEMA: &str = "slideway/solve/2";
 
 /// How many solutions there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -43,30 +43,46 @@ pub enum Status {
 pub struct Report {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
-    /// How many solutions there are.
+    /// How many solutions there are; of those that were found if the search ended early.
     pub status: Status,
-    /// Whether the outcome of every pattern is known.
-    pub complete: bool,
+    /// "proven" or "not proven": whether these are certainly all solutions of the mechanism, rounding included.
+    pub complete: &'static str,
+    /// Whether the search ended before every possibility was dealt with.
+    pub partial: bool,
+    /// What remains open, in words; empty if `complete` is "proven".
+    pub open: Vec<String>,
+    /// Number of solutions, as decimal text: it may be beyond any integer type, and more than are listed.
+    pub count: String,
+    /// Number of preload-gap states, likewise.
+    pub gap_state_count: String,
+    /// How the solutions were found: groups of contacts and methods, in words.
+    pub strategy: String,
+    /// Nodes of the search that were visited.
+    pub nodes: u64,
     /// What the model is.
     pub model: ModelSummary,
     /// The state: chosen coordinates and their rates.
     pub state: Vec<CoordinateState>,
     /// Time of the state (s).
     pub time: f64,
-    /// The outcome of all sign patterns.
-    pub patterns: PatternSummary,
+    /// The outcome of all sign patterns; absent if there are so many that not each was tried by itself.
+    pub patterns: Option<PatternSummary>,
     /// The solutions, in the order of their patterns.
     pub solutions: Vec<Solution>,
     /// States with a contact between its faces, in which the preload friction acts (theory, section 3).
     pub preload_gap_states: Vec<Solution>,
     /// Modes with a vanishing determinant that admit infinitely many solutions.
     pub continua: Vec<Continuum>,
-    /// Modes with a vanishing determinant that admit none: these modes are locked.
+    /// Modes on the boundary within rounding: whether they have a solution cannot be told.
+    pub undecided_modes: Vec<UndecidedMode>,
+    /// Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern was tried.
     pub locked_modes: Vec<LockedMode>,
     /// Solutions of the equations that a guided slider rejects, because it would tip.
     pub rejected: Vec<Rejection>,
-    /// Where there is no solution: the modes with the smallest determinants.
+    /// Where there is no solution: the modes with the smallest determinants. Only where every pattern was tried.
     pub closest_modes: Vec<ClosestMode>,
+    /// Where there is no solution: groups of contacts that admit none, whatever the others do.
+    pub jammed_groups: Vec<Vec<String>>,
     /// Accelerations and normal forces without friction, and the influence coefficients.
     pub influence: InfluenceSummary,
     /// Greatest factor by which rounding in the kinetic equations may be amplified.
@@ -137,6 +153,8 @@ pub struct Solution {
     pub signs: Vec<i8>,
     /// Whether some contact is about to change side: its normal force is zero within rounding.
     pub on_boundary: bool,
+    /// What is proven of it.
+    pub certificate: CertificateKind,
     /// Determinant D of the mode's equations, eq. (6).
     pub determinant: f64,
     /// D times the product of the signs; positive without friction (theory, section 5).
@@ -157,6 +175,29 @@ pub struct Solution {
     pub residual: f64,
 }
 
+/// What is proven of a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CertificateKind {
+    /// It exists for the exact mechanism, inside of its mode.
+    Proven,
+    /// Some normal force or determinant is zero within the rounding of the mechanism's numbers.
+    OnBoundary,
+    /// It was found within tolerances only.
+    NotProven,
+}
+
+/// A mode whose outcome is not decided within the bounds of the mechanism's numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UndecidedMode {
+    /// Its pattern.
+    pub pattern: String,
+    /// The contact mode of each sliding joint.
+    pub joints: Vec<JointMode>,
+    /// The contacts whose normal force may be zero; none if the determinant may.
+    pub contacts: Vec<String>,
+}
+
 /// A contact in a solution. Signs as in theory, section 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contact {
@@ -166,6 +207,9 @@ pub struct Contact {
     pub side: i8,
     /// Normal force on the block along n (N).
     pub normal_force: f64,
+    /// Proven bounds of the normal force (N); absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_force_bounds: Option<[f64; 2]>,
     /// Friction force, positive against positive sliding (N).
     pub friction_force: f64,
     /// Sliding velocity of the block against the guide along u (m/s).

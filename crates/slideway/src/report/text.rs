@@ -2,7 +2,7 @@
 
 use super::number::{against, number};
 use super::table::table;
-use super::{ClosestMode, Contact, JointMode, Report, Solution, Status};
+use super::{CertificateKind, ClosestMode, Contact, JointMode, PatternSummary, Report, Solution, Status};
 use anstyle::{AnsiColor, Style as Ansi};
 use std::fmt::Write;
 
@@ -52,6 +52,7 @@ pub fn to_text(report: &Report, style: Style) -> String {
         text.solution(&title, state);
     }
     text.continua();
+    text.undecided();
     text.rejected();
     text.locked_modes();
     text.closest_modes();
@@ -106,52 +107,45 @@ impl Text<'_> {
                 "No solution: a guided slider would tip in every mode that solves the equations.".to_owned()
             }
             Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
-            Status::One if !report.complete => {
+            Status::One if report.partial => {
                 "One solution found; not every pattern could be decided.".to_owned()
             }
             Status::One => "One solution.".to_owned(),
-            Status::Several => format!("{} solutions, each in its own contact mode.", report.solutions.len()),
+            Status::Several if report.partial => {
+                format!("{} solutions found; not every pattern could be decided.", report.count)
+            }
+            Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
             Status::PreloadGap => {
                 "No contact mode has a solution, but a state with the preload between the faces has."
                     .to_owned()
             }
-            Status::Unknown => "Nothing found, but not every pattern could be decided.".to_owned(),
+            Status::Unknown if report.partial => {
+                "Nothing found, but not every pattern could be decided.".to_owned()
+            }
+            Status::Unknown => {
+                "On the boundary: whether there is a solution cannot be told within rounding.".to_owned()
+            }
         };
         self.line(&self.style.verdict(report.status, &verdict));
-        self.line(&self.patterns());
-    }
-
-    /// "All 8 sign patterns tried: 3 with a solution, 5 without."
-    fn patterns(&self) -> String {
-        let counts = &self.report.patterns;
-        let outcomes = [
-            (counts.solution, "with a solution"),
-            (counts.boundary, "on the boundary of a solution"),
-            (counts.no_solution, "without a solution"),
-            (counts.singular_without_solution, "singular and locked"),
-            (counts.singular_with_point, "singular with one solution"),
-            (counts.singular_with_continuum, "singular with a continuum"),
-            (counts.undecided, "undecided"),
-        ];
-        let parts: Vec<String> = outcomes
-            .iter()
-            .filter(|(count, _)| *count > 0)
-            .map(|(count, outcome)| format!("{count} {outcome}"))
-            .collect();
-        let tried = match (counts.total, counts.undecided) {
-            (1, 0) => "The only sign pattern was tried".to_owned(),
-            (total, 0) => format!("All {total} sign patterns were tried"),
-            (total, undecided) => format!("{} of {total} sign patterns were decided", total - undecided),
+        let search = match &report.patterns {
+            Some(patterns) => tried(patterns),
+            None => {
+                format!("{} of the search: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
+            }
         };
-        let mut line = match parts.as_slice() {
-            [_] if counts.no_solution == counts.total => format!("{tried}: none has a solution."),
-            _ => format!("{tried}: {}.", parts.join(", ")),
+        let proof = match report.open.as_slice() {
+            [] => "Complete: proven.".to_owned(),
+            open => format!("Complete: not proven; {}.", open.join("; ")),
         };
-        if counts.gap_patterns > 0 {
-            let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
+        self.line(&format!("{search} {proof}"));
+        for group in &report.jammed_groups {
+            self.line(&format!("What has no solution by itself: {}.", group.join(", ")));
         }
-        line
+        let listed = report.solutions.len();
+        if report.count != listed.to_string() {
+            self.line(&format!("{listed} of them are listed."));
+        }
     }
 
     fn solution(&mut self, title: &str, solution: &Solution) {
@@ -163,6 +157,11 @@ impl Text<'_> {
                 "  On the boundary between modes: {} about to change side.",
                 about_to_change(&solution.contacts)
             ));
+        } else if solution.certificate == CertificateKind::OnBoundary {
+            self.line("  On the boundary within rounding: a normal force or the determinant may be zero.");
+        }
+        if solution.certificate == CertificateKind::NotProven {
+            self.line("  Found within tolerances, not proven.");
         }
         self.modes(&solution.joints);
         self.line("");
@@ -204,6 +203,18 @@ impl Text<'_> {
         }
     }
 
+    fn undecided(&mut self) {
+        for mode in &self.report.undecided_modes {
+            self.line("");
+            let what = match mode.contacts.as_slice() {
+                [] => "its determinant may be zero".to_owned(),
+                contacts => format!("the normal force of {} may be zero", contacts.join(", ")),
+            };
+            self.line(&format!("On the boundary within rounding: signs {}; {what}", spaced(&mode.pattern)));
+            self.modes(&mode.joints);
+        }
+    }
+
     fn rejected(&mut self) {
         for rejection in &self.report.rejected {
             self.line("");
@@ -241,6 +252,37 @@ impl Text<'_> {
         let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
         self.out.push_str(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
     }
+}
+
+/// "All 8 sign patterns were tried: 3 with a solution, 5 without."
+fn tried(counts: &PatternSummary) -> String {
+    let outcomes = [
+        (counts.solution, "with a solution"),
+        (counts.boundary, "on the boundary of a solution"),
+        (counts.no_solution, "without a solution"),
+        (counts.singular_without_solution, "singular and locked"),
+        (counts.singular_with_point, "singular with one solution"),
+        (counts.singular_with_continuum, "singular with a continuum"),
+        (counts.undecided, "undecided"),
+    ];
+    let parts: Vec<String> = outcomes
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, outcome)| format!("{count} {outcome}"))
+        .collect();
+    let tried = match (counts.total, counts.undecided) {
+        (1, 0) => "The only sign pattern was tried".to_owned(),
+        (total, 0) => format!("All {total} sign patterns were tried"),
+        (total, undecided) => format!("{} of {total} sign patterns were decided", total - undecided),
+    };
+    let mut line = match parts.as_slice() {
+        [_] if counts.no_solution == counts.total => format!("{tried}: none has a solution."),
+        _ => format!("{tried}: {}.", parts.join(", ")),
+    };
+    if counts.gap_patterns > 0 {
+        let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
+    }
+    line
 }
 
 fn closest_row(mode: &ClosestMode) -> Vec<String> {
@@ -331,6 +373,10 @@ fn about_to_change(contacts: &[Contact]) -> String {
 }
 
 pub(crate) fn count(number: usize, one: &str, several: &str) -> String {
+    count_u64(number as u64, one, several)
+}
+
+fn count_u64(number: u64, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
 }
 

@@ -2,6 +2,7 @@
 
 use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
+use super::found::Found;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
 use crate::configuration::{Configuration, unit};
@@ -11,12 +12,22 @@ use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Slider};
 use crate::model::{PreloadLine, SliderKind};
-use crate::modes::{ClosestMode, ContactState, SingularMode, SolutionSet, Solutions};
+use crate::modes::{
+    Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
+    UndecidedPattern,
+};
 use crate::report::{self, Report, Status};
 use nalgebra::DVector;
 
 /// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping.
 const COUPLE_TOLERANCE: f64 = 1e-9;
+
+/// Solutions of the equations in which a guided slider would tip.
+#[derive(Default)]
+struct Tipping {
+    count: u64,
+    rejected: Vec<report::Rejection>,
+}
 
 /// A mechanism in its state, with the stages that lead to its mode problem.
 pub(super) struct Answer<'a> {
@@ -29,56 +40,93 @@ pub(super) struct Answer<'a> {
 
 impl<'a> Answer<'a> {
     /// The report on all solutions.
-    pub(super) fn report(&self, found: &Solutions) -> Result<Report, Faults> {
-        let mut rejected = Vec::new();
-        let mut rejections = 0;
-        let mut keep = |state: &State<'_>| -> Option<report::Solution> {
-            let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state)));
-            match self.tipping(state, &unknowns) {
-                None => Some(self.solution(state, &unknowns)),
-                Some(rejection) => {
-                    rejections += 1;
-                    rejected.push(rejection);
-                    None
-                }
-            }
-        };
-        let mut solutions: Vec<_> = found
+    pub(super) fn report(&self, found: &Found<'_>) -> Result<Report, Faults> {
+        let lists = found.lists();
+        let mut tipping = Tipping::default();
+        let mut keep = |state: &State<'_>| self.kept(state, &mut tipping);
+        let mut solutions: Vec<_> = lists
             .solutions
             .iter()
             .filter_map(|solution| keep(&regular(solution, &pressed(&solution.pattern))))
             .collect();
         let singular: Vec<SingularMode> =
-            found.singular.iter().map(|mode| self.without_tipping(mode)).collect();
+            lists.singular.iter().map(|mode| self.without_tipping(mode)).collect();
         solutions.extend(singular.iter().filter_map(|mode| keep(&point(mode)?)));
-        let gaps: Vec<_> = found.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
+        let gaps: Vec<_> = lists.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
         let solutions = distinct(solutions, &[]);
         let gaps = distinct(gaps, &solutions);
         let continua: Vec<_> = singular.iter().filter_map(|mode| self.continuum(mode)).collect();
-        for mode in found.singular.iter().zip(&singular).filter(|(mode, cut)| tips_everywhere(mode, cut)) {
-            rejections += mode.0.pattern_count;
-            rejected.extend(mode.0.set.vertices().first().and_then(|vertex| self.tipping_at(mode.0, vertex)));
+        for (mode, _) in lists.singular.iter().zip(&singular).filter(|(mode, cut)| tips_everywhere(mode, cut))
+        {
+            tipping.count += mode.pattern_count;
+            let first = mode.set.vertices().first().and_then(|vertex| self.tipping_at(mode, vertex));
+            tipping.rejected.extend(first);
         }
-        let complete = found.is_complete();
+        let [count, gap_state_count] = found.counts(&lists, [solutions.len(), gaps.len()]);
+        let open = found.open();
+        let undecided = !lists.undecided.is_empty() || found.is_partial();
+        let outcomes = found.result.outcomes();
         let report = Report {
             schema: report::SCHEMA,
-            status: status(complete, solutions.len(), gaps.len(), continua.len()),
-            complete,
+            status: status(undecided, solutions.len(), gaps.len(), continua.len()),
+            complete: if open.is_empty() { "proven" } else { "not proven" },
+            partial: found.is_partial(),
+            open,
+            count,
+            gap_state_count,
+            strategy: found.result.strategy(),
+            nodes: found.result.nodes(),
             model: self.model(),
             state: self.state(),
             time: self.configuration.time,
-            patterns: pattern_summary(found, rejections),
+            patterns: outcomes.map(|outcomes| pattern_summary(outcomes, tipping.count)),
             solutions,
             preload_gap_states: gaps,
             continua,
-            locked_modes: self.locked_modes(&found.singular),
-            rejected,
-            closest_modes: found.closest.iter().map(|mode| self.closest_mode(mode)).collect(),
+            undecided_modes: lists.undecided.iter().map(|mode| self.undecided_mode(mode)).collect(),
+            locked_modes: outcomes.map_or_else(Vec::new, |outcomes| self.locked_modes(&outcomes.locked)),
+            rejected: tipping.rejected,
+            closest_modes: outcomes.map_or_else(Vec::new, |outcomes| {
+                outcomes.closest.iter().map(|mode| self.closest_mode(mode)).collect()
+            }),
+            jammed_groups: self.jammed_groups(found),
             influence: self.influence_summary(),
             condition: self.equations.condition(),
         };
         check_finite(&report)?;
         Ok(report)
+    }
+
+    /// A state as a solution, unless a guided slider would tip in it.
+    fn kept(&self, state: &State<'_>, tipping: &mut Tipping) -> Option<report::Solution> {
+        let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state)));
+        match self.tipping(state, &unknowns) {
+            None => Some(self.solution(state, &unknowns)),
+            Some(rejection) => {
+                tipping.count += 1;
+                tipping.rejected.push(rejection);
+                None
+            }
+        }
+    }
+
+    /// The groups of contacts that admit nothing, where several groups were searched one by one.
+    fn jammed_groups(&self, found: &Found<'_>) -> Vec<Vec<String>> {
+        if found.result.groups.len() < 2 || found.is_partial() {
+            return Vec::new();
+        }
+        let names = |group: &GroupReport| {
+            group.contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
+        };
+        found.result.barren_groups().map(names).collect()
+    }
+
+    fn undecided_mode(&self, mode: &UndecidedPattern) -> report::UndecidedMode {
+        report::UndecidedMode {
+            pattern: pattern(&mode.pattern),
+            joints: self.joint_modes(&signs(&mode.pattern)),
+            contacts: mode.in_doubt.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect(),
+        }
     }
 
     fn model(&self) -> report::ModelSummary {
@@ -180,6 +228,7 @@ impl<'a> Answer<'a> {
             patterns: state.patterns.clone(),
             signs: state.signs.clone(),
             on_boundary: state.on_boundary,
+            certificate: certificate(state),
             determinant: state.determinant,
             oriented_determinant: state.determinant * orientation,
             contacts: self.contacts(state, unknowns, &friction),
@@ -224,6 +273,7 @@ impl<'a> Answer<'a> {
                 side: state.signs[k],
                 // Adding zero turns -0 into 0.
                 normal_force: state.normal_force[k] + 0.0,
+                normal_force_bounds: bounds(state, k),
                 friction_force: friction[k].total() + 0.0,
                 sliding_velocity: self.equations.contacts[k].sliding_velocity,
                 couple: self.couple(contact.joint, unknowns),
@@ -357,25 +407,39 @@ fn tips_everywhere(mode: &SingularMode, cut: &SingularMode) -> bool {
     mode.set.is_continuum() && cut.set == SolutionSet::Empty
 }
 
-fn status(complete: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
+fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
     match (solutions, gaps, continua) {
         (_, _, 1..) => Status::Continuum,
-        (0, 0, 0) => {
-            if complete {
-                Status::None
-            } else {
-                Status::Unknown
-            }
-        }
-        (0, _, 0) if !complete => Status::Unknown,
+        (0, _, 0) if undecided => Status::Unknown,
+        (0, 0, 0) => Status::None,
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,
         _ => Status::Several,
     }
 }
 
-fn pattern_summary(found: &Solutions, rejected: u64) -> report::PatternSummary {
-    let counts = found.counts;
+fn certificate(state: &State<'_>) -> report::CertificateKind {
+    match state.certificate {
+        Certificate::Proven { .. } => report::CertificateKind::Proven,
+        Certificate::NotProven => report::CertificateKind::NotProven,
+        Certificate::Boundary { .. } | Certificate::Singular | Certificate::OnBoundaryWithinBounds { .. } => {
+            report::CertificateKind::OnBoundary
+        }
+    }
+}
+
+/// Proven bounds of a normal force.
+fn bounds(state: &State<'_>, contact: usize) -> Option<[f64; 2]> {
+    let absolute = state.certificate.unknowns()?[contact];
+    match state.pattern[contact] {
+        ContactState::Positive => Some([absolute.lower(), absolute.upper()]),
+        ContactState::Negative => Some([-absolute.upper(), -absolute.lower()]),
+        ContactState::Gap => Some([0.0, 0.0]),
+    }
+}
+
+fn pattern_summary(outcomes: &PatternOutcomes, rejected: u64) -> report::PatternSummary {
+    let counts = outcomes.counts;
     report::PatternSummary {
         total: counts.total(),
         solution: counts.solution,
@@ -386,7 +450,7 @@ fn pattern_summary(found: &Solutions, rejected: u64) -> report::PatternSummary {
         singular_with_continuum: counts.singular_continuum,
         undecided: counts.not_examined,
         rejected,
-        gap_patterns: found.gap_counts.total(),
+        gap_patterns: outcomes.gap_counts.total(),
     }
 }
 

@@ -117,5 +117,6 @@ fn vertex<'s>(mode: &'s SingularMode, normal_force: &'s DVector<f64>) -> State<'
         signs: signs(&mode.pattern),
         on_boundary: false,
         determinant: 0.0,
+        certificate: &mode.certificate,
     }
 }

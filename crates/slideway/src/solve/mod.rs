@@ -21,6 +21,7 @@ mod answer;
 mod continuum;
 mod distinct;
 mod equilibrium;
+mod found;
 mod mode_problem;
 mod state;
 mod words;
@@ -30,36 +31,71 @@ pub(crate) use mode_problem::{check_size, velocity_signs};
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;
+use crate::enclosure::{UncertainParameters, enclosure};
 use crate::fault::Faults;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::{self, Limits};
+use crate::modes::{Arguments, Progress, SearchOptions, search};
 use crate::report::Report;
+use std::ops::ControlFlow;
+
+/// With so many contacts every pattern is tried by itself.
+const FEW_CONTACTS: usize = 6;
+
+/// What a solution may cost, and how much of it is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SolveOptions {
+    /// Limits of the search.
+    pub search: SearchOptions,
+    /// The most solutions, gap states and continua that are listed, each.
+    pub most: usize,
+}
+
+impl Default for SolveOptions {
+    /// The defaults of the search, 1000 of each kind.
+    fn default() -> Self {
+        Self { search: SearchOptions::default(), most: 1000 }
+    }
+}
 
 /// All solutions of the kinetic problem of a model in its state, with their contact modes.
+///
+/// The list is proven complete for the exact mechanism that the model describes, unless [`Report::complete`] says
+/// otherwise: the search holds for rigorous bounds of the influence coefficients ([`crate::enclosure`]).
 ///
 /// # Errors
 /// Whatever makes no sense in the model or its state. That there is no solution is no error, but
 /// [`crate::report::Status::None`].
 pub fn solve(model: &Model) -> Result<Report, Faults> {
-    solve_within(model, &Limits::default())
+    solve_with(model, &SolveOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
-/// [`solve`] with limits on the work.
+/// [`solve`] with options, and a callback that is called at every node of the search and ends it when it breaks.
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_within(model: &Model, limits: &Limits) -> Result<Report, Faults> {
+pub fn solve_with(
+    model: &Model,
+    options: &SolveOptions,
+    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<Report, Faults> {
     let mechanism = Mechanism::new(model)?;
-    check_size(&mechanism, limits)?;
+    check_size(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
     let equations = KineticEquations::new(&mechanism, &configuration)?;
     let influence = Influence::new(&equations);
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-    let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
-    let solutions = modes::enumerate(&problem, limits).map_err(|error| mode_problem::too_large(&error))?;
+    let enclosed = enclosure(model, &UncertainParameters::default(), &mechanism, &configuration);
+    let result = match &enclosed {
+        Ok(enclosed) => search(&enclosed.problem, &search_options(&mechanism, options), progress),
+        Err(_) => {
+            let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
+            search(&problem, &search_options(&mechanism, options), progress)
+        }
+    };
+    let result = result.map_err(|_| mode_problem::overflow())?;
     let answer = answer::Answer {
         mechanism: &mechanism,
         configuration: &configuration,
@@ -67,5 +103,14 @@ pub fn solve_within(model: &Model, limits: &Limits) -> Result<Report, Faults> {
         influence: &influence,
         velocity_signs: &velocity_signs,
     };
-    answer.report(&solutions)
+    answer.report(&found::Found { result: &result, rounded: enclosed.as_ref().err(), most: options.most })
+}
+
+/// Few contacts are searched as one group, so that the outcome of every pattern is known.
+fn search_options(mechanism: &Mechanism, options: &SolveOptions) -> SearchOptions {
+    let few = mechanism.contacts.len() <= FEW_CONTACTS;
+    let arguments = options.search.arguments;
+    let arguments =
+        Arguments { groups: arguments.groups && !few, uniqueness: arguments.uniqueness && !few, ..arguments };
+    SearchOptions { arguments, ..options.search }
 }

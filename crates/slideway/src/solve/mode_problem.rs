@@ -6,9 +6,7 @@ use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::{PreloadLine, SliderKind};
-use crate::modes::{
-    BySide, EnumerationError, InfluenceCoefficients, Limits, ModeProblem, ModeProblemError, Side,
-};
+use crate::modes::{BySide, InfluenceCoefficients, ModeProblem, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Sliding velocities below this multiple of the greatest velocity count as zero.
@@ -73,8 +71,7 @@ pub fn mode_problem(
         frictionless: influence.normal_forces(),
         eta,
     };
-    let problem =
-        ModeProblem::from_influence(&coefficients).map_err(|error| Faults::from(overflow(&error)))?;
+    let problem = ModeProblem::from_influence(&coefficients).map_err(|_| overflow())?;
     let greatest = [Side::Positive, Side::Negative].map(|side| problem.columns(side).amax());
     let condition = greatest[0].max(greatest[1]);
     if condition > GREATEST_COEFFICIENT {
@@ -112,32 +109,22 @@ fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<
     preload
 }
 
-fn overflow(_: &ModeProblemError) -> Fault {
-    Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() })
+/// The fault of numbers beyond the range of floating point.
+pub(super) fn overflow() -> Faults {
+    Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() }).into()
 }
 
-/// More contacts than can be enumerated are refused before any matrix is built: those would be large, too.
+/// More contacts are refused before any matrix is built: those would be large, too.
+const MOST_CONTACTS: usize = 500;
+
+/// More contacts than can be dealt with are refused before any matrix is built.
 ///
 /// # Errors
 /// A fault that says how many contacts there are.
-pub(crate) fn check_size(mechanism: &Mechanism, limits: &Limits) -> Result<(), Faults> {
-    let (contacts, limit) = (mechanism.contacts.len(), limits.contacts);
-    if contacts > limit {
-        return Err(Fault::general(FaultKind::TooManyContacts { contacts, limit }).into());
+pub(crate) fn check_size(mechanism: &Mechanism) -> Result<(), Faults> {
+    let contacts = mechanism.contacts.len();
+    if contacts > MOST_CONTACTS {
+        return Err(Fault::general(FaultKind::TooManyContacts { contacts, limit: MOST_CONTACTS }).into());
     }
     Ok(())
-}
-
-/// The fault of a problem that is too large to be enumerated.
-pub(super) fn too_large(error: &EnumerationError) -> Faults {
-    Fault::general(match *error {
-        EnumerationError::TooManyContacts { contacts, limit } => {
-            FaultKind::TooManyContacts { contacts, limit }
-        }
-        EnumerationError::TooManyPatterns { contacts, with_jump, limit, .. } => {
-            FaultKind::TooManyPatterns { contacts, with_jump, limit }
-        }
-        EnumerationError::TooManySolutions { limit } => FaultKind::TooManySolutions { limit },
-    })
-    .into()
 }

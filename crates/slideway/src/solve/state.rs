@@ -1,6 +1,6 @@
 //! A solution of the mode problem as the answer sees it: what every contact does, and the normal forces.
 
-use crate::modes::{ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet};
+use crate::modes::{Certificate, ContactState, GapState, ModeSolution, Side, SingularMode, SolutionSet};
 use nalgebra::DVector;
 
 /// A state of all contacts: a solution of the mode problem, or a vertex of a continuum.
@@ -13,6 +13,7 @@ pub(super) struct State<'s> {
     pub(super) signs: Vec<i8>,
     pub(super) on_boundary: bool,
     pub(super) determinant: f64,
+    pub(super) certificate: &'s Certificate,
 }
 
 pub(super) fn pressed(pattern: &[Side]) -> Vec<ContactState> {
@@ -28,6 +29,7 @@ pub(super) fn regular<'s>(solution: &'s ModeSolution, pattern: &'s [ContactState
         signs: solution.signs.clone(),
         on_boundary: !solution.on_boundary.is_empty(),
         determinant: solution.determinant,
+        certificate: &solution.certificate,
     }
 }
 
@@ -44,6 +46,7 @@ pub(super) fn in_gap(gap: &GapState) -> State<'_> {
         signs: gap.signs.clone(),
         on_boundary: !gap.on_boundary.is_empty(),
         determinant: gap.determinant,
+        certificate: &gap.certificate,
     }
 }
 
@@ -70,6 +73,7 @@ pub(super) fn point(mode: &SingularMode) -> Option<State<'_>> {
             .collect(),
         on_boundary: true,
         determinant: 0.0,
+        certificate: &mode.certificate,
     })
 }
 
