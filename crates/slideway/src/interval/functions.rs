@@ -173,8 +173,8 @@ impl Real for Interval {
         Self::abs(self)
     }
 
-    fn sign(self) -> Self {
-        Self { lower: Real::sign(self.lower), upper: Real::sign(self.upper) }
+    fn sign_value(self) -> Self {
+        Self { lower: Real::sign_value(self.lower), upper: Real::sign_value(self.upper) }
     }
 
     fn step(self) -> Self {
