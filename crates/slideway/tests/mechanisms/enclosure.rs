@@ -259,8 +259,8 @@ fn varied(text: &str) -> String {
         _ => format!("{line}\n"),
     };
     let (head, tables) = text.split_once("[points]").unwrap();
-    let declared: String = VARIED.iter().map(|name| format!("e_{name} = 0\n")).collect();
-    format!("{head}[parameters]\n{declared}[points]{}", tables.lines().map(line).collect::<String>())
+    let declared = VARIED.map(|name| format!("e_{name} = 0\n")).concat();
+    format!("{head}[parameters]\n{declared}[points]{}", tables.lines().map(line).collect::<Vec<_>>().concat())
 }
 
 #[test]
