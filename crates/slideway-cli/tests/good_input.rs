@@ -51,7 +51,7 @@ fn json(arguments: &[&str]) -> (i32, Value) {
 fn json_has_the_fields_that_are_promised() {
     let (code, report) = json(&["solve", KLEPP, "--format", "json"]);
     assert_eq!(code, 0);
-    assert_eq!(report["schema"], "slideway/solve/1");
+    assert_eq!(report["schema"], "slideway/solve/2");
     assert_eq!(report["status"], "several");
     let solutions = report["solutions"].as_array().unwrap();
     assert_eq!(solutions.len(), 3);

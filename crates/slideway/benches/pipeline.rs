@@ -2,6 +2,7 @@
 
 use divan::Bencher;
 use slideway::configuration::Configuration;
+use slideway::enclosure::{UncertainParameters, enclosure};
 use slideway::gallery;
 use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
@@ -66,6 +67,16 @@ fn kinetic_equations(bencher: Bencher<'_, '_>, name: &str) {
 fn influence_coefficients(bencher: Bencher<'_, '_>, name: &str) {
     let equations = equations(&mechanism(name));
     bencher.bench_local(|| Influence::new(&equations));
+}
+
+/// Rigorous bounds of the mode problem.
+#[divan::bench(args = NAMES)]
+fn enclosed_mode_problem(bencher: Bencher<'_, '_>, name: &str) {
+    let model = model(name);
+    let mechanism = mechanism(name);
+    let configuration = configuration(&mechanism);
+    let certain = UncertainParameters::default();
+    bencher.bench_local(|| enclosure(&model, &certain, &mechanism, &configuration));
 }
 
 /// From the parsed model to the report.

@@ -7,15 +7,17 @@ use std::path::{Path, PathBuf};
 
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
-    ("expression", &[]),
+    ("interval", &[]),
+    ("expression", &["interval"]),
     ("ids", &[]),
     ("fault", &["expression"]),
-    ("model", &["expression", "fault", "ids"]),
-    ("mechanism", &["expression", "fault", "ids", "model"]),
-    ("configuration", &["fault", "ids", "mechanism", "model"]),
-    ("kinetics", &["configuration", "fault", "ids", "mechanism", "model"]),
+    ("model", &["expression", "fault", "ids", "interval"]),
+    ("mechanism", &["expression", "fault", "ids", "interval", "model"]),
+    ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
+    ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),
     ("influence", &["ids", "kinetics"]),
-    ("modes", &[]),
+    ("modes", &["interval"]),
+    ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
     ("report", &[]),
     ("raw_problem", &["fault", "modes", "report"]),
     ("gallery", &[]),

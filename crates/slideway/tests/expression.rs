@@ -1,5 +1,6 @@
 //! Expressions: values, units, dimensions, faults.
 
+use slideway::interval::Interval;
 use std::f64::consts::{E, FRAC_PI_2, PI};
 
 use rstest::rstest;
@@ -379,4 +380,56 @@ fn long_and_deep_within_the_limits() {
     let text = format!("{}1²{}", "hypot(0, ".repeat(levels), ")".repeat(levels));
     assert_eq!(value(&text), 1.0);
     assert_eq!(read(&text).dimension(&of), Ok(Inferred::Number));
+}
+
+/// The interval of an expression of time.
+fn interval_at(time: Interval, text: &str) -> Result<Interval, ExpressionFault> {
+    let values = Values { parameters: &[], coordinates: &[], rates: &[], time };
+    parse(text, &Names::new()).expect("a sound expression").evaluate(&values)
+}
+
+/// The interval of an expression without symbols.
+fn interval(text: &str) -> Interval {
+    interval_at(Interval::ZERO, text).expect("a value")
+}
+
+#[test]
+fn decimals_that_are_numbers_are_exact() {
+    let exact =
+        ["0", "0.0", "1", "0.5", "-0.375", "1e3", "2_500", "500 mm", "12.5 %", "250e-3", "1e22", "3 kN"];
+    for text in exact {
+        assert_eq!(interval(text).width(), 0.0, "{text}");
+    }
+}
+
+#[test]
+fn other_decimals_lie_between_neighbouring_numbers() {
+    for text in [
+        "0.1",
+        "1e-3",
+        "35 mm",
+        "0.3333",
+        "9.81 m/s^2",
+        "1e23",
+        "123456789012345678901234567890",
+        "80 deg",
+        "pi",
+    ] {
+        let (found, rounded) = (interval(text), interval(text).middle());
+        assert!(found.lower() < found.upper(), "{text}");
+        assert!(found.width() <= 8.0 * f64::EPSILON * rounded, "{text}");
+    }
+    // 0.1 in f64 is above the decimal, 0.3 below.
+    assert!(interval("0.1*10").contains(1.0) && interval("0.1 + 0.2 - 0.3").contains(0.0));
+    assert!(interval("sin(180 deg)").contains(0.0) && interval("cos(60 deg)").contains(0.5));
+    assert!(interval("sin(pi)").width() > 0.0);
+}
+
+#[test]
+fn an_interval_with_a_pole_has_no_value() {
+    let around_zero = Interval::around(0.0, 1.0);
+    for text in ["1/t", "sqrt(t)", "ln(t)", "t^0.5"] {
+        assert!(interval_at(around_zero, text).is_err(), "{text}");
+    }
+    assert_eq!(interval_at(around_zero, "t^2").ok(), Interval::new(0.0, 1.0));
 }

@@ -5,8 +5,10 @@
 use proptest::prelude::*;
 use slideway::gallery::MODELS;
 use slideway::model::Model;
-use slideway::modes::Limits;
+use slideway::modes::SearchOptions;
+use slideway::solve::SolveOptions;
 use slideway::{check, report, solve};
+use std::ops::ControlFlow;
 
 /// A change of a file.
 #[derive(Debug, Clone)]
@@ -101,8 +103,10 @@ proptest! {
                 }
             }
             Ok(model) => {
-                let limits = Limits { contacts: 8, ..Limits::default() };
-                if let Ok(report) = solve::solve_within(&model, &limits) {
+                let search = SearchOptions { nodes: 1000, ..SearchOptions::default() };
+                let options = SolveOptions { search, ..SolveOptions::default() };
+                let report = solve::solve_with(&model, &options, &mut |_| ControlFlow::Continue(()));
+                if let Ok(report) = report {
                     let text = report::to_text(&report, report::Style::Plain);
                     prop_assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
                     // JSON knows no NaN: it would be null.

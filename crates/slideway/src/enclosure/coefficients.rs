@@ -88,7 +88,9 @@ impl Coefficients<'_> {
             if contact.preload_line == PreloadLine::Centre && self.slider(k).is_some_and(has_two_faces) {
                 let half = Interval::point(0.5);
                 let centre = (eta[0].column(k) + eta[1].column(k)) * half;
-                preload.iter_mut().for_each(|side| side.set_column(k, &centre));
+                for side in &mut preload {
+                    side.set_column(k, &centre);
+                }
             }
         }
         preload
@@ -126,7 +128,9 @@ impl Coefficients<'_> {
             for row in 0..contacts {
                 right[row] += force * influence.eta_preload.positive.entry(row, k);
             }
-            preload.iter_mut().for_each(|side| side[k] = Interval::ZERO);
+            for side in &mut preload {
+                side[k] = Interval::ZERO;
+            }
         }
         Ok(IntervalInfluence {
             preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },

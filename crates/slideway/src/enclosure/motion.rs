@@ -36,7 +36,7 @@ pub(super) fn enclosed(
 /// Interval Newton operator around the computed poses `z`, for a box `z + D`:
 ///
 /// ```text
-/// N(D) = - J(z + D)^-1 f(z),      N(D) within D: one solution in z + D, and it is in z + N(D)
+/// N(D) = - J(z + [0, D])^-1 f(z),      N(D) within D: one solution in z + D, and it is in z + N(D)
 /// ```
 ///
 /// (Neumaier, Interval Methods for Systems of Equations, 1990, section 5.1).
@@ -86,8 +86,12 @@ impl Newton<'_> {
     }
 
     /// N(D); none if the Jacobian is not proven to be regular everywhere in the box.
+    ///
+    /// The mean value theorem needs the Jacobian on the way from the centre, which need not be in the box: parameters
+    /// may be stated to differ from those of the computed positions.
     fn image(&self, steps: &DVector<Interval>, residual: &DVector<Interval>) -> Option<DVector<Interval>> {
-        let jacobian = self.equations(&self.moved(steps)).jacobian;
+        let way = steps.map(|step| step.hull(Interval::ZERO));
+        let jacobian = self.equations(&self.moved(&way)).jacobian;
         let right = DMatrix::from_fn(residual.len(), 1, |row, _| -residual[row]);
         let solution = solution(&jacobian, &right)?;
         Some(DVector::from_fn(residual.len(), |row, _| solution.entry(row, 0)))

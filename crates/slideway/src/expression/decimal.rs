@@ -22,17 +22,20 @@ fn is_exact(value: f64, written: &str) -> Option<bool> {
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let fraction = fraction.trim_end_matches(['0', '_']);
-    let digits = [whole, fraction].concat().replace('_', "");
-    let places = i32::try_from(fraction.chars().filter(char::is_ascii_digit).count()).ok()?;
-    let mut number: u64 = digits.parse().ok()?;
+    let (mut number, mut power) = (0_u64, exponent);
+    for (digits, step) in [(whole, 0), (fraction, 1)] {
+        for character in digits.chars().filter(|character| *character != '_') {
+            number = number.checked_mul(10)?.checked_add(u64::from(character.to_digit(10)?))?;
+            power = power.checked_sub(step)?;
+        }
+    }
     if number == 0 {
         return Some(true);
     }
-    let power = exponent.checked_sub(places)?;
     let fives = 5_u64.checked_pow(power.unsigned_abs())?;
     if power >= 0 {
         number = number.checked_mul(fives)?;
-    } else if number % fives == 0 {
+    } else if number.is_multiple_of(fives) {
         number /= fives;
     } else {
         return Some(false);

@@ -118,7 +118,7 @@ impl Unary {
             Self::Tanh => x.tanh(),
             Self::Sqrt => x.sqrt(),
             Self::Abs => x.abs(),
-            Self::Sign => x.sign(),
+            Self::Sign => x.sign_value(),
             Self::Exp => x.exp(),
             Self::Ln => x.ln(),
             Self::Log10 => x.log10(),

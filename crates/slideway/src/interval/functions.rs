@@ -71,7 +71,7 @@ fn product_of(base: Interval, exponent: f64) -> Interval {
     let (mut result, mut square, mut rest) = (Interval::ONE, base, exponent);
     while rest > 1.0 {
         if rest % 2.0 == 1.0 {
-            result = result * square;
+            result *= square;
         }
         square = square * square;
         rest = (rest / 2.0).floor();
@@ -173,8 +173,8 @@ impl Real for Interval {
         Self::abs(self)
     }
 
-    fn sign(self) -> Self {
-        Self { lower: Real::sign(self.lower), upper: Real::sign(self.upper) }
+    fn sign_value(self) -> Self {
+        Self { lower: Real::sign_value(self.lower), upper: Real::sign_value(self.upper) }
     }
 
     fn step(self) -> Self {

@@ -69,7 +69,7 @@ pub trait Real:
     fn abs(self) -> Self;
     /// -1, 0 or 1.
     #[must_use]
-    fn sign(self) -> Self;
+    fn sign_value(self) -> Self;
     /// 0 below zero, else 1.
     #[must_use]
     fn step(self) -> Self;
@@ -162,7 +162,7 @@ impl Real for f64 {
         f64::abs(self)
     }
 
-    fn sign(self) -> Self {
+    fn sign_value(self) -> Self {
         if self == 0.0 { 0.0 } else { self.signum() }
     }
 

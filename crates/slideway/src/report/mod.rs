@@ -66,6 +66,7 @@ pub struct Report {
     /// Time of the state (s).
     pub time: f64,
     /// The outcome of all sign patterns; absent if there are so many that not each was tried by itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub patterns: Option<PatternSummary>,
     /// The solutions, in the order of their patterns.
     pub solutions: Vec<Solution>,

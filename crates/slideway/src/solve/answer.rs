@@ -448,7 +448,7 @@ fn pattern_summary(outcomes: &PatternOutcomes, rejected: u64) -> report::Pattern
         singular_without_solution: counts.singular_empty,
         singular_with_point: counts.singular_point,
         singular_with_continuum: counts.singular_continuum,
-        undecided: counts.not_examined,
+        undecided: counts.not_examined + counts.undecided,
         rejected,
         gap_patterns: outcomes.gap_counts.total(),
     }

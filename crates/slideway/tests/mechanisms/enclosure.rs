@@ -1,7 +1,12 @@
 //! The enclosure of the influence coefficients: against the rounded ones, closed forms, and perturbed models.
 
-use crate::answers::{model, parameters};
+use crate::answers::{model, parameters, report};
+use crate::random_mechanisms::{cases, mechanisms};
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use nalgebra::DMatrix;
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 use slideway::configuration::Configuration;
 use slideway::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};
 use slideway::fault::Faults;
@@ -11,8 +16,13 @@ use slideway::interval::Interval;
 use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
-use slideway::modes::Side;
+use slideway::modes::ContactState::{self, Negative, Positive};
 use slideway::modes::certificate::IntervalMatrix;
+use slideway::modes::certificate::{Decision, decide};
+use std::cell::Cell;
+
+/// Widths relative to the greatest entry of a column that count as narrow.
+const WIDTH: f64 = 3e-12;
 
 /// The enclosure of a model, with bounds of some parameters.
 fn enclosed_within(
@@ -61,25 +71,224 @@ fn relative_width(bounds: &IntervalMatrix) -> f64 {
     (0..bounds.shape().1).map(width).fold(0.0, f64::max)
 }
 
+/// How far the rounded influence is outside of its enclosure.
+fn influence_outside(enclosed: &EnclosedModeProblem, rounded: &Influence) -> f64 {
+    let normal = rounded.normal_forces();
+    let normal = DMatrix::from_column_slice(normal.len(), 1, normal.as_slice());
+    let found = &enclosed.influence;
+    outside(&found.eta.positive, &rounded.eta(0))
+        .max(outside(&found.eta.negative, &rounded.eta(1)))
+        .max(outside(&found.frictionless, &normal))
+}
+
+/// A rational number from decimal digits, the last `places` of them behind the point.
+fn decimal(digits: &str, places: usize) -> RBig {
+    let ten: IBig = IBig::from(10).pow(places);
+    RBig::from(digits.parse::<IBig>().unwrap()) / RBig::from(ten)
+}
+
+fn holds(bounds: Interval, value: &RBig) -> bool {
+    RBig::try_from(bounds.lower()).unwrap() <= *value && *value <= RBig::try_from(bounds.upper()).unwrap()
+}
+
 #[test]
 fn the_gallery_is_enclosed_to_many_digits() {
     for entry in MODELS.iter().filter(|entry| entry.name != "bracket-on-pole") {
         let model = Model::parse(entry.text).unwrap();
-        let (found, rounded) = (enclosed(&model).influence, influence(&model).unwrap());
-        let normal =
-            DMatrix::from_column_slice(rounded.normal_forces().len(), 1, rounded.normal_forces().as_slice());
-        println!(
-            "{} {:e} {:e} {:e}",
-            entry.name,
-            relative_width(&found.eta.positive),
-            relative_width(&found.eta.negative),
-            relative_width(&found.frictionless)
-        );
-        println!(
-            "   {:e} {:e} {:e}",
-            outside(&found.eta.positive, &rounded.eta(0)),
-            outside(&found.eta.negative, &rounded.eta(1)),
-            outside(&found.frictionless, &normal)
-        );
+        let (found, rounded) = (enclosed(&model), influence(&model).unwrap());
+        assert!(influence_outside(&found, &rounded) <= 1e-13, "{}", entry.name);
+        // The tubes of the boom overlap by little beside their length, so that reactions are large differences.
+        let narrow = if entry.name == "telescopic-boom" { 1e-10 } else { WIDTH };
+        let influence = &found.influence;
+        for bounds in [&influence.eta.positive, &influence.eta.negative, &influence.frictionless] {
+            assert!(relative_width(bounds) < narrow, "{}: {:e}", entry.name, relative_width(bounds));
+        }
     }
+}
+
+/// Klepp's example in closed form, from the balance of the bar and of the block with `t = tan(alpha)`:
+///
+/// ```text
+/// N_1 = mg/2 + t/2 (F_2 + F_3 - F_1),    N_2 + N_3 = mg - N_1,    N_2 - N_3 = h/b (sigma_2 F_2 + sigma_3 F_3)
+/// ```
+#[test]
+fn the_example_of_the_paper_is_enclosed_exactly() {
+    let found = enclosed(&model("klepp-2002")).influence;
+    let tangent = decimal("5671281819617709530994418439863964421625378260689750", 51);
+    let part = |numerator: i32, denominator: i32| {
+        RBig::from(IBig::from(numerator)) / RBig::from(IBig::from(denominator))
+    };
+    for (contact, weight) in [(0, part(981, 200)), (1, part(981, 400)), (2, part(981, 400))] {
+        assert!(holds(found.frictionless.entry(contact, 0), &weight));
+    }
+    for (sign, eta) in [(1, &found.eta.positive), (-1, &found.eta.negative)] {
+        for column in 0..3 {
+            let push = if column == 0 { -part(1, 2) } else { part(1, 2) };
+            let first = &push * &tangent;
+            let couple = if column == 0 { RBig::ZERO } else { part(sign, 4) };
+            assert!(holds(eta.entry(0, column), &first));
+            assert!(holds(eta.entry(1, column), &(&couple - &first * part(1, 2))));
+            assert!(holds(eta.entry(2, column), &(-&couple - &first * part(1, 2))));
+        }
+    }
+    // What is written as a decimal is that decimal, and what is exactly a number is that alone.
+    assert!(holds(found.mu.positive.entry(1, 0), &part(1, 10)) && found.mu.positive.radius()[(1, 0)] > 0.0);
+    assert_eq!(found.mu.positive.entry(0, 0), Interval::point(0.5));
+}
+
+/// At mu_1 = cot(alpha), moving to the left, N_2 and N_3 vanish together.
+#[test]
+fn a_double_boundary_is_left_undecided() {
+    let settings = parameters(&[("mu_1", "1/tan(alpha)"), ("F_20", "0 N"), ("direction", "-1")]);
+    let problem = enclosed(&model("klepp-2002").with(&settings).unwrap()).problem;
+    for front in [Positive, Negative] {
+        for rear in [Positive, Negative] {
+            let Decision::Undecided { unknowns: Some(unknowns), in_doubt } =
+                decide(&problem, &[Positive, front, rear]).decision
+            else {
+                panic!("{front:?}, {rear:?} is on the boundary");
+            };
+            assert_eq!(in_doubt, [1, 2]);
+            assert!(unknowns[1].contains(0.0) && unknowns[2].contains(0.0));
+        }
+    }
+    // A little beside it the same patterns are decided.
+    let settings = settings.parameter("mu_1", "1/tan(alpha) - 1e-9");
+    let problem = enclosed(&model("klepp-2002").with(&settings).unwrap()).problem;
+    let found = |pattern: [ContactState; 3]| decide(&problem, &pattern).decision;
+    assert!(!matches!(found([Positive, Positive, Positive]), Decision::Undecided { .. }));
+    assert!(!matches!(found([Positive, Negative, Negative]), Decision::Undecided { .. }));
+}
+
+#[test]
+fn solutions_of_the_pipeline_are_proven_for_the_mechanism() {
+    let cases: [(&str, &[(&str, &str)]); 7] = [
+        ("klepp-2002", &[]),
+        ("klepp-2002", &[("F_10", "2 N"), ("F_30", "m*g/2")]),
+        ("slider-crank", &[]),
+        ("telescopic-boom", &[]),
+        ("scotch-yoke", &[]),
+        ("sleeve-on-arm", &[]),
+        ("cam-follower", &[]),
+    ];
+    for (name, settings) in cases {
+        let problem = enclosed(&model(name).with(&parameters(settings)).unwrap()).problem;
+        for solution in report(name, settings).solutions {
+            let forces: Vec<f64> = solution.contacts.iter().map(|contact| contact.normal_force).collect();
+            let side = |force: &f64| if *force > 0.0 { Positive } else { Negative };
+            let pattern: Vec<ContactState> = forces.iter().map(side).collect();
+            let Decision::Solution { unknowns, .. } = decide(&problem, &pattern).decision else {
+                panic!("{name}: {pattern:?}");
+            };
+            let scale = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
+            for (bounds, force) in unknowns.iter().zip(&forces) {
+                let slack = Interval::around(0.0, 1e-12 * scale);
+                assert!((*bounds + slack).contains(force.abs()), "{name}: {bounds:?} {force}");
+            }
+        }
+    }
+}
+
+#[test]
+fn versions_are_equal_where_theory_says_so() {
+    let settings = parameters(&[("F_10", "2 N"), ("F_20", "0 N")]);
+    let model = model("klepp-2002").with(&settings).unwrap();
+    let found = enclosed_within(&model, &[("F_10", 1.0, 2.0)]).unwrap();
+    // The pin has no height; friction at the block changes no other contact than those of the block.
+    let eta = &found.influence.eta;
+    assert!((0..3).all(|row| eta.positive.entry(row, 0) == eta.negative.entry(row, 0)));
+    assert!((0..3).all(|column| eta.positive.entry(0, column) == eta.negative.entry(0, column)));
+    assert!(!found.problem.centre().has_jump(0), "its preload acts on both sides alike");
+    let flat = model.with(&parameters(&[("h", "0 m"), ("F_20", "m*g")])).unwrap();
+    let found = enclosed(&flat);
+    assert_eq!(found.influence.eta.positive, found.influence.eta.negative);
+    assert!((0..3).all(|contact| !found.problem.centre().has_jump(contact)));
+}
+
+#[test]
+fn what_cannot_be_enclosed_is_told() {
+    let klepp = model("klepp-2002");
+    let error =
+        |name: &str, lower: f64, upper: f64| enclosed_within(&klepp, &[(name, lower, upper)]).unwrap_err();
+    let unknown = error("mu1", 0.1, 0.2);
+    assert_eq!(unknown.to_string(), "there is no parameter `mu1`; did you mean `mu_1`?");
+    assert_eq!(error("m", 1.0, f64::INFINITY).to_string(), "the bounds of m are not finite");
+    assert!(matches!(error("m", -1.0, 1.0), NotEnclosed::Values(_)));
+    assert!(matches!(error("direction", -1.0, 2.0), NotEnclosed::SlidingDirection { .. }));
+    assert!(matches!(error("b", 1e-9, 1.0), NotEnclosed::Equations));
+    let crank = model("slider-crank");
+    let error = enclosed_within(&crank, &[("phi_drawn", 0.5, 1.5)]).unwrap_err();
+    assert_eq!(error, NotEnclosed::Positions);
+}
+
+/// Every parameter of every model varies a little; the rounded influence of the changed model lies within the bounds.
+#[test]
+fn changed_models_of_the_gallery_lie_within_the_bounds() {
+    for entry in MODELS.iter().filter(|entry| entry.name != "bracket-on-pole") {
+        let model = Model::parse(entry.text).unwrap();
+        let values = model.parameter_values(&model.constants().unwrap());
+        for (parameter, value) in model.parameters.iter().zip(values) {
+            let spread = 1e-5 * value.abs();
+            // The second range does not hold the value of the computed positions.
+            for (least, greatest, shares) in [(-1.0, 1.0, [-1.0, 0.3, 1.0]), (2.0, 3.0, [2.0, 2.6, 3.0])] {
+                let bounds = (&*parameter.name, value + least * spread, value + greatest * spread);
+                let found = enclosed_within(&model, &[bounds])
+                    .unwrap_or_else(|error| panic!("{}, {}: {error}", entry.name, parameter.name));
+                for share in shares {
+                    let settings = parameters(&[(&parameter.name, &(value + share * spread).to_string())]);
+                    let Ok(rounded) = influence(&model.with(&settings).unwrap()) else { continue };
+                    let outside = influence_outside(&found, &rounded);
+                    assert!(outside < 1e-11, "{}, {}: {outside:e}", entry.name, parameter.name);
+                }
+            }
+        }
+    }
+}
+
+/// Lines of a model file whose numbers are made to depend on a parameter of their own.
+const VARIED: [&str; 8] =
+    ["mass", "moment_of_inertia", "along", "length", "height", "stiffness", "value", "rate"];
+
+/// A model file in which the numbers of `VARIED` are `number*(1 + e_name)`.
+fn varied(text: &str) -> String {
+    let line = |line: &str| match line.split_once(" = ") {
+        Some((name, number)) if VARIED.contains(&name) => format!("{name} = \"{number}*(1 + e_{name})\"\n"),
+        _ => format!("{line}\n"),
+    };
+    let (head, tables) = text.split_once("[points]").unwrap();
+    let declared = VARIED.map(|name| format!("e_{name} = 0\n")).concat();
+    format!("{head}[parameters]\n{declared}[points]{}", tables.lines().map(line).collect::<Vec<_>>().concat())
+}
+
+#[test]
+fn random_mechanisms_lie_within_the_bounds() {
+    let (tried, enclosed) = (Cell::new(0), Cell::new(0));
+    let shares = proptest::collection::vec(-1.0..=1.0_f64, VARIED.len());
+    let outcome = TestRunner::new(cases(150)).run(&(mechanisms(), shares), |(drawing, shares)| {
+        let model = Model::parse(&varied(&drawing.text())).unwrap();
+        let Ok(rounded) = influence(&model) else { return Ok(()) };
+        tried.set(tried.get() + 1);
+        let names: Vec<String> = VARIED.iter().map(|name| format!("e_{name}")).collect();
+        let spread = 1e-7;
+        let bounds: Vec<_> = names.iter().map(|name| (name.as_str(), -spread, spread)).collect();
+        let (Ok(exact), Ok(found)) = (enclosed_within(&model, &[]), enclosed_within(&model, &bounds)) else {
+            return Ok(());
+        };
+        enclosed.set(enclosed.get() + 1);
+        prop_assert!(influence_outside(&exact, &rounded) < 1e-11);
+        let values: Vec<String> = shares.iter().map(|share| (share * spread).to_string()).collect();
+        let list: Vec<(&str, &str)> =
+            names.iter().zip(&values).map(|(name, value)| (name.as_str(), value.as_str())).collect();
+        let changed = model.with(&parameters(&list)).unwrap();
+        let Ok(rounded) = influence(&changed) else { return Ok(()) };
+        prop_assert!(influence_outside(&found, &rounded) < 1e-11);
+        Ok(())
+    });
+    outcome.unwrap();
+    assert!(
+        10 * enclosed.get() >= 9 * tried.get() && tried.get() > 100,
+        "{} of {}",
+        enclosed.get(),
+        tried.get()
+    );
 }

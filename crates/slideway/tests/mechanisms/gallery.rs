@@ -22,7 +22,7 @@ fn every_model_is_sound_and_says_what_it_shows() {
             continue;
         }
         let report = solve(&model).unwrap_or_else(|faults| panic!("{}: {faults}", entry.name));
-        assert!(report.complete, "{}", entry.name);
+        assert!(report.complete == "proven", "{}", entry.name);
         assert!(!report.solutions.is_empty(), "{}", entry.name);
         assert!(report.solutions.iter().all(|solution| solution.residual < 1e-12), "{}", entry.name);
     }
@@ -218,10 +218,10 @@ fn the_sleeve_has_two_freedoms_and_presses_the_opposite_faces() {
 fn the_booms_patterns_grow_as_four_to_the_stages() {
     let report = report("telescopic-boom", &[]);
     assert_eq!(report.model.contacts, 6);
-    assert_eq!(report.patterns.total, 4_u64.pow(3));
+    assert_eq!(report.patterns.unwrap().total, 4_u64.pow(3));
     assert!(only(&report).joints.iter().all(|joint| joint.mode.starts_with("tipped: ")));
     let retracting = report_with(&model("telescopic-boom"), &parameters(&[("mu", "0.4"), ("v", "-0.1 m/s")]));
-    assert!(retracting.complete);
+    assert_eq!(retracting.complete, "proven");
 }
 
 #[test]

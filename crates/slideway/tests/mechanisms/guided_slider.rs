@@ -109,7 +109,7 @@ fn a_couple_beyond_the_pressure_is_rejected_and_tips_the_block() {
     // N = m g = 19.62 N gives a couple of at most 19.62 * 0.2 = 3.924 N m; 10 N m are needed.
     let guided = sledge.report("guided_slider");
     assert_eq!(guided.status, Status::None);
-    assert_eq!(guided.patterns.rejected, 1);
+    assert_eq!(guided.patterns.unwrap().rejected, 1);
     let [rejection] = &guided.rejected[..] else { panic!("one rejection") };
     assert_eq!((rejection.pattern.as_str(), rejection.joint.as_str()), ("+", "base"));
     assert_close(rejection.couple, -10.0, 0.0, 1e-12);

@@ -28,6 +28,8 @@ pub(super) struct ApproximateInverse {
     upper: DMatrix<f64>,
     lower_size: DMatrix<f64>,
     upper_size: DMatrix<f64>,
+    /// Upper bounds of `|X_U X_L|`.
+    inverse_size: DMatrix<f64>,
     /// Row `i` of `P A` is row `rows[i]` of `A`.
     rows: Vec<usize>,
     sign: Sign,
@@ -61,6 +63,7 @@ impl ApproximateInverse {
             sign: if negative % 2 == 0 { Sign::Positive } else { Sign::Negative },
             lower_size: lower.abs(),
             upper_size: upper.abs(),
+            inverse_size: size_of_product(&upper, &lower),
             lower,
             upper,
             defect: defect.abs(),
@@ -86,28 +89,29 @@ impl ApproximateInverse {
         let eps = rounding(self.rows.len());
         let permuted = vector.centre.select_rows(&self.rows);
         let partial = &self.lower * &permuted;
-        // |R v - fl(R v)| <= |X_U| (|X_L| (bound + gamma |P v|) + gamma |fl(X_L P v)|) + underflow.
-        let entering = upper_sum(&[&vector.bound.select_rows(&self.rows), &covered(&permuted, eps)]);
-        let inner = upper_product(&self.lower_size, &entering);
-        let bound = upper_product(&self.upper_size, &upper_sum(&[&inner, &covered(&partial, eps)]));
+        // |R v - fl(R v)| <= |X_U X_L| P bound + |X_U| (gamma |X_L| |P v| + gamma |fl(X_L P v)|) + underflow.
+        let inner = upper_product(&self.lower_size, &covered(&permuted, eps));
+        let rounded = upper_product(&self.upper_size, &upper_sum(&[&inner, &covered(&partial, eps)]));
+        let spread = upper_product(&self.inverse_size, &vector.bound.select_rows(&self.rows));
+        let bound = upper_sum(&[&spread, &rounded]);
         BoundedVector { centre: &self.upper * partial, bound }
     }
 
     /// An upper bound of `|I - R A| v` for `v >= 0`.
     ///
-    /// `|I - R A| <= |I - fl(R A)| + gamma |X_U| (|X_L| |P A| + |fl(X_L P A)|) + |X_U| |X_L| P rad(A)`.
+    /// `|I - R A| <= |I - fl(R A)| + gamma |X_U| (|X_L| |P A| + |fl(X_L P A)|) + |X_U X_L| P rad(A)`.
     fn defect_times(&self, vector: &DVector<f64>) -> DVector<f64> {
         let eps = rounding(self.rows.len());
         let matrix_part = upper_product(&self.matrix_size, vector) * eps;
-        let spread = upper_product(&self.radius, vector);
-        let inner = upper_product(&self.lower_size, &upper_sum(&[&matrix_part, &spread]));
+        let spread = upper_product(&self.inverse_size, &upper_product(&self.radius, vector));
+        let inner = upper_product(&self.lower_size, &matrix_part);
         let product_part = upper_product(&self.product_size, vector) * eps;
         // What products that underflow take from the entries of fl(R A).
         let underflow = self.rows.len() as f64 * f64::MIN_POSITIVE * vector.sum();
         let below = DVector::repeat(self.rows.len(), underflow + f64::MIN_POSITIVE);
         let outer = upper_product(&self.upper_size, &upper_sum(&[&inner, &product_part, &below]));
         let computed = upper_product(&self.defect, vector);
-        upper_sum(&[&computed, &outer, &below])
+        upper_sum(&[&computed, &outer, &spread, &below])
     }
 
     /// `delta` and `f` with `|A^-1 b - x - delta| <= f`, given the residual `b - A x`; none if that
@@ -126,6 +130,12 @@ impl ApproximateInverse {
         }
         None
     }
+}
+
+/// Upper bounds of `|A B|`.
+fn size_of_product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    let product = product(left, &IntervalMatrix::exact(right.clone()));
+    product.centre().zip_map(product.radius(), |centre, radius| (centre.abs() + radius).next_up())
 }
 
 /// `|vector| eps`, not lost to underflow.

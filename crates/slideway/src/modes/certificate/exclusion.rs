@@ -81,7 +81,7 @@ fn opposes_right_hand_side(
     for (contact, &state) in partial.iter().enumerate() {
         let jumps = jump_sides(state).iter().map(|&side| weigh(problem.jump(contact, side)));
         let largest = jumps.fold(f64::NEG_INFINITY, |most, jump| most.max(jump.upper()));
-        sum = sum + Interval::new(largest, largest).unwrap_or(Interval::REAL_LINE);
+        sum += Interval::new(largest, largest).unwrap_or(Interval::REAL_LINE);
     }
     sum.upper() < 0.0
 }

@@ -60,7 +60,7 @@ impl BaseSystem {
                         (d_plus + d_minus) * half
                     }
                 };
-                right[(row, 0)] = right[(row, 0)] + constant;
+                right[(row, 0)] += constant;
             }
         }
         Some(Self {

@@ -127,7 +127,7 @@ fn tighten(
         for (contact, &state) in partial.iter().enumerate() {
             let known = bounds[contact];
             let defect = Interval::around(0.0, equations.defect[(row, contact)]);
-            value = value + defect * known;
+            value += defect * known;
             if state.is_none() {
                 value = value - equations.absolute.entry(row, contact) * known.abs()
                     + equations.jumps.entry(row, contact) * jump_factor(known);
