@@ -123,9 +123,13 @@ fn what_is_too_large_to_be_solved_is_refused_before_it_is_analysed() {
 }
 
 #[test]
-fn friction_beyond_what_rounding_can_tell_is_no_jam() {
-    let strong = faults("klepp-2002", &Settings::default().parameter("mu_1", "1e8"));
-    assert!(matches!(only(&strong), FaultKind::IllConditioned { .. }), "{strong}");
+fn enormous_friction_is_decided_by_proof() {
+    // No more friction than this is the limit: F_1 = mu_1 N_1 stays finite, and N_1 vanishes.
+    let model = Model::parse(find("klepp-2002").unwrap().text).unwrap();
+    let strong = solve(&model.with(&Settings::default().parameter("mu_1", "1e8")).unwrap()).unwrap();
+    assert_eq!((strong.status, strong.complete), (Status::Several, "proven"));
+    assert!(strong.solutions[0].contacts[0].normal_force < 1e-6);
+    assert!((strong.solutions[0].contacts[0].friction_force - 12.5).abs() < 0.1);
     let load = faults("drawer", &Settings::default().parameter("Q", "1e308 N"));
     assert!(matches!(only(&load), FaultKind::Overflow { .. }), "{load}");
 }

@@ -11,6 +11,9 @@ use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
 use nalgebra::{DMatrix, DVector};
 
+/// Forces below this multiple of the greatest may be nothing but rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// A mechanism in its configuration, all within intervals.
 pub(super) struct Coefficients<'a> {
     pub(super) model: &'a Model,
@@ -51,13 +54,27 @@ impl Coefficients<'_> {
             value * Interval::point(rows[row])
         });
         let solution = solution(&scaled(matrix, &rows, &columns), &right)?;
+        let unknown = |row: usize, column: usize| solution.entry(row, column) * Interval::point(columns[row]);
         let normal: Option<Vec<usize>> =
             (0..friction.len()).map(|k| layout.reaction(Reaction::Normal(ContactId(k)))).collect();
         let normal = normal?;
+        let greatest = self.greatest_force(&|row| unknown(row, 0));
         Some(DMatrix::from_fn(normal.len(), 1 + friction.len(), |contact, column| {
-            let row = normal[contact];
-            solution.entry(row, column) * Interval::point(columns[row])
+            let scale = if column == 0 { greatest } else { 1.0 };
+            without_rounding(unknown(normal[contact], column), scale)
         }))
+    }
+
+    /// The greatest sum of sizes of forces in an equation of motion, for given unknowns (N).
+    fn greatest_force(&self, unknown: &dyn Fn(usize) -> Interval) -> f64 {
+        let Assembled { matrix, load, .. } = self.equations;
+        let forces = |row: usize| {
+            let terms = matrix.row(row).into_iter().enumerate();
+            let sum: f64 = terms.map(|(column, entry)| (*entry * unknown(column)).magnitude()).sum();
+            sum + load[row].magnitude()
+        };
+        let bodies = 0..self.mechanism.bodies.len();
+        bodies.flat_map(|body| [3 * body, 3 * body + 1]).map(forces).fold(0.0, f64::max)
     }
 
     /// The influence of friction at the other faces.
@@ -113,8 +130,8 @@ impl Coefficients<'_> {
         Ok(DVector::from_vec(signs))
     }
 
-    /// The same mode problem with `d_k` on the right-hand side wherever it is the same on both sides,
-    /// `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
+    /// The same mode problem with `d_k` on the right-hand side wherever it is the same on both sides, or all but the
+    /// same: `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
     pub(super) fn without_shared_jumps(
         &self,
         influence: &IntervalInfluence,
@@ -123,13 +140,20 @@ impl Coefficients<'_> {
         let entries = |matrix: &IntervalMatrix| DMatrix::from_fn(contacts, 1, |row, _| matrix.entry(row, 0));
         let mut preload = [&influence.preload.positive, &influence.preload.negative].map(entries);
         let mut right = entries(&influence.frictionless);
-        for k in (0..contacts).filter(|&k| self.has_shared_jump(k)) {
-            let force = preload[0][k] * Interval::point(influence.velocity_signs[k]);
-            for row in 0..contacts {
-                right[row] += force * influence.eta_preload.positive.entry(row, k);
-            }
-            for side in &mut preload {
-                side[k] = Interval::ZERO;
+        for k in 0..contacts {
+            let jump = |side: usize, row: usize| {
+                let eta =
+                    if side == 0 { &influence.eta_preload.positive } else { &influence.eta_preload.negative };
+                preload[side][k] * Interval::point(influence.velocity_signs[k]) * eta.entry(row, k)
+            };
+            let jumps: Vec<[Interval; 2]> = (0..contacts).map(|row| [jump(0, row), jump(1, row)]).collect();
+            if self.has_shared_jump(k) || differ_by_rounding(&jumps, preload[0][k].hull(preload[1][k])) {
+                for (right, [positive, negative]) in right.iter_mut().zip(jumps) {
+                    *right += positive.hull(negative);
+                }
+                for side in &mut preload {
+                    side[k] = Interval::ZERO;
+                }
             }
         }
         Ok(IntervalInfluence {
@@ -156,9 +180,24 @@ impl Coefficients<'_> {
     }
 }
 
+/// A number that may be nothing but rounding, with zero in the middle of its bounds, so that what belongs on a boundary
+/// is found there.
+fn without_rounding(value: Interval, scale: f64) -> Interval {
+    let is_rounding = value.contains(0.0) && value.magnitude() <= ROUNDING * scale;
+    if is_rounding { Interval::around(0.0, value.magnitude()) } else { value }
+}
+
 /// Whether it makes a difference at which face friction acts.
 fn has_two_faces(slider: &Slider<Interval>) -> bool {
     slider.kind == SliderKind::Block && slider.height != Interval::ZERO
+}
+
+/// Whether `d_k^+` and `d_k^-` are the same but for rounding. A gap between them would be the boundary between both
+/// sides, within the bounds.
+fn differ_by_rounding(jumps: &[[Interval; 2]], preload: Interval) -> bool {
+    let greatest = jumps.iter().flatten().map(|jump| jump.magnitude()).fold(0.0, f64::max);
+    let most = ROUNDING * preload.magnitude().max(greatest);
+    jumps.iter().all(|[positive, negative]| (*positive - *negative).magnitude() <= most)
 }
 
 fn bounded(entries: &DMatrix<Interval>) -> Result<IntervalMatrix, NotEnclosed> {
