@@ -167,12 +167,17 @@ impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
 
 /// One column of the data: its middle, and how far it may be off.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column<'a> {
-    pub(super) centre: &'a [f64],
+pub(in crate::modes) struct Column<'a> {
+    pub(in crate::modes) centre: &'a [f64],
     pub(super) radius: Option<&'a [f64]>,
 }
 
 impl Column<'_> {
+    /// The middle of an entry, and how far it may be off.
+    pub(in crate::modes) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
+        (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
+    }
+
     pub(super) fn entry(&self, row: usize) -> Interval {
         let radius = self.radius.map_or(0.0, |radius| radius[row]);
         Interval::around(self.centre[row], radius)
@@ -180,12 +185,12 @@ impl Column<'_> {
 }
 
 impl<'a> ProblemView<'a> {
-    pub(super) fn contacts(self) -> usize {
+    pub(in crate::modes) fn contacts(self) -> usize {
         self.centre.contacts()
     }
 
     /// `c_k^{side}`.
-    pub(super) fn column(self, contact: usize, side: Side) -> Column<'a> {
+    pub(in crate::modes) fn column(self, contact: usize, side: Side) -> Column<'a> {
         Column {
             centre: column_slice(self.centre.columns(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.columns.get(side), contact)),
@@ -193,7 +198,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// `d_k^{side}`.
-    pub(super) fn jump(self, contact: usize, side: Side) -> Column<'a> {
+    pub(in crate::modes) fn jump(self, contact: usize, side: Side) -> Column<'a> {
         Column {
             centre: column_slice(self.centre.jumps(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.jumps.get(side), contact)),
@@ -201,7 +206,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// `N(0)`.
-    pub(super) fn load(self) -> Column<'a> {
+    pub(in crate::modes) fn load(self) -> Column<'a> {
         Column {
             centre: self.centre.right_hand_side().as_slice(),
             radius: self.radii.map(|radii| radii.right_hand_side.as_slice()),
@@ -209,7 +214,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// Whether `d_k^+` and `d_k^-` may differ at all.
-    pub(super) fn may_jump(self, contact: usize) -> bool {
+    pub(in crate::modes) fn may_jump(self, contact: usize) -> bool {
         let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
         let spread = |column: Column<'_>| column.radius.is_some_and(|r| r.iter().any(|&value| value > 0.0));
         one.centre != other.centre || spread(one) || spread(other)
