@@ -35,7 +35,7 @@ struct Pivot {
     inverse: Lanes,
     /// Bound on the error of every entry and of the pivot `p`; infinite where the pivot is too small.
     bound: Lanes,
-    /// At least `1 / (|p| - bound)`.
+    /// At least `1 / (|p| - bound)`; infinite where the pivot is too small.
     guard: Lanes,
     /// The largest entry.
     size: Lanes,
@@ -189,8 +189,10 @@ impl Kernel {
             pivot = larger.select(candidate, pivot);
         }
         let inverse = pivot.map(|pivot| 1.0 / pivot);
+        let mut largest_factor = Lanes::ZERO;
         for (target, factor) in child.rows.iter_mut().zip(&factors).take(place) {
             let factor = factor.zip(inverse, |entry, inverse| -entry * inverse);
+            largest_factor = largest_factor.larger(factor.abs());
             for (target, entry) in target.iter_mut().zip(&*pivot_row) {
                 let target = black_box(target);
                 *target = factor.times_plus::<FUSED>(*entry, *target);
@@ -207,12 +209,13 @@ impl Kernel {
         let mut below = Lanes::ZERO;
         for lane in 0..LANES {
             let (size, node) = (size.0[lane], node.size.0[lane]);
-            below.0[lane] = bound_below(bound.0[lane], guard.0[lane], size, node, 2.0 * UNIT);
+            let factor = largest_factor.0[lane];
+            below.0[lane] = bound_below(bound.0[lane], factor, guard.0[lane], size, node, 2.0 * UNIT);
         }
         child.bound = regular.select(below, infinite);
         child.size = node.size.zip(size, |node, row| node + row);
         stored.bound = regular.select(bound, infinite);
-        stored.guard = guard;
+        stored.guard = regular.select(guard, infinite);
         stored.inverse = inverse;
         stored.size = size;
         self.columns[place] = column;
@@ -287,7 +290,7 @@ impl Kernel {
     #[inline(never)]
     fn keep_lanes(&mut self, excess: Lanes, error: Lanes) {
         let negative =
-            (0..self.places).map(|place| ((self.columns[place] - 1 & 1) as u64) << place).sum::<u64>();
+            (0..self.places).map(|place| (((self.columns[place] - 1) & 1) as u64) << place).sum::<u64>();
         for lane in 0..self.used {
             if excess.0[lane] > 0.0 || self.is_excluded(lane, error.0[lane]) {
                 continue;
@@ -299,60 +302,63 @@ impl Kernel {
 
     /// Back-substitution of one lane from the places of the leaf, whose errors are given: whether some unknown is
     /// certainly outside of its range.
-    fn is_excluded(&self, lane: usize, mut error: f64) -> bool {
-        let mut y: Vec<f64> = self.y[..CRAMER].iter().map(|y| y.0[lane]).collect();
-        let Origin { pattern, above } = &self.origins[lane];
-        for place in CRAMER..self.places + above.len() {
-            let (estimate, in_gap) = if place < self.places {
-                let Pivot { entries, inverse, bound, .. } = &self.pivots[place];
-                let coefficients = self.columns[..place].iter().map(|&column| entries[column].0[lane]);
-                let equation = Equation { load: entries[0].0[lane], bound: bound.0[lane], error };
-                (equation.solve(coefficients, &y, 1.0 / inverse.0[lane]), false)
-            } else {
-                let ResolvedRow { entries, pivot, bound } = &above[place - self.places];
-                let (kernel, decided) = entries[1..].split_at(2 * self.places);
-                let coefficients = self.columns[..self.places].iter().map(|&column| kernel[column - 1]);
-                let equation = Equation { load: entries[0], bound: *bound, error };
-                let coefficients = coefficients.chain(decided.iter().copied());
-                (equation.solve(coefficients, &y, *pivot), pattern.gap >> place & 1 == 1)
-            };
-            let (value, error_of_value) = estimate;
-            if value < -error_of_value || in_gap && value > 1.0 + error_of_value {
+    fn is_excluded(&self, lane: usize, error: f64) -> bool {
+        let mut unknowns: Vec<Unknown> =
+            self.y[..CRAMER].iter().map(|y| Unknown { value: y.0[lane], error }).collect();
+        for place in CRAMER..self.places {
+            let Pivot { entries, inverse, bound, .. } = &self.pivots[place];
+            let coefficients = self.columns[..place].iter().map(|&column| entries[column].0[lane]);
+            let equation =
+                Equation { load: entries[0].0[lane], pivot: 1.0 / inverse.0[lane], bound: bound.0[lane] };
+            let unknown = equation.solve(coefficients, &unknowns);
+            if unknown.value < -unknown.error {
                 return true;
             }
-            error = error.max(error_of_value);
-            y.push(value);
+            unknowns.push(unknown);
+        }
+        let Origin { pattern, above } = &self.origins[lane];
+        for (place, ResolvedRow { entries, pivot, bound }) in (self.places..).zip(above) {
+            let (kernel, decided) = entries[1..].split_at(2 * self.places);
+            let coefficients = self.columns[..self.places].iter().map(|&column| kernel[column - 1]);
+            let equation = Equation { load: entries[0], pivot: *pivot, bound: *bound };
+            let unknown = equation.solve(coefficients.chain(decided.iter().copied()), &unknowns);
+            let in_gap = pattern.gap >> place & 1 == 1;
+            if unknown.value < -unknown.error || in_gap && unknown.value > 1.0 + unknown.error {
+                return true;
+            }
+            unknowns.push(unknown);
         }
         false
     }
 }
 
-/// One equation of the back-substitution, and the largest error of the unknowns in it.
-struct Equation {
-    load: f64,
-    bound: f64,
+/// A value and a bound on its error.
+struct Unknown {
+    value: f64,
     error: f64,
 }
 
+/// One equation of the back-substitution, and a bound on the error of each of its entries.
+struct Equation {
+    load: f64,
+    pivot: f64,
+    bound: f64,
+}
+
 impl Equation {
-    /// The unknown at the pivot and a bound on its error.
-    fn solve(&self, coefficients: impl Iterator<Item = f64>, y: &[f64], pivot: f64) -> (f64, f64) {
+    /// The unknown at the pivot.
+    fn solve(&self, coefficients: impl Iterator<Item = f64>, unknowns: &[Unknown]) -> Unknown {
         let (mut value, mut size) = (self.load, self.load.abs());
-        let (mut width, mut largest) = (0.0, 0.0_f64);
-        for (coefficient, y) in coefficients.zip(y) {
-            value -= coefficient * y;
-            size += (coefficient * y).abs();
-            width += coefficient.abs();
-            largest = if y.abs() <= largest { largest } else { y.abs() };
+        let mut error = self.bound;
+        for (coefficient, unknown) in coefficients.zip(unknowns) {
+            value -= coefficient * unknown.value;
+            size += (coefficient * unknown.value).abs();
+            error += coefficient.abs() * unknown.error + self.bound * (unknown.value.abs() + unknown.error);
         }
-        let count = y.len() as f64;
-        let error = self.bound
-            + width * self.error
-            + count * self.bound * (largest + self.error)
-            + (count + 4.0) * UNIT * size;
-        let y = value / pivot;
-        let error = (error + y.abs() * self.bound) / (pivot.abs() - self.bound) + 8.0 * UNIT * y.abs();
-        (y, error * ROUNDED_UP + f64::MIN_POSITIVE)
+        error += (unknowns.len() as f64 + 4.0) * UNIT * size;
+        let y = value / self.pivot;
+        let error = (error + y.abs() * self.bound) / (self.pivot.abs() - self.bound) + 8.0 * UNIT * y.abs();
+        Unknown { value: y, error: error * ROUNDED_UP + f64::MIN_POSITIVE }
     }
 }
 
@@ -405,7 +411,7 @@ fn dot<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3]) -> Lanes {
 fn error_of_determinants(node: &Level) -> Lanes {
     let mut size = Lanes::ZERO;
     for row in &node.rows[..CRAMER] {
-        for entry in &row[..2 * CRAMER + 1] {
+        for entry in &row[..=2 * CRAMER] {
             size = size.larger(entry.abs());
         }
     }

@@ -18,16 +18,17 @@
 //! # Error bound
 //! Every node has a bound `e` on the error of all of its entries. At the root that is the largest radius of the
 //! data. If every entry of a node is within `e` of the exact one, a pivot `p` is regular when `|p| > 2 e`.
-//! Otherwise all patterns below are kept. With row pivoting `|l| <= 1`, and the entries `a - l r` of the child are
-//! within
+//! Otherwise all patterns below are kept. With row pivoting `|l| <= L <= 1`, and the entries `a - l r` of the child
+//! are within
 //!
 //! ```text
-//! e' = 2 e + (R + e) (2 e / (|p| - e) + 2 u) + 8 u (A + R)
+//! e' = (1 + L) e + (R + e) ((1 + L) e / (|p| - e) + 2 u) + 8 u (A + R)
 //! ```
 //!
-//! of theirs, where `R` bounds the pivot row, `A` the node, and `u` is the unit roundoff: `a` and `l r` contribute
-//! `e` each, `l` is wrong by `(|a_c| e + |p| e) / (|p| (|p| - e))` at most besides two roundings, and the last term
-//! is more than the roundings of product and difference. Determinants of the last three contacts are wrong by
+//! of theirs, where `R` bounds the pivot row, `A` the node, and `u` is the unit roundoff: `a` contributes `e`, `l r`
+//! contributes `L e` by its `r` and `R + e` times the error of `l`, which is `(|a_c| e + |p| e) / (|p| (|p| - e))`
+//! at most besides two roundings; the last term is more than the roundings of product and difference. Determinants
+//! of the last three contacts are wrong by
 //! `6 ((A + e)^3 - A^3) + 32 u A^3` at most. In the back-substitution `p y = b - sum_i c_i y_i` over `k` contacts
 //! with errors `d` of the `y_i <= Y` the right-hand side is wrong by
 //!
@@ -35,9 +36,12 @@
 //! e + k (R d + e (Y + d)) + (k + 4) u R (1 + k Y)
 //! ```
 //!
-//! at most. A pattern is dropped only when some `y_k` is below minus its error, or a share of a gap beyond 0 to 1
+//! at most, or by the same sum with the size and error of each term where few patterns are left. A pattern is dropped only when some `y_k` is below minus its error, or a share of a gap beyond 0 to 1
 //! by more than that. So the patterns that are left hold every solution, whatever rounding did. Bounds are rounded
 //! up, and the least normal number is added to each against underflow.
+
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled without the chosen instructions")]
+#![expect(clippy::needless_range_loop, reason = "loops over lanes run through several arrays at once")]
 
 mod double_double;
 mod kernel;

@@ -130,7 +130,7 @@ impl Node {
             // What is lost by keeping the leading parts only.
             bound: self.bound + f64::EPSILON * row.max(pivot),
         }));
-        self.bound = bound_below(self.bound, ROUNDED_UP / (pivot - self.bound), row, self.size, UNIT);
+        self.bound = bound_below(self.bound, 1.0, ROUNDED_UP / (pivot - self.bound), row, self.size, UNIT);
         self.size = largest(&self.high);
     }
 
@@ -229,10 +229,11 @@ impl Step<'_> {
     }
 }
 
-/// The bound of the module documentation; `guard` is at least `1 / (|p| - bound)`.
+/// The bound of the module documentation; `factor` is the largest `|l|`, `guard` at least `1 / (|p| - bound)`.
 #[inline(always)]
-pub(super) fn bound_below(bound: f64, guard: f64, row: f64, node: f64, unit: f64) -> f64 {
-    let exact = 2.0 * bound + (row + bound) * (2.0 * bound * guard + unit) + 4.0 * unit * (node + row);
+pub(super) fn bound_below(bound: f64, factor: f64, guard: f64, row: f64, node: f64, unit: f64) -> f64 {
+    let spread = (1.0 + factor) * bound;
+    let exact = spread + (row + bound) * (spread * guard + unit) + 4.0 * unit * (node + row);
     exact * ROUNDED_UP + f64::MIN_POSITIVE
 }
 
