@@ -98,7 +98,7 @@ fn random_jumps(n: usize, jumping: u64, seed: u64) -> (ModeProblem, Vec<bool>) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 80, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 50, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_solution_is_dropped(n in 1_usize..13, seed in any::<u64>()) {
@@ -207,7 +207,7 @@ fn planted(n: usize, exponent: i32, seed: u64) -> (ModeProblem, Pattern) {
 #[test]
 fn planted_solutions_of_nearly_singular_problems_are_kept() {
     let cases = (7..12).cycle().zip((10..46).cycle());
-    for (seed, (n, exponent)) in (0..900).zip(cases) {
+    for (seed, (n, exponent)) in (0..360).zip(cases) {
         let (problem, pattern) = planted(n, exponent, seed);
         let kept = screen(&problem).remaining.binary_search(&pattern).is_ok();
         assert!(kept, "{pattern:?} was dropped: n = {n}, exponent {exponent}, seed {seed}");
@@ -270,10 +270,10 @@ fn in_pool<T: Send>(threads: usize, run: impl FnOnce() -> T + Send) -> T {
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
-    let entries = DMatrix::from_fn(17, 17, |i, j| ((i * 7 + j * 13) % 17) as f64 / 8.5 - 1.0);
-    let rhs = DVector::from_fn(17, |i, _| ((i * 5) % 11) as f64 / 5.5 - 1.0);
+    let entries = DMatrix::from_fn(16, 16, |i, j| ((i * 7 + j * 13) % 17) as f64 / 8.5 - 1.0);
+    let rhs = DVector::from_fn(16, |i, _| ((i * 5) % 11) as f64 / 5.5 - 1.0);
     let degenerate = ModeProblem::from_linear_complementarity(&entries, rhs).unwrap();
-    for problem in [degenerate, random_problem(17, 4), random_jumps(7, 0b101_1101, 2).0] {
+    for problem in [degenerate, random_problem(16, 4), random_jumps(7, 0b101_1101, 2).0] {
         let run = |threads| {
             let mut order = Vec::new();
             let visit = |pattern| {

@@ -6,8 +6,7 @@
 //! A problem is a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact, or an
 //! [`IntervalModeProblem`](super::certificate::IntervalModeProblem); what is excluded then has no solution for any
 //! values within the bounds. A contact whose right-hand side jumps has three states, as in
-//! [`decide`](super::certificate::decide): there are `3^j 2^(r - j)` patterns. The time for one is about a hundred
-//! times longer where all contacts jump, as the levels of such contacts are not vectorised.
+//! [`decide`]: there are `3^j 2^(r - j)` patterns. Levels of such contacts are not vectorised and take much longer.
 //!
 //! # Method
 //! The elimination tree of theory, section 4. Contacts with a jump are decided first. Near the root, where nodes
@@ -109,8 +108,9 @@ pub fn screen<'a>(problem: impl Into<ProblemView<'a>>) -> Screening {
 /// As [`screen`], but hands each pattern that is left to a visitor, until it breaks off.
 ///
 /// The visitor runs on the calling thread, subtree after subtree, in an order that does not depend on the number of
-/// threads: ascending where no contact jumps. Patterns of 64 subtrees are held at a time, which are less than
-/// `2^22`. `progress` is called by any thread whenever a subtree of some `2^15` patterns is done. If it breaks off,
+/// threads: ascending where no contact jumps. What is left of the subtrees below six levels is held at a time, out of
+/// `2^21` patterns at most where no contact jumps. `progress` is called by any thread whenever a subtree is done. If
+/// it breaks off,
 /// the visitor is told of no subtree from the first on that was not screened.
 ///
 /// # Panics
