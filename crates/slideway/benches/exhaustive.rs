@@ -1,13 +1,13 @@
-//! The exhaustive screening of random linear complementarity problems: time for each pattern.
+//! Every pattern of random linear complementarity problems: time for each pattern, beside the simple enumerator.
 //!
-//! `cargo bench -p slideway --bench exhaustive`; `RAYON_NUM_THREADS=1` for one thread.
+//! `cargo bench -p slideway --bench exhaustive`
 #![allow(missing_docs, reason = "a benchmark")]
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::{DMatrix, DVector};
-use slideway::modes::ModeProblem;
 use slideway::modes::exhaustive::{prove, screen};
+use slideway::modes::{Limits, ModeProblem, enumerate};
 
 fn main() {
     divan::main();
@@ -27,14 +27,30 @@ fn problem(n: usize) -> ModeProblem {
 }
 
 /// Items are patterns: divide the time by 2^n.
-#[divan::bench(args = [12, 16, 20], sample_count = 10)]
-fn screening(bencher: Bencher<'_, '_>, n: usize) {
+fn run<T: Send>(
+    bencher: Bencher<'_, '_>,
+    n: usize,
+    threads: usize,
+    solve: impl Fn(&ModeProblem) -> T + Sync + Send,
+) {
     let problem = problem(n);
-    bencher.counter(ItemsCount::new(1_usize << n)).bench(|| screen(black_box(&problem)));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let patterns = ItemsCount::new(1_usize << n);
+    bencher.counter(patterns).bench_local(|| pool.install(|| solve(black_box(&problem))));
 }
 
-#[divan::bench(args = [12, 16, 20], sample_count = 10)]
-fn proof(bencher: Bencher<'_, '_>, n: usize) {
-    let problem = problem(n);
-    bencher.counter(ItemsCount::new(1_usize << n)).bench(|| prove(black_box(&problem)));
+#[divan::bench(args = [16, 20, 24], consts = [1, 2], sample_count = 10)]
+fn screening<const THREADS: usize>(bencher: Bencher<'_, '_>, n: usize) {
+    run(bencher, n, THREADS, |problem| screen(problem));
+}
+
+#[divan::bench(args = [16, 20, 24], consts = [1, 2], sample_count = 10)]
+fn proof<const THREADS: usize>(bencher: Bencher<'_, '_>, n: usize) {
+    run(bencher, n, THREADS, |problem| prove(problem));
+}
+
+#[divan::bench(args = [16, 20], sample_count = 5)]
+fn simple_enumeration(bencher: Bencher<'_, '_>, n: usize) {
+    let limits = Limits { contacts: n, ..Limits::default() };
+    run(bencher, n, 1, |problem| enumerate(problem, &limits));
 }

@@ -180,6 +180,11 @@ pub(in crate::modes) struct Column<'a> {
 }
 
 impl Column<'_> {
+    /// The middle of an entry, and how far it may be off.
+    pub(in crate::modes) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
+        (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
+    }
+
     pub(super) fn entry(&self, row: usize) -> Interval {
         let radius = self.radius.map_or(0.0, |radius| radius[row]);
         Interval::around(self.centre[row], radius)

@@ -2,8 +2,6 @@
 //!
 //! Sums and products after Dekker and Knuth; the relative error of each operation is below [`UNIT`].
 
-use std::ops::{Add, Div, Mul, Sub};
-
 /// Bound on the relative error of one operation: 2^-98, with room to spare.
 pub(super) const UNIT: f64 = 3.2e-30;
 
@@ -20,13 +18,8 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-impl DoubleDouble {
-    pub(super) fn abs(self) -> f64 {
-        self.high.abs()
-    }
-}
-
 /// The sum and its rounding error, exactly (Knuth).
+#[inline(always)]
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     let part = high - a;
@@ -34,59 +27,58 @@ fn two_sum(a: f64, b: f64) -> DoubleDouble {
 }
 
 /// As [`two_sum`] where `|a| >= |b|` (Dekker).
+#[inline(always)]
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble { high, low: b - (high - a) }
 }
 
 /// The two halves of a number, each short enough for exact products (Veltkamp).
+#[inline(always)]
 fn split(a: f64) -> (f64, f64) {
     let scaled = 134_217_729.0 * a;
     let high = scaled - (scaled - a);
     (high, a - high)
 }
 
-/// The product and its rounding error, exactly (Dekker).
-fn two_product(a: f64, b: f64) -> DoubleDouble {
+/// The product and its rounding error, exactly (Dekker; with a fused operation where there is one).
+#[inline(always)]
+fn two_product<const FUSED: bool>(a: f64, b: f64) -> DoubleDouble {
     let high = a * b;
+    if FUSED {
+        return DoubleDouble { high, low: a.mul_add(b, -high) };
+    }
     let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
     let low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
     DoubleDouble { high, low }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
+impl DoubleDouble {
+    #[inline(always)]
+    pub(super) fn plus(self, other: Self) -> Self {
         let high = two_sum(self.high, other.high);
         let low = two_sum(self.low, other.low);
         let sum = quick_two_sum(high.high, high.low + low.high);
         quick_two_sum(sum.high, sum.low + low.low)
     }
-}
 
-impl Sub for DoubleDouble {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + Self { high: -other.high, low: -other.low }
+    #[inline(always)]
+    pub(super) fn minus(self, other: Self) -> Self {
+        self.plus(Self { high: -other.high, low: -other.low })
     }
-}
 
-impl Mul for DoubleDouble {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        let product = two_product(self.high, other.high);
+    #[inline(always)]
+    pub(super) fn times<const FUSED: bool>(self, other: Self) -> Self {
+        let product = two_product::<FUSED>(self.high, other.high);
         quick_two_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
     }
-}
 
-impl Div for DoubleDouble {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
+    #[inline(always)]
+    pub(super) fn over<const FUSED: bool>(self, other: Self) -> Self {
         let first = self.high / other.high;
-        let rest = self - other * Self::from(first);
+        let rest = self.minus(other.times::<FUSED>(Self::from(first)));
         let second = rest.high / other.high;
-        let rest = rest - other * Self::from(second);
-        let quotient = quick_two_sum(first, second);
-        quotient + Self::from(rest.high / other.high)
+        let rest = rest.minus(other.times::<FUSED>(Self::from(second)));
+        quick_two_sum(first, second).plus(Self::from(rest.high / other.high))
     }
 }

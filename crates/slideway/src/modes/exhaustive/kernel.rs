@@ -1,273 +1,468 @@
-//! The lower part of the tree: the last levels in `f64`, unrolled and vectorised, with the instructions of the
-//! processor at hand.
+//! The lower part of the tree: the last levels in `f64`, for several sibling nodes at once, with the instructions
+//! of the processor at hand.
 
-use super::PatternBits;
-use super::upper::bound_below;
+use std::hint::black_box;
 
-/// Levels that the kernel takes over from the upper part.
-pub(super) const LEAF_LEVELS: usize = 10;
-/// Entries of a row: right-hand side and two columns for each contact, rounded up to whole vectors.
-const STRIDE: usize = 24;
+use super::lanes::{LANES, Lanes};
+use super::layout::Layout;
+use super::pattern::Pattern;
+use super::upper::{Node, ROUNDED_UP, ResolvedRow, bound_below};
 
-type Row = [f64; STRIDE];
-
+/// Places that the kernel decides, at most.
+pub(super) const LEVELS: usize = 12;
+/// Places that are solved together by Cramer's rule.
+pub(super) const CRAMER: usize = 3;
+/// Entries of a row: right-hand side and two columns for each place.
+const WIDTH: usize = 2 * LEVELS + 1;
 /// Unit roundoff of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// The equation from which the normal force of a decided contact follows once those below are known.
-#[derive(Clone)]
-pub(super) struct PivotRow {
-    entries: Vec<f64>,
-    pivot: f64,
-    bound: f64,
+type Row = [Lanes; WIDTH];
+
+/// The equations of a node, for each lane.
+struct Level {
+    rows: Vec<Row>,
+    /// Bound on the error of every entry; infinite where a pivot was too small.
+    bound: Lanes,
+    /// Bound on the size of every entry.
+    size: Lanes,
 }
 
-impl PivotRow {
-    /// Entries (right-hand side, then both columns of each contact), pivot, and the bound on their errors.
-    pub(super) fn new(entries: Vec<f64>, pivot: f64, bound: f64) -> Self {
-        Self { entries, pivot, bound }
+/// The equation from which the unknown of a place follows once those below are known.
+#[derive(Clone)]
+struct Pivot {
+    entries: Row,
+    inverse: Lanes,
+    /// Bound on the error of every entry and of the pivot `p`; infinite where the pivot is too small.
+    bound: Lanes,
+    /// At least `1 / (|p| - bound)`; infinite where the pivot is too small.
+    guard: Lanes,
+    /// The largest entry.
+    size: Lanes,
+}
+
+impl Pivot {
+    /// Bound on the error of the unknown `y` that follows from `count` others, given the largest of these and of
+    /// their errors.
+    #[inline(always)]
+    fn error_of_y(&self, count: f64, y: Lanes, largest: Lanes, error: Lanes) -> Lanes {
+        let (bound, size, guard) = (self.bound, self.size, self.guard);
+        let mut result = Lanes::ZERO;
+        for lane in 0..LANES {
+            let (bound, size, y) = (bound.0[lane], size.0[lane], y.0[lane].abs());
+            let (largest, error) = (largest.0[lane], error.0[lane]);
+            let error_of_value = bound
+                + count * (size * error + bound * (largest + error))
+                + (count + 4.0) * UNIT * size * (1.0 + count * largest);
+            let error_of_y = (error_of_value + y * bound) * guard.0[lane] + 4.0 * UNIT * y;
+            result.0[lane] = error_of_y * ROUNDED_UP + f64::MIN_POSITIVE;
+        }
+        result
     }
 }
 
-struct Level {
-    rows: [Row; LEAF_LEVELS],
-    /// Bound on the error of every entry.
-    bound: f64,
-    /// Bound on the size of every entry.
-    size: f64,
+/// Where a lane comes from.
+#[derive(Clone, Default)]
+struct Origin {
+    pattern: Pattern,
+    above: Vec<ResolvedRow>,
 }
 
 /// Workspace of one thread.
 pub(super) struct Kernel {
+    /// Places that the kernel decides.
+    places: usize,
     levels: Vec<Level>,
-    /// Pivot row of each contact that has been decided.
-    pivots: Vec<PivotRow>,
-    sides: Vec<usize>,
-    y: Vec<f64>,
-    pattern: PatternBits,
-    remaining: Vec<PatternBits>,
+    pivots: Vec<Pivot>,
+    origins: Vec<Origin>,
+    used: usize,
+    /// Column of the state of each place.
+    columns: [usize; LEVELS],
+    y: [Lanes; LEVELS],
+    /// Patterns of places that could not be excluded.
+    remaining: Vec<Pattern>,
 }
 
 impl Kernel {
-    /// A workspace for problems with this number of contacts.
-    pub(super) fn new(contacts: usize) -> Self {
-        let empty = PivotRow::new(vec![0.0; STRIDE], 1.0, 0.0);
+    /// A workspace for problems of this layout.
+    pub(super) fn new(layout: &Layout) -> Self {
+        let places = layout.kernel_places();
+        let row = [Lanes::ZERO; WIDTH];
+        let level = |rows| Level { rows: vec![row; rows], bound: Lanes::ZERO, size: Lanes::ZERO };
+        let zero = Lanes::ZERO;
+        let pivot = Pivot { entries: row, inverse: zero, bound: zero, guard: zero, size: zero };
         Self {
-            levels: (0..=LEAF_LEVELS)
-                .map(|_| Level { rows: [[0.0; STRIDE]; LEAF_LEVELS], bound: 0.0, size: 0.0 })
-                .collect(),
-            pivots: vec![empty; contacts],
-            sides: vec![0; contacts],
-            y: vec![0.0; contacts],
-            pattern: 0,
+            places,
+            levels: (0..=places).map(level).collect(),
+            pivots: vec![pivot; places],
+            origins: vec![Origin::default(); LANES],
+            used: 0,
+            columns: [0; LEVELS],
+            y: [zero; LEVELS],
             remaining: Vec::new(),
         }
     }
 
-    /// All patterns that were kept.
-    pub(super) fn into_remaining(self) -> Vec<PatternBits> {
-        self.remaining
+    /// Keeps a pattern of places.
+    pub(super) fn keep(&mut self, pattern: Pattern) {
+        self.remaining.push(pattern);
     }
 
-    /// Keeps every pattern that shares the decided sides of `pattern`.
-    pub(super) fn keep_all_below(&mut self, undecided: usize, pattern: PatternBits) {
-        self.remaining.extend((0..1_u64 << undecided).map(|below| pattern | below));
+    /// All patterns that were kept since the last call.
+    pub(super) fn take_remaining(&mut self, layout: &Layout) -> Vec<Pattern> {
+        self.flush();
+        let mut remaining: Vec<Pattern> =
+            self.remaining.drain(..).filter_map(|pattern| layout.pattern(pattern)).collect();
+        remaining.sort_unstable();
+        remaining
     }
 
-    /// Screens all patterns below a node of the upper part.
-    pub(super) fn screen(&mut self, rows: &[Vec<f64>], bound: f64, above: &[PivotRow], pattern: PatternBits) {
-        let undecided = rows.len();
-        let level = &mut self.levels[undecided];
-        for (target, row) in level.rows.iter_mut().zip(rows) {
-            target[..row.len()].copy_from_slice(row);
-        }
-        level.bound = bound;
-        level.size = rows.iter().flatten().fold(0.0, |size: f64, entry| size.max(entry.abs()));
-        for (depth, pivot) in above.iter().enumerate() {
-            let contact = self.pivots.len() - 1 - depth;
-            self.pivots[contact] = pivot.clone();
-            self.sides[contact] = usize::from(pattern >> contact & 1 == 1);
-        }
-        self.pattern = pattern;
-        descend(self, undecided);
-    }
-
-    /// Back-substitution from the two contacts of a leaf: whether some `y` is certainly negative.
-    fn is_excluded(&mut self, mut error: f64) -> bool {
-        let mut largest = self.y[0].max(self.y[1]);
-        for contact in 2..self.pivots.len() {
-            let PivotRow { entries, pivot, bound } = &self.pivots[contact];
-            let mut value = entries[0];
-            let mut size = value.abs();
-            let mut width = 0.0;
-            for below in 0..contact {
-                let coefficient = entries[1 + 2 * below + self.sides[below]];
-                value -= coefficient * self.y[below];
-                size += (coefficient * self.y[below]).abs();
-                width += coefficient.abs();
+    /// Takes over a node whose undecided places are the kernel's.
+    pub(super) fn push(&mut self, node: &Node, layout: &Layout) {
+        let lane = self.used;
+        let level = &mut self.levels[self.places];
+        for (target, row) in level.rows.iter_mut().zip(node.rows(layout)) {
+            for (target, entry) in target.iter_mut().zip(row) {
+                target.0[lane] = *entry;
             }
-            let count = contact as f64;
-            let error_of_value =
-                bound + width * error + count * bound * (largest + error) + (count + 4.0) * UNIT * size;
-            let y = value / pivot;
-            let error_of_y =
-                1.001 * (error_of_value + y.abs() * bound) / (pivot.abs() - bound) + 2.0 * UNIT * y.abs();
-            if y < -error_of_y {
+        }
+        level.bound.0[lane] = node.bound + f64::EPSILON * node.size;
+        level.size.0[lane] = node.size;
+        self.origins[lane] = Origin { pattern: node.pattern, above: node.resolved(layout).collect() };
+        self.used += 1;
+        if self.used == LANES {
+            self.flush();
+        }
+    }
+
+    /// Screens the nodes at hand. Lanes that are not used repeat the first.
+    fn flush(&mut self) {
+        if self.used == 0 {
+            return;
+        }
+        let level = &mut self.levels[self.places];
+        let entries = level.rows.iter_mut().flatten();
+        for lanes in entries.chain([&mut level.bound, &mut level.size]) {
+            let first = lanes.0[0];
+            lanes.0[self.used..].fill(first);
+        }
+        descend(self);
+        self.used = 0;
+    }
+
+    /// Visits all patterns of the kernel's places. From one to the next, only the lowest places are decided anew.
+    #[inline(always)]
+    fn descend<const FUSED: bool>(&mut self) {
+        for index in 0..1_usize << (self.places - CRAMER) {
+            let anew = if index == 0 { self.places - CRAMER } else { index.trailing_zeros() as usize + 1 };
+            for place in (CRAMER..CRAMER + anew).rev() {
+                self.decide::<FUSED>(place, index >> (place - CRAMER) & 1);
+            }
+            self.leaf::<FUSED>();
+        }
+    }
+
+    /// One elimination step: the last undecided place goes to `side`. Each lane has its own pivot row.
+    #[inline(always)]
+    fn decide<const FUSED: bool>(&mut self, place: usize, side: usize) {
+        let width = 2 * place + 1;
+        let column = width + side;
+        let (below, here) = self.levels.split_at_mut(place + 1);
+        let (child, node) = (&mut below[place], &here[0]);
+        let stored = &mut self.pivots[place];
+        let pivot_row = &mut stored.entries[..width];
+        pivot_row.copy_from_slice(&node.rows[0][..width]);
+        let mut pivot = node.rows[0][column];
+        let mut factors = [Lanes::ZERO; LEVELS];
+        // The larger entry stays with the pivot row, the other row goes to the child.
+        for ((row, target), factor) in node.rows[1..=place].iter().zip(&mut child.rows).zip(&mut factors) {
+            let candidate = row[column];
+            let larger = pivot.is_smaller_than(candidate);
+            for ((entry, kept), target) in row[..width].iter().zip(&mut *pivot_row).zip(target) {
+                // Vectorised lane by lane, not across entries.
+                let target = black_box(target);
+                let old = *kept;
+                *kept = larger.select(*entry, old);
+                *target = larger.select(old, *entry);
+            }
+            *factor = larger.select(pivot, candidate);
+            pivot = larger.select(candidate, pivot);
+        }
+        let inverse = pivot.map(|pivot| 1.0 / pivot);
+        let mut largest_factor = Lanes::ZERO;
+        for (target, factor) in child.rows.iter_mut().zip(&factors).take(place) {
+            let factor = factor.zip(inverse, |entry, inverse| -entry * inverse);
+            largest_factor = largest_factor.larger(factor.abs());
+            for (target, entry) in target.iter_mut().zip(&*pivot_row) {
+                let target = black_box(target);
+                *target = factor.times_plus::<FUSED>(*entry, *target);
+            }
+        }
+        let mut size = Lanes::ZERO;
+        for entry in &*pivot_row {
+            size = size.larger(entry.abs());
+        }
+        let bound = node.bound;
+        let regular = bound.map(|bound| 2.0 * bound).is_smaller_than(pivot);
+        let infinite = Lanes([f64::INFINITY; LANES]);
+        let guard = pivot.zip(bound, |pivot, bound| ROUNDED_UP / (pivot.abs() - bound));
+        let mut below = Lanes::ZERO;
+        for lane in 0..LANES {
+            let (size, node) = (size.0[lane], node.size.0[lane]);
+            let factor = largest_factor.0[lane];
+            below.0[lane] = bound_below(bound.0[lane], factor, guard.0[lane], size, node, 2.0 * UNIT);
+        }
+        child.bound = regular.select(below, infinite);
+        child.size = node.size.zip(size, |node, row| node + row);
+        stored.bound = regular.select(bound, infinite);
+        stored.guard = regular.select(guard, infinite);
+        stored.inverse = inverse;
+        stored.size = size;
+        self.columns[place] = column;
+    }
+
+    /// The last three places: all eight patterns by Cramer's rule.
+    #[inline(always)]
+    fn leaf<const FUSED: bool>(&mut self) {
+        let node = &self.levels[CRAMER];
+        let column = |j: usize| [node.rows[0][j], node.rows[1][j], node.rows[2][j]];
+        let error = error_of_determinants(node);
+        let load = column(0);
+        let (zeroth, first, second) =
+            ([column(1), column(2)], [column(3), column(4)], [column(5), column(6)]);
+        let load_first = [cross::<FUSED>(load, first[0]), cross::<FUSED>(load, first[1])];
+        let zeroth_load = [cross::<FUSED>(zeroth[0], load), cross::<FUSED>(zeroth[1], load)];
+        for side_1 in 0..2 {
+            for side_0 in 0..2 {
+                let both = cross::<FUSED>(zeroth[side_0], first[side_1]);
+                let last = dot::<FUSED>(both, load);
+                for side_2 in 0..2 {
+                    let determinant = dot::<FUSED>(both, second[side_2]);
+                    let numerators = [
+                        dot::<FUSED>(load_first[side_1], second[side_2]),
+                        dot::<FUSED>(zeroth_load[side_0], second[side_2]),
+                        last,
+                    ];
+                    let excess = excess(determinant, numerators, error);
+                    if !excess.all_positive() {
+                        let solved = Solved { determinant, numerators, error, excess };
+                        self.substitute::<FUSED>(&solved, [side_0, side_1, side_2]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Back-substitution through the kernel's places, until some `y` is certainly negative in every lane.
+    #[inline(always)]
+    fn substitute<const FUSED: bool>(&mut self, solved: &Solved, sides: [usize; CRAMER]) {
+        let inverse = solved.determinant.map(|determinant| 1.0 / determinant);
+        let mut largest = Lanes::ZERO;
+        for place in 0..CRAMER {
+            self.columns[place] = 1 + 2 * place + sides[place];
+            self.y[place] = solved.numerators[place].times(inverse);
+            largest = largest.larger(self.y[place].abs());
+        }
+        let error_of_y = solved.error_of_y(largest);
+        let mut error = error_of_y;
+        let mut excess = solved.excess;
+        for place in CRAMER..self.places {
+            let pivot = &self.pivots[place];
+            let mut value = pivot.entries[0];
+            for below in 0..place {
+                let coefficient = pivot.entries[self.columns[below]];
+                value = coefficient.map(|c| -c).times_plus::<FUSED>(self.y[below], value);
+            }
+            let y = value.times(pivot.inverse);
+            let here = pivot.error_of_y(place as f64, y, largest, error);
+            excess = excess.larger(y.zip(here, |y, error| -y - error));
+            if excess.all_positive() {
+                return;
+            }
+            self.y[place] = y;
+            error = error.larger(here);
+            largest = largest.larger(y.abs());
+        }
+        self.keep_lanes(excess, error_of_y);
+    }
+
+    /// Keeps the patterns of the lanes that are left, unless the places above exclude them.
+    #[inline(never)]
+    fn keep_lanes(&mut self, excess: Lanes, error: Lanes) {
+        let negative =
+            (0..self.places).map(|place| (((self.columns[place] - 1) & 1) as u64) << place).sum::<u64>();
+        for lane in 0..self.used {
+            if excess.0[lane] > 0.0 || self.is_excluded(lane, error.0[lane]) {
+                continue;
+            }
+            let Pattern { gap, negative: above } = self.origins[lane].pattern;
+            self.remaining.push(Pattern { gap, negative: above | negative });
+        }
+    }
+
+    /// Back-substitution of one lane from the places of the leaf, whose errors are given: whether some unknown is
+    /// certainly outside of its range.
+    fn is_excluded(&self, lane: usize, error: f64) -> bool {
+        let mut unknowns: Vec<Unknown> =
+            self.y[..CRAMER].iter().map(|y| Unknown { value: y.0[lane], error }).collect();
+        for place in CRAMER..self.places {
+            let Pivot { entries, inverse, bound, .. } = &self.pivots[place];
+            let coefficients = self.columns[..place].iter().map(|&column| entries[column].0[lane]);
+            let equation =
+                Equation { load: entries[0].0[lane], pivot: 1.0 / inverse.0[lane], bound: bound.0[lane] };
+            let unknown = equation.solve(coefficients, &unknowns);
+            if unknown.value < -unknown.error {
                 return true;
             }
-            self.y[contact] = y;
-            error = error.max(error_of_y);
-            largest = largest.max(y.abs());
+            unknowns.push(unknown);
+        }
+        let Origin { pattern, above } = &self.origins[lane];
+        for (place, ResolvedRow { entries, pivot, bound }) in (self.places..).zip(above) {
+            let (kernel, decided) = entries[1..].split_at(2 * self.places);
+            let coefficients = self.columns[..self.places].iter().map(|&column| kernel[column - 1]);
+            let equation = Equation { load: entries[0], pivot: *pivot, bound: *bound };
+            let unknown = equation.solve(coefficients.chain(decided.iter().copied()), &unknowns);
+            let in_gap = pattern.gap >> place & 1 == 1;
+            if unknown.value < -unknown.error || in_gap && unknown.value > 1.0 + unknown.error {
+                return true;
+            }
+            unknowns.push(unknown);
         }
         false
     }
 }
 
-/// One elimination step at a node with `M` undecided contacts: the last of them goes to `side`. False if its pivot
-/// is too small.
-#[expect(clippy::inline_always, reason = "compiled once for each set of instructions")]
+/// A value and a bound on its error.
+struct Unknown {
+    value: f64,
+    error: f64,
+}
+
+/// One equation of the back-substitution, and a bound on the error of each of its entries.
+struct Equation {
+    load: f64,
+    pivot: f64,
+    bound: f64,
+}
+
+impl Equation {
+    /// The unknown at the pivot.
+    fn solve(&self, coefficients: impl Iterator<Item = f64>, unknowns: &[Unknown]) -> Unknown {
+        let (mut value, mut size) = (self.load, self.load.abs());
+        let mut error = self.bound;
+        for (coefficient, unknown) in coefficients.zip(unknowns) {
+            value -= coefficient * unknown.value;
+            size += (coefficient * unknown.value).abs();
+            error += coefficient.abs() * unknown.error + self.bound * (unknown.value.abs() + unknown.error);
+        }
+        error += (unknowns.len() as f64 + 4.0) * UNIT * size;
+        let y = value / self.pivot;
+        let error = (error + y.abs() * self.bound) / (self.pivot.abs() - self.bound) + 8.0 * UNIT * y.abs();
+        Unknown { value: y, error: error * ROUNDED_UP + f64::MIN_POSITIVE }
+    }
+}
+
+/// A pattern of the last places, by Cramer's rule.
+struct Solved {
+    determinant: Lanes,
+    numerators: [Lanes; CRAMER],
+    /// Bound on the error of each determinant.
+    error: Lanes,
+    /// Above zero where the lane is excluded.
+    excess: Lanes,
+}
+
+impl Solved {
+    /// Bound on the error of the quotients, the largest of which is given.
+    #[inline(always)]
+    fn error_of_y(&self, largest: Lanes) -> Lanes {
+        let mut result = Lanes::ZERO;
+        for lane in 0..LANES {
+            let (error, largest) = (self.error.0[lane], largest.0[lane]);
+            let bound = error * (1.0 + largest) / (self.determinant.0[lane].abs() - error);
+            result.0[lane] = (bound + 4.0 * UNIT * largest) * ROUNDED_UP + f64::MIN_POSITIVE;
+        }
+        let regular = self.error.is_smaller_than(self.determinant);
+        regular.select(result, Lanes([f64::INFINITY; LANES]))
+    }
+}
+
+/// `a x b`
 #[inline(always)]
-fn step<const M: usize, const FUSED: bool>(kernel: &mut Kernel, side: usize) -> bool {
-    let width = const { (2 * M - 1).next_multiple_of(4) };
-    let column = 1 + 2 * (M - 1) + side;
-    let (below, here) = kernel.levels.split_at_mut(M);
-    let (child, node) = (&mut below[M - 1], &here[0]);
-    let mut at = 0;
-    let mut size = node.rows[0][column].abs();
-    for (index, row) in node.rows.iter().enumerate().take(M).skip(1) {
-        let candidate = row[column].abs();
-        if candidate > size {
-            (at, size) = (index, candidate);
-        }
-    }
-    if size <= 2.0 * node.bound || size == 0.0 {
-        return false;
-    }
-    let pivot_row = node.rows[at];
-    let pivot = pivot_row[column];
-    let inverse = 1.0 / pivot;
-    for target in 0..M - 1 {
-        let row = &node.rows[if target == at { M - 1 } else { target }];
-        let factor = row[column] * inverse;
-        for j in 0..width {
-            child.rows[target][j] =
-                if FUSED { (-factor).mul_add(pivot_row[j], row[j]) } else { row[j] - factor * pivot_row[j] };
-        }
-    }
-    let largest = pivot_row[..2 * M - 1].iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-    child.bound = bound_below(node.bound, size, largest, node.size, 2.0 * UNIT);
-    child.size = node.size + largest;
-    let stored = &mut kernel.pivots[M - 1];
-    stored.entries[..width].copy_from_slice(&pivot_row[..width]);
-    stored.pivot = pivot;
-    stored.bound = node.bound;
-    kernel.sides[M - 1] = side;
-    kernel.pattern = kernel.pattern & !(1 << (M - 1)) | (side as u64) << (M - 1);
-    true
+fn cross<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3]) -> [Lanes; 3] {
+    [minor::<FUSED>(a, b, 1, 2), minor::<FUSED>(a, b, 2, 0), minor::<FUSED>(a, b, 0, 1)]
 }
 
-/// The last two contacts: all four patterns by Cramer's rule.
-#[expect(clippy::inline_always, reason = "compiled once for each set of instructions")]
+/// `a_i b_j - a_j b_i`
 #[inline(always)]
-fn leaf(kernel: &mut Kernel) {
-    let Level { rows: [first, second, ..], bound, .. } = &kernel.levels[2];
-    let (first, second, bound) = (*first, *second, *bound);
-    let cross = |i: usize, j: usize| first[i] * second[j] - first[j] * second[i];
-    let largest =
-        first[..5].iter().chain(&second[..5]).fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-    let error =
-        4.0 * largest * bound + 2.0 * bound * bound + 8.0 * UNIT * largest * largest + f64::MIN_POSITIVE;
-    let with_second = [cross(0, 3), cross(0, 4)];
-    let with_first = [cross(1, 0), cross(2, 0)];
-    for (side_1, with_second) in with_second.into_iter().enumerate() {
-        for (side_0, with_first) in with_first.into_iter().enumerate() {
-            let determinant = cross(1 + side_0, 3 + side_1);
-            let numerators = [with_second, with_first];
-            let sign = 1.0_f64.copysign(determinant);
-            let regular = determinant.abs() > error;
-            if regular && (numerators[0] * sign < -error || numerators[1] * sign < -error) {
-                continue;
-            }
-            kernel.keep_unless_excluded(regular, numerators, determinant, error, [side_0, side_1]);
+fn minor<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3], i: usize, j: usize) -> Lanes {
+    a[i].times_plus::<FUSED>(b[j], a[j].times(b[i]).map(|product| -product))
+}
+
+/// `a . b`
+#[inline(always)]
+fn dot<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3]) -> Lanes {
+    a[0].times_plus::<FUSED>(b[0], a[1].times_plus::<FUSED>(b[1], a[2].times(b[2])))
+}
+
+/// With entries of size `A` at most, each of them wrong by `e` at most, a determinant is wrong by
+/// `6 ((A + e)^3 - A^3) + 32 u A^3`.
+#[inline(always)]
+fn error_of_determinants(node: &Level) -> Lanes {
+    let mut size = Lanes::ZERO;
+    for row in &node.rows[..CRAMER] {
+        for entry in &row[..=2 * CRAMER] {
+            size = size.larger(entry.abs());
         }
     }
+    size.zip(node.bound, |a, e| {
+        let exact = 6.0 * e * (3.0 * a * (a + e) + e * e) + 32.0 * UNIT * (a * a * a);
+        exact * ROUNDED_UP + f64::MIN_POSITIVE
+    })
 }
 
-impl Kernel {
-    #[inline(never)]
-    fn keep_unless_excluded(
-        &mut self,
-        regular: bool,
-        numerators: [f64; 2],
-        determinant: f64,
-        error: f64,
-        sides: [usize; 2],
-    ) {
-        let pattern = self.pattern & !3 | sides[0] as u64 | (sides[1] as u64) << 1;
-        if regular {
-            let y = numerators.map(|numerator| numerator / determinant);
-            let largest = y[0].abs().max(y[1].abs());
-            self.y[0] = y[0];
-            self.y[1] = y[1];
-            self.sides[0] = sides[0];
-            self.sides[1] = sides[1];
-            let error_of_y =
-                1.001 * error * (1.0 + largest) / (determinant.abs() - error) + 2.0 * UNIT * largest;
-            if self.is_excluded(error_of_y) {
-                return;
-            }
-        }
-        self.remaining.push(pattern);
+/// Above zero where `|D|` is above its error and some `N_k / D` is certainly negative.
+#[inline(always)]
+fn excess(determinant: Lanes, numerators: [Lanes; CRAMER], error: Lanes) -> Lanes {
+    let mut result = Lanes::ZERO;
+    for lane in 0..LANES {
+        let sign = determinant.0[lane].to_bits() & (1 << 63);
+        let oriented = |k: usize| f64::from_bits(numerators[k].0[lane].to_bits() ^ sign);
+        let lower = if oriented(0) < oriented(1) { oriented(0) } else { oriented(1) };
+        let lowest = if oriented(2) < lower { oriented(2) } else { lower };
+        let size = determinant.0[lane].abs();
+        let smaller = if size < -lowest { size } else { -lowest };
+        result.0[lane] = smaller - error.0[lane];
     }
+    result
 }
-
-macro_rules! descent {
-    ($(#[$attribute:meta])* $name:ident, $fused:literal) => {
-        /// Visits all patterns below a node with `undecided` contacts left.
-        $(#[$attribute])*
-        fn $name(kernel: &mut Kernel, undecided: usize) {
-            if undecided == 2 {
-                return leaf(kernel);
-            }
-            for side in 0..2 {
-                let regular = match undecided {
-                    3 => step::<3, $fused>(kernel, side),
-                    4 => step::<4, $fused>(kernel, side),
-                    5 => step::<5, $fused>(kernel, side),
-                    6 => step::<6, $fused>(kernel, side),
-                    7 => step::<7, $fused>(kernel, side),
-                    8 => step::<8, $fused>(kernel, side),
-                    9 => step::<9, $fused>(kernel, side),
-                    _ => step::<LEAF_LEVELS, $fused>(kernel, side),
-                };
-                if regular {
-                    $name(kernel, undecided - 1);
-                } else {
-                    let contact = undecided - 1;
-                    let pattern = kernel.pattern >> undecided << undecided | (side as u64) << contact;
-                    kernel.keep_all_below(contact, pattern);
-                }
-            }
-        }
-    };
-}
-
-descent!(descend_baseline, false);
 
 #[cfg(target_arch = "x86_64")]
-descent!(
-    #[target_feature(enable = "avx2,fma")]
-    descend_avx2,
-    true
-);
+#[target_feature(enable = "avx512f,fma")]
+fn descend_avx512(kernel: &mut Kernel) {
+    kernel.descend::<true>();
+}
 
-/// Visits all patterns below a node, with the best instructions that this processor has.
-fn descend(kernel: &mut Kernel, undecided: usize) {
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn descend_avx2(kernel: &mut Kernel) {
+    kernel.descend::<true>();
+}
+
+/// Visits all patterns below the nodes at hand, with the best instructions that this processor has.
+fn descend(kernel: &mut Kernel) {
     #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-        // SAFETY: the processor was just found to have both features.
-        #[expect(unsafe_code, reason = "twice as fast as generic x86-64, chosen at run time")]
-        return unsafe { descend_avx2(kernel, undecided) };
+    if std::arch::is_x86_feature_detected!("fma") {
+        #[expect(unsafe_code, reason = "several times as fast as generic x86-64, chosen at run time")]
+        // SAFETY: the processor is asked for the features before each call.
+        unsafe {
+            if std::arch::is_x86_feature_detected!("avx512f") {
+                return descend_avx512(kernel);
+            }
+            if std::arch::is_x86_feature_detected!("avx2") {
+                return descend_avx2(kernel);
+            }
+        }
     }
-    descend_baseline(kernel, undecided);
+    kernel.descend::<false>();
 }

@@ -1,132 +1,241 @@
 //! The upper part of the tree: few nodes, double-double arithmetic.
 
-use super::double_double::{DoubleDouble, UNIT};
-use super::kernel::{Kernel, LEAF_LEVELS, PivotRow};
-use super::{ModeProblem, PatternBits};
-use crate::modes::Side;
+use std::sync::Arc;
 
-/// The equations that remain when the contacts from `contacts` on have been decided.
-///
-/// A row holds the right-hand side and then `c_k^+, c_k^-` of contact 0, 1, ...
+use super::double_double::{DoubleDouble, UNIT};
+use super::layout::{Layout, Root};
+use super::pattern::Pattern;
+use crate::modes::ContactState;
+
+/// The equations that remain when the contacts at the last places have been decided.
 #[derive(Clone)]
 pub(super) struct Node {
-    contacts: usize,
-    rows: Vec<Vec<DoubleDouble>>,
+    /// Places that are undecided.
+    pub(super) places: usize,
+    /// Leading and trailing parts of the entries, row after row.
+    high: Vec<f64>,
+    low: Vec<f64>,
     /// Bound on the error of every entry.
-    bound: f64,
-    /// The pivot rows of the decided contacts, the one decided first at the front.
-    pivots: Vec<PivotRow>,
-    pattern: PatternBits,
+    pub(super) bound: f64,
+    /// Bound on the size of every entry.
+    pub(super) size: f64,
+    /// The pivot rows of the decided places, the one decided first at the front.
+    pivots: Vec<Arc<PivotRow>>,
+    /// States of the decided places.
+    pub(super) pattern: Pattern,
     /// Whether some pivot on the way was too small to go on: nothing below can be excluded.
-    irregular: bool,
+    pub(super) irregular: bool,
+}
+
+/// The equation from which the unknown of a decided place follows once those below are known.
+struct PivotRow {
+    /// Right-hand side and columns of the places below.
+    entries: Vec<f64>,
+    pivot: f64,
+    bound: f64,
+}
+
+/// A pivot row whose right-hand side holds the jumps below, and that has one column for each decided place.
+#[derive(Clone, Default)]
+pub(super) struct ResolvedRow {
+    /// Right-hand side, both columns of the undecided places, one column of the decided places below.
+    pub(super) entries: Vec<f64>,
+    pub(super) pivot: f64,
+    /// Bound on the error of every entry, and of the pivot.
+    pub(super) bound: f64,
+}
+
+fn largest(entries: &[f64]) -> f64 {
+    entries.iter().fold(0.0, |largest, entry| largest.max(entry.abs()))
 }
 
 impl Node {
-    /// The whole problem. Rows are scaled by powers of two, which leaves their solutions as they are.
-    pub(super) fn root(problem: &ModeProblem) -> Self {
-        let contacts = problem.contacts();
-        let [positive, negative] = Side::BOTH.map(|side| problem.columns(side));
-        let row = |i: usize| {
-            let scale = power_of_two_near(positive.row(i).amax().max(negative.row(i).amax())).recip();
-            let columns = (0..contacts).flat_map(|k| [positive[(i, k)], negative[(i, k)]]);
-            std::iter::once(problem.right_hand_side()[i])
-                .chain(columns)
-                .map(|entry| DoubleDouble::from(entry * scale))
-                .collect()
-        };
+    pub(super) fn root(root: &Root, layout: &Layout) -> Self {
+        let entries = || root.rows.iter().flatten();
+        let high: Vec<f64> = entries().map(|entry| entry.high).collect();
         Self {
-            contacts,
-            rows: (0..contacts).map(row).collect(),
-            // Scaling may round numbers near the least ones.
-            bound: f64::MIN_POSITIVE,
+            places: layout.places(),
+            size: largest(&high),
+            high,
+            low: entries().map(|entry| entry.low).collect(),
+            bound: root.bound,
             pivots: Vec::new(),
-            pattern: 0,
+            pattern: Pattern::default(),
             irregular: false,
         }
     }
 
-    /// All nodes that many levels below.
-    pub(super) fn expand(self, levels: usize) -> Vec<Self> {
-        let mut nodes = vec![self];
-        for _ in 0..levels {
-            nodes = nodes.iter().flat_map(|node| [node.decide(0), node.decide(1)]).collect();
-        }
-        nodes
+    /// Leading parts of the equations.
+    pub(super) fn rows(&self, layout: &Layout) -> std::slice::ChunksExact<'_, f64> {
+        self.high.chunks_exact(layout.column(self.places))
     }
 
-    /// The node below, with the last undecided contact on its positive (0) or negative (1) side.
-    fn decide(&self, side: usize) -> Self {
-        let contact = self.contacts - 1;
-        let column = 1 + 2 * contact + side;
+    /// All children, in the order of their states.
+    pub(super) fn children<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = Self> + 'a {
+        layout.states(self.places - 1).iter().map(|&state| self.decide(layout, state))
+    }
+
+    /// The node below, with the contact at the last undecided place in a state.
+    fn decide(&self, layout: &Layout, state: ContactState) -> Self {
+        let place = self.places - 1;
+        let width = layout.column(place);
         let mut child = Self {
-            contacts: contact,
-            rows: Vec::with_capacity(contact),
+            places: place,
+            high: Vec::new(),
+            low: Vec::new(),
             bound: self.bound,
+            size: self.size,
             pivots: self.pivots.clone(),
-            pattern: self.pattern | (side as u64) << contact,
+            pattern: self.pattern.with(place, state),
             irregular: self.irregular,
         };
-        if child.irregular {
+        if self.irregular {
             return child;
         }
-        let at = (0..self.contacts)
-            .max_by(|a, b| self.rows[*a][column].abs().total_cmp(&self.rows[*b][column].abs()))
-            .unwrap_or_default();
-        let pivot_row = &self.rows[at];
-        let pivot = pivot_row[column];
-        if pivot.abs() <= 2.0 * self.bound || pivot.abs() == 0.0 {
-            child.irregular = true;
-            return child;
+        let column = width + usize::from(state == ContactState::Negative);
+        if place < layout.plain {
+            child.eliminate(&self.high, &self.low, column, width, layout.column(self.places));
+        } else {
+            let (mut high, mut low) = (self.high.clone(), self.low.clone());
+            let stride = layout.column(self.places);
+            for (high, low) in high.chunks_exact_mut(stride).zip(low.chunks_exact_mut(stride)) {
+                apply_jump(high, low, width, state);
+            }
+            // A sum of two entries.
+            child.bound = 2.0 * self.bound + 4.0 * UNIT * self.size;
+            child.size = 2.0 * self.size;
+            child.eliminate(&high, &low, column, width, stride);
         }
-        for row in self.rows.iter().enumerate().filter(|(index, _)| *index != at).map(|(_, row)| row) {
-            let factor = row[column] / pivot;
-            child.rows.push((0..column - side).map(|j| row[j] - factor * pivot_row[j]).collect());
-        }
-        let largest = |row: &[DoubleDouble]| row.iter().map(|entry| entry.abs()).fold(0.0, f64::max);
-        let node = self.rows.iter().map(|row| largest(row)).fold(0.0, f64::max);
-        child.bound = bound_below(self.bound, pivot.abs(), largest(pivot_row), node, UNIT);
-        child.pivots.push(PivotRow::new(
-            pivot_row[..column - side].iter().map(|entry| entry.high).collect(),
-            pivot.high,
-            // What is lost by keeping the leading parts only.
-            self.bound + f64::EPSILON * largest(pivot_row),
-        ));
         child
     }
 
-    /// Bound on the largest entry.
-    fn largest(&self) -> f64 {
-        self.rows.iter().flatten().map(|entry| entry.abs()).fold(0.0, f64::max)
-    }
-}
-
-/// The patterns below a node that cannot be excluded.
-pub(super) fn screen_subtree(node: &Node) -> Vec<PatternBits> {
-    let mut kernel = Kernel::new(node.contacts + node.pivots.len());
-    descend(node, &mut kernel);
-    kernel.into_remaining()
-}
-
-fn descend(node: &Node, kernel: &mut Kernel) {
-    if node.irregular {
-        kernel.keep_all_below(node.contacts, node.pattern);
-    } else if node.contacts > LEAF_LEVELS {
-        for side in 0..2 {
-            descend(&node.decide(side), kernel);
+    /// One elimination step on equations within the bounds of this node, which becomes the child.
+    fn eliminate(&mut self, high: &[f64], low: &[f64], column: usize, width: usize, stride: usize) {
+        let rows = high.len() / stride;
+        let size = |row: &usize| high[row * stride + column].abs();
+        let at = (0..rows).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
+        let pivot = size(&at);
+        if pivot <= 2.0 * self.bound || pivot == 0.0 || !self.size.is_finite() {
+            self.irregular = true;
+            return;
         }
-    } else {
-        let rows: Vec<Vec<f64>> =
-            node.rows.iter().map(|row| row.iter().map(|entry| entry.high).collect()).collect();
-        let bound = node.bound + f64::EPSILON * node.largest();
-        kernel.screen(&rows, bound, &node.pivots, node.pattern);
+        (self.high, self.low) = (vec![0.0; (rows - 1) * width], vec![0.0; (rows - 1) * width]);
+        let step = Step { high, low, at, column, width, stride };
+        step.run(&mut self.high, &mut self.low);
+        let pivot_row = &high[at * stride..at * stride + width];
+        let row = largest(pivot_row);
+        self.pivots.push(Arc::new(PivotRow {
+            entries: pivot_row.to_vec(),
+            pivot: high[at * stride + column],
+            // What is lost by keeping the leading parts only.
+            bound: self.bound + f64::EPSILON * row.max(pivot),
+        }));
+        self.bound = bound_below(self.bound, 1.0, ROUNDED_UP / (pivot - self.bound), row, self.size, UNIT);
+        self.size = largest(&self.high);
+    }
+
+    /// The pivot rows of all decided places, the lowest first.
+    pub(super) fn resolved<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = ResolvedRow> + 'a {
+        let pivots = self.pivots.iter().rev().enumerate();
+        pivots.map(|(index, row)| self.resolve(row, self.places + index, layout))
+    }
+
+    fn resolve(&self, row: &PivotRow, place: usize, layout: &Layout) -> ResolvedRow {
+        let mut entries = row.entries[..layout.column(self.places)].to_vec();
+        let mut jumps = 0.0;
+        for below in self.places..place {
+            let column = layout.column(below);
+            let state = self.pattern.state(below);
+            let [c_plus, c_minus] = [row.entries[column], row.entries[column + 1]];
+            let jump = (below >= layout.plain).then(|| [row.entries[column + 2], row.entries[column + 3]]);
+            jumps += f64::from(u8::from(jump.is_some()));
+            let [d_plus, d_minus] = jump.unwrap_or_default();
+            let (coefficient, jump) = match state {
+                ContactState::Positive => (c_plus, d_plus),
+                ContactState::Negative => (c_minus, d_minus),
+                ContactState::Gap => (d_minus - d_plus, d_minus),
+            };
+            entries[0] += jump;
+            entries.push(coefficient);
+        }
+        // Sums of 1 + jumps entries: their errors, and as many roundings.
+        let terms = 1.0 + jumps;
+        let rounding = if jumps > 0.0 { terms * terms * f64::EPSILON * largest(&row.entries) } else { 0.0 };
+        ResolvedRow { entries, pivot: row.pivot, bound: terms * row.bound + rounding }
     }
 }
 
-/// The bound of the module documentation.
-pub(super) fn bound_below(bound: f64, pivot: f64, row: f64, node: f64, unit: f64) -> f64 {
-    2.0 * bound + (row + bound) * (2.0 * bound / (pivot - bound) + unit) + 4.0 * unit * (node + row)
+/// The jump of the contact whose columns begin at `column` goes to the right-hand side. For a contact in its gap,
+/// `-(d^+ - d^-)` becomes the column of its share.
+fn apply_jump(high: &mut [f64], low: &mut [f64], column: usize, state: ContactState) {
+    let entry = |at: usize| DoubleDouble { high: high[at], low: low[at] };
+    let (d_plus, d_minus) = (entry(column + 2), entry(column + 3));
+    let load = entry(0).plus(if state == ContactState::Positive { d_plus } else { d_minus });
+    let share = d_minus.minus(d_plus);
+    (high[0], low[0]) = (load.high, load.low);
+    if state == ContactState::Gap {
+        (high[column], low[column]) = (share.high, share.low);
+    }
 }
 
-fn power_of_two_near(size: f64) -> f64 {
-    if size == 0.0 { 1.0 } else { size.log2().round().clamp(-1000.0, 1000.0).exp2() }
+/// Equations, and the pivot to eliminate with.
+struct Step<'a> {
+    high: &'a [f64],
+    low: &'a [f64],
+    at: usize,
+    column: usize,
+    width: usize,
+    stride: usize,
 }
+
+impl Step<'_> {
+    /// All rows but the pivot's, less their multiple of it.
+    #[inline(always)]
+    fn rows<const FUSED: bool>(&self, high: &mut [f64], low: &mut [f64]) {
+        let entry = |at: usize| DoubleDouble { high: self.high[at], low: self.low[at] };
+        let first = self.at * self.stride;
+        let pivot = entry(first + self.column);
+        let pivot_high = &self.high[first..first + self.width];
+        let pivot_low = &self.low[first..first + self.width];
+        let rows = (0..self.high.len() / self.stride).filter(|row| *row != self.at);
+        let targets = high.chunks_exact_mut(self.width).zip(low.chunks_exact_mut(self.width));
+        for (row, (high, low)) in rows.zip(targets) {
+            let first = row * self.stride;
+            let factor = entry(first + self.column).over::<FUSED>(pivot);
+            let row_high = &self.high[first..first + self.width];
+            let row_low = &self.low[first..first + self.width];
+            for j in 0..self.width {
+                let product = factor.times::<FUSED>(DoubleDouble { high: pivot_high[j], low: pivot_low[j] });
+                let entry = DoubleDouble { high: row_high[j], low: row_low[j] }.minus(product);
+                (high[j], low[j]) = (entry.high, entry.low);
+            }
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn rows_avx2(&self, high: &mut [f64], low: &mut [f64]) {
+        self.rows::<true>(high, low);
+    }
+
+    fn run(&self, high: &mut [f64], low: &mut [f64]) {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+            // SAFETY: the processor was just found to have both features.
+            #[expect(unsafe_code, reason = "three times as fast as generic x86-64, chosen at run time")]
+            return unsafe { self.rows_avx2(high, low) };
+        }
+        self.rows::<false>(high, low);
+    }
+}
+
+/// The bound of the module documentation; `factor` is the largest `|l|`, `guard` at least `1 / (|p| - bound)`.
+#[inline(always)]
+pub(super) fn bound_below(bound: f64, factor: f64, guard: f64, row: f64, node: f64, unit: f64) -> f64 {
+    let spread = (1.0 + factor) * bound;
+    let exact = spread + (row + bound) * (spread * guard + unit) + 4.0 * unit * (node + row);
+    exact * ROUNDED_UP + f64::MIN_POSITIVE
+}
+
+/// Covers the roundings of a bound's own evaluation.
+pub(super) const ROUNDED_UP: f64 = 1.0 + 1e-9;
