@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use divan::Bencher;
 use nalgebra::{DMatrix, DVector};
+use slideway::modes::certificate::IntervalModeProblem;
 use slideway::modes::{ModeProblem, SearchOptions, SearchResult, search};
 
 fn main() {
@@ -76,6 +77,30 @@ fn low_rank(contacts: usize, rank: usize) -> ModeProblem {
     let load = DVector::from_fn(contacts, |_, _| random());
     let none = DMatrix::zeros(contacts, contacts);
     ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
+}
+
+/// Every pattern is tried.
+#[divan::bench(args = [2, 3, 5, 8])]
+fn complementarity_small(bencher: Bencher<'_, '_>, contacts: usize) {
+    let problem = planted_complementarity(contacts, 1);
+    bencher.bench_local(|| solve(&problem));
+}
+
+/// The same within rounding of the data.
+#[divan::bench(args = [2, 3, 5, 8])]
+fn complementarity_small_within_bounds(bencher: Bencher<'_, '_>, contacts: usize) {
+    let problem = planted_complementarity(contacts, 1);
+    let problem = IntervalModeProblem::widened(&problem, 1e-15).expect("a sensible radius");
+    let options = SearchOptions::default();
+    bencher.bench_local(|| search(&problem, &options, &mut |_| ControlFlow::Continue(())));
+}
+
+/// What proofs add: compare with and without them.
+#[divan::bench(args = [true, false], sample_count = 20, sample_size = 1)]
+fn complementarity_20_certified(bencher: Bencher<'_, '_>, certify: bool) {
+    let problem = planted_complementarity(20, 1);
+    let options = SearchOptions { certify, ..SearchOptions::default() };
+    bencher.bench_local(|| search(&problem, &options, &mut |_| ControlFlow::Continue(())));
 }
 
 #[divan::bench(args = [1, 2, 3, 4], sample_count = 5, sample_size = 1)]

@@ -2,11 +2,17 @@
 //! (reactions in units of m g, `N_3` positive downwards).
 
 use std::error::Error;
+use std::ops::ControlFlow;
 
 mod klepp_example;
 
 use klepp_example::{example, reference};
-use slideway::modes::{ContactState, Limits, ModeSolution, Solutions, enumerate};
+use nalgebra::DMatrix;
+use slideway::modes::certificate::{IntervalMatrix, IntervalModeProblem};
+use slideway::modes::{
+    BySide, Certificate, Completeness, ContactState, Limits, ModeSolution, SearchOptions, Side, Solutions, enumerate,
+    search,
+};
 
 fn solve(mu_1: f64, preload: [f64; 3], velocity: f64) -> Result<Solutions, Box<dyn Error>> {
     let problem = example(&reference()?.parameters, mu_1, preload, velocity);
@@ -123,5 +129,56 @@ fn preload_gap_beside_the_three_printed_solutions() -> Result<(), Box<dyn Error>
     assert!((gap.normal_force[0] - gap.normal_force[2] - 1.0).abs() < 1e-14);
     // Without preload there is no jump, and so no gap to look into.
     assert_eq!(solve(0.6, [0.0; 3], 1.0)?.gap_counts.total(), 0);
+    Ok(())
+}
+
+/// Moving to the left the mode changes at mu_1 = cot(alpha), where N_2 and N_3 vanish together.
+#[test]
+fn a_double_boundary_is_labelled_within_rounding() -> Result<(), Box<dyn Error>> {
+    let parameters = reference()?.parameters;
+    let change = parameters.alpha_deg.to_radians().tan().recip();
+    let problem = example(&parameters, change, [0.0; 3], -1.0);
+    let within = IntervalModeProblem::widened(&problem, 1e-14)?;
+    let result = search(&within, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))?;
+    assert_eq!(result.completeness, Completeness::Proven);
+    let lists = result.lists(10, 10);
+    let [solution] = lists.solutions.as_slice() else { panic!("one solution") };
+    assert_eq!((solution.on_boundary.as_slice(), solution.pattern_count), (&[1, 2][..], 4));
+    let Certificate::OnBoundaryWithinBounds { in_doubt, .. } = &solution.certificate else {
+        panic!("on the boundary within rounding")
+    };
+    assert_eq!(in_doubt, &[1, 2]);
+    assert!(lists.undecided.is_empty());
+    // The numbers as rounded are decided one way or the other.
+    let exact = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))?;
+    assert_eq!(exact.completeness, Completeness::Proven);
+    assert!(exact.lists(10, 10).undecided.is_empty());
+    Ok(())
+}
+
+/// With a coefficient of friction that is known within bounds, some solutions exist for all its values and
+/// some for a part of them.
+#[test]
+fn solutions_for_some_values_of_friction_are_told_apart() -> Result<(), Box<dyn Error>> {
+    let parameters = reference()?.parameters;
+    let between = |low: f64, high: f64| -> Result<_, Box<dyn Error>> {
+        let [one, other] = [low, high].map(|mu_1| example(&parameters, mu_1, [0.0; 3], 1.0));
+        let range = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
+            IntervalMatrix::from_bounds(&a.zip_map(b, f64::min), &a.zip_map(b, f64::max))
+                .ok_or("bounds in order")
+        };
+        let columns = |side| range(one.columns(side), other.columns(side));
+        let columns = BySide { positive: columns(Side::Positive)?, negative: columns(Side::Negative)? };
+        let none = BySide::same(IntervalMatrix::exact(DMatrix::zeros(3, 3)));
+        let load = IntervalMatrix::exact(DMatrix::from_column_slice(3, 1, one.right_hand_side().as_slice()));
+        let problem = IntervalModeProblem::new(&columns, &none, &load)?;
+        Ok(search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))?.lists(10, 10))
+    };
+    let proven = |state: &ModeSolution| matches!(state.certificate, Certificate::Proven { .. });
+    // Two solutions from 0.4527 on, one below.
+    let (below, above, across) = (between(0.3, 0.31)?, between(0.6, 0.61)?, between(0.44, 0.46)?);
+    assert!(below.solutions.len() == 1 && below.undecided.is_empty() && proven(&below.solutions[0]));
+    assert!(above.solutions.len() == 2 && above.undecided.is_empty() && above.solutions.iter().all(proven));
+    assert!(!across.undecided.is_empty() || !across.solutions.iter().all(proven));
     Ok(())
 }

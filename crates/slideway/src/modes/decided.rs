@@ -84,7 +84,7 @@ impl Findings<'_> {
             }
             Centre::Nothing => {
                 self.counts_of(pattern).undecided += 1;
-                self.undecided.push(UndecidedPattern { pattern: pattern.to_vec(), unknowns, in_doubt });
+                self.undecided.push(UndecidedPattern::new(pattern, unknowns, in_doubt));
                 Ok(())
             }
             Centre::NotExamined => {

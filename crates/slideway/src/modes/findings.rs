@@ -4,14 +4,14 @@ use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
 
-use super::candidate::{Candidate, solve_pattern};
+use super::candidate::{Candidate, determinant, solve_pattern};
 use super::contact_set::ContactSet;
 use super::degenerate::{Examined, examine, same_point, same_set};
 use super::enumeration::{EnumerationError, Limits};
 use super::found::{Found, oriented, sides};
 use super::scaling::ScaledProblem;
 use super::solutions::{
-    Certificate, ClosestMode, ContactState, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
+    Certificate, ClosestMode, ContactState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
     Solutions, UndecidedPattern,
 };
 
@@ -99,6 +99,19 @@ impl<'a> Findings<'a> {
     pub(super) fn count_no_solution(&mut self, with_gap: bool) {
         let counts = if with_gap { &mut self.gap_counts } else { &mut self.counts };
         counts.no_solution += 1;
+    }
+
+    /// Whether there is a solution without gaps.
+    pub(super) fn has_solutions(&self) -> bool {
+        self.found.iter().any(|found| !found.has_gap())
+    }
+
+    /// Keeps a pattern that was not found to be singular if its determinant is among the smallest.
+    pub(super) fn offer_if_regular(&mut self, pattern: &[ContactState]) {
+        let is_it = |other: &Vec<ContactState>| other == pattern;
+        if !self.singular.iter().any(|mode| mode.patterns.iter().any(is_it)) {
+            self.offer_closest(pattern, determinant(self.problem, pattern));
+        }
     }
 
     /// Keeps a regular pattern if its determinant is among the smallest.
@@ -290,9 +303,16 @@ impl<'a> Findings<'a> {
         }
         let (gaps, ordinary): (Vec<Found>, Vec<Found>) =
             std::mem::take(&mut self.found).into_iter().partition(Found::has_gap);
-        let kept: Vec<bool> = gaps.iter().map(|gap| !self.is_known(gap, &ordinary, &gaps)).collect();
-        let gaps = gaps.into_iter().zip(kept).filter(|(_, kept)| *kept);
-        let gaps: Vec<GapState> = gaps.map(|(gap, _)| gap.into_gap_state()).collect();
+        let known: Vec<bool> = gaps.iter().map(|gap| self.is_known(gap, &ordinary, &gaps)).collect();
+        let mut new_gaps = Vec::new();
+        for (gap, known) in gaps.into_iter().zip(known) {
+            if known {
+                self.undecided.extend(gap.into_undecided());
+            } else {
+                new_gaps.push(gap.into_gap_state());
+            }
+        }
+        let gaps = new_gaps;
         let solutions: Vec<ModeSolution> = ordinary.into_iter().map(Found::into_mode_solution).collect();
         let exact = self.exact;
         for mode in &mut self.singular {

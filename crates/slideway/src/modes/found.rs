@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::candidate::Candidate;
 use super::problem::Side;
-use super::solutions::{Certificate, ContactState, GapShare, GapState, ModeSolution};
+use super::solutions::{Certificate, ContactState, GapShare, GapState, ModeSolution, UndecidedPattern};
 
 /// A solution or gap state with the patterns that give it.
 pub(super) struct Found {
@@ -96,6 +96,15 @@ impl Found {
             certificate: self.certificate,
             normal_force: self.normal_force,
         }
+    }
+
+    /// What may be a state of its own for some values within bounds, though in their middle it is another one.
+    pub(super) fn into_undecided(self) -> Option<UndecidedPattern> {
+        let Certificate::OnBoundaryWithinBounds { unknowns, in_doubt } = self.certificate else {
+            return None;
+        };
+        let pattern = self.patterns.first()?.clone();
+        Some(UndecidedPattern { pattern, patterns: self.patterns, unknowns, in_doubt })
     }
 
     pub(super) fn into_gap_state(self) -> GapState {

@@ -103,11 +103,24 @@ impl Certificate {
 pub struct UndecidedPattern {
     /// The state of each contact.
     pub pattern: Vec<ContactState>,
+    /// All patterns that are meant, at most [`Limits::listed`](super::Limits::listed): more than one where another
+    /// group of contacts is in a state that several patterns share.
+    pub patterns: Vec<Vec<ContactState>>,
     /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None if
     /// `D = 0` could not be ruled out.
     pub unknowns: Option<Vec<Interval>>,
     /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
     pub in_doubt: Vec<usize>,
+}
+
+impl UndecidedPattern {
+    pub(super) fn new(
+        pattern: &[ContactState],
+        unknowns: Option<Vec<Interval>>,
+        in_doubt: Vec<usize>,
+    ) -> Self {
+        Self { pattern: pattern.to_vec(), patterns: vec![pattern.to_vec()], unknowns, in_doubt }
+    }
 }
 
 /// A solution with every contact pressed on a side or just about to change it.

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 use slideway::modes::{
-    Arguments, Completeness, Limits, ModeProblem, SearchOptions, SearchResult, SingularMode, SolutionSet,
-    StateKind, enumerate, search,
+    Arguments, Completeness, ContactState, Limits, ModeProblem, SearchOptions, SearchResult, SingularMode,
+    SolutionSet, StateKind, enumerate, search,
 };
 
 /// Numbers from a linear congruential generator (Knuth's MMIX constants).
@@ -158,4 +158,19 @@ pub(crate) fn assert_same_as_enumeration(problem: &ModeProblem, options: &Search
     } else {
         assert_eq!(found.counts().singular.to_u64(), Some(singular as u64), "{context}");
     }
+}
+
+/// Every list of one state per contact, with gap states where the right-hand side jumps.
+pub(crate) fn patterns(problem: &ModeProblem) -> Vec<Vec<ContactState>> {
+    let mut all = vec![Vec::new()];
+    for contact in 0..problem.contacts() {
+        let states = [ContactState::Positive, ContactState::Negative, ContactState::Gap];
+        let states = &states[..if problem.has_jump(contact) { 3 } else { 2 }];
+        let extended = |pattern: &Vec<ContactState>| {
+            let pattern = pattern.clone();
+            states.iter().map(move |&state| [pattern.as_slice(), &[state]].concat())
+        };
+        all = all.iter().flat_map(extended).collect();
+    }
+    all
 }

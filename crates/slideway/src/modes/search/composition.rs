@@ -12,7 +12,9 @@ use super::report::{GroupReport, SearchOptions};
 use crate::modes::certificate::{Interval, ProblemView};
 use crate::modes::problem::{ModeProblemError, Side};
 use crate::modes::scaling::patterns_of;
-use crate::modes::solutions::{Certificate, ContactState, SolutionSet, Solutions};
+use crate::modes::solutions::{
+    Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern,
+};
 
 /// A problem of so few patterns is not split into groups, so that the outcome of each is known.
 const WHOLE_UP_TO: u64 = 64;
@@ -211,17 +213,25 @@ fn distance(bounds: Interval, y: f64) -> f64 {
 
 /// What a group admits, as alternatives without dependents.
 fn alternatives(solutions: &Solutions) -> Vec<Alternative> {
-    let singular = solutions.singular.iter().filter(|mode| match mode.set {
-        SolutionSet::Empty | SolutionSet::NotComputed => false,
-        // A point that is a solution of its own already.
-        SolutionSet::Point(_) => mode.contains.is_empty(),
-        _ => true,
-    });
     let states = solutions.solutions.iter().cloned().map(GroupState::Solution);
     let states = states.chain(solutions.gaps.iter().cloned().map(GroupState::Gap));
-    let states = states.chain(singular.cloned().map(GroupState::Singular));
+    let states = states.chain(solutions.singular.iter().filter_map(singular_state));
     let states = states.chain(solutions.undecided.iter().cloned().map(GroupState::Undecided));
     states.map(|state| Alternative { state, dependents: SolutionProduct::default() }).collect()
+}
+
+/// What a singular pattern admits, unless that is nothing or a solution of its own already.
+fn singular_state(mode: &SingularMode) -> Option<GroupState> {
+    match mode.set {
+        SolutionSet::Empty | SolutionSet::NotComputed => None,
+        SolutionSet::Point(_) if !mode.contains.is_empty() => {
+            // For other values within bounds it may be another solution.
+            let undecided = UndecidedPattern::new(&mode.pattern, None, Vec::new());
+            let undecided = UndecidedPattern { patterns: mode.patterns.clone(), ..undecided };
+            mode.certificate.has_open_determinant().then_some(GroupState::Undecided(undecided))
+        }
+        _ => Some(GroupState::Singular(mode.clone())),
+    }
 }
 
 /// Whether there is something besides states whose unknowns are known, up to errors.

@@ -4,7 +4,7 @@ use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::monitor::Monitor;
 use super::report::PatternShares;
-use super::sieve::{Sieve, Sieved};
+use super::sieve::Sieve;
 use super::tree::TreeReport;
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::ContactState;
@@ -24,15 +24,15 @@ pub(super) fn try_all(
     let mut more = true;
     while more && monitor.visit(report.nodes as f64 * share, leaves.found()) {
         report.nodes += 1;
-        match sieve.as_mut().map(|sieve| sieve.test(&pattern)) {
-            Some(Sieved::NoSolution { determinant }) => leaves.exclude(&pattern, determinant),
-            Some(Sieved::Open) | None => {
-                if let Err(reason) = leaves.examine(&pattern) {
-                    monitor.stop(reason);
-                }
-            }
+        if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&pattern)) {
+            leaves.exclude(&pattern);
+        } else if let Err(reason) = leaves.examine(&pattern) {
+            monitor.stop(reason);
         }
-        more = advance(&mut pattern, scaled);
+        more = advance(&mut pattern, |contact| scaled.states(contact));
+    }
+    if !more && !leaves.has_solutions() {
+        offer_closest(scaled, leaves);
     }
     let examined = report.nodes as f64 * share;
     let unexplored = if more { 1.0 - examined } else { 0.0 };
@@ -40,11 +40,19 @@ pub(super) fn try_all(
     report
 }
 
+/// Offers all patterns without gaps as those closest to locking.
+fn offer_closest(scaled: &ScaledProblem, leaves: &mut Leaves<'_>) {
+    let mut pattern = vec![ContactState::Positive; scaled.contacts()];
+    leaves.offer_closest(&pattern);
+    while advance(&mut pattern, |_| &ContactState::PRESSED) {
+        leaves.offer_closest(&pattern);
+    }
+}
+
 /// The next pattern, the last contact changing fastest; false after the last one.
-fn advance(pattern: &mut [ContactState], problem: &ScaledProblem) -> bool {
+fn advance<'s>(pattern: &mut [ContactState], states: impl Fn(usize) -> &'s [ContactState]) -> bool {
     for contact in (0..pattern.len()).rev() {
-        let states = problem.states(contact);
-        match states.get(pattern[contact] as usize + 1) {
+        match states(contact).get(pattern[contact] as usize + 1) {
             Some(&next) => {
                 pattern[contact] = next;
                 return true;

@@ -105,8 +105,9 @@ impl Joint<'_> {
             in_doubt.extend(contacts_in_doubt(state).iter().map(|&contact| members[contact]));
         }
         in_doubt.sort_unstable();
+        let (patterns, _) = self.patterns();
         let unknowns = self.unknowns();
-        UndecidedPattern { pattern: self.state.pattern(self.contacts), unknowns, in_doubt }
+        UndecidedPattern { pattern: self.state.pattern(self.contacts), patterns, unknowns, in_doubt }
     }
 
     /// One value per contact from each part's values.
@@ -263,7 +264,7 @@ fn patterns_of(state: &GroupState) -> (Vec<Vec<ContactState>>, u64) {
         }
         GroupState::Gap(gap) => (gap.patterns.clone(), gap.pattern_count),
         GroupState::Singular(mode) => (mode.patterns.clone(), mode.pattern_count),
-        GroupState::Undecided(undecided) => (vec![undecided.pattern.clone()], 1),
+        GroupState::Undecided(undecided) => (undecided.patterns.clone(), undecided.patterns.len() as u64),
     }
 }
 

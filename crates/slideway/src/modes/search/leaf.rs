@@ -77,14 +77,19 @@ impl<'a> Leaves<'a> {
         if certain { self.file(pattern, decision).map(|()| true) } else { Ok(false) }
     }
 
-    /// Counts a pattern that is proven to have no solution and `D != 0`, with the size of `D` up to a factor
-    /// that is the same for all patterns without a gap.
-    pub(super) fn exclude(&mut self, pattern: &[ContactState], determinant: f64) {
-        let in_gap = pattern.contains(&ContactState::Gap);
-        if !in_gap {
-            self.findings.offer_closest(pattern, determinant);
-        }
-        self.findings.count_no_solution(in_gap);
+    /// Counts a pattern that is proven to have no solution and `D != 0`.
+    pub(super) fn exclude(&mut self, pattern: &[ContactState]) {
+        self.findings.count_no_solution(pattern.contains(&ContactState::Gap));
+    }
+
+    /// Whether there is a solution without gaps.
+    pub(super) fn has_solutions(&self) -> bool {
+        self.findings.has_solutions()
+    }
+
+    /// Offers a pattern as one of those closest to locking.
+    pub(super) fn offer_closest(&mut self, pattern: &[ContactState]) {
+        self.findings.offer_if_regular(pattern);
     }
 
     /// How many solutions, gap states, singular sets and undecided patterns have been found so far.

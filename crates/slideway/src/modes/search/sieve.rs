@@ -48,15 +48,6 @@ pub(super) struct Sieve {
     correction: Vec<f64>,
 }
 
-/// What the test says of a pattern.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Sieved {
-    /// `D != 0`, and some unknown is out of its range; the size of `D` is given for scaled rows.
-    NoSolution { determinant: f64 },
-    /// The pattern may have a solution, or be singular.
-    Open,
-}
-
 impl Sieve {
     /// None if numbers are so large or small that products may overflow.
     pub(super) fn new(problem: ProblemView<'_>) -> Option<Self> {
@@ -98,21 +89,19 @@ impl Sieve {
         })
     }
 
-    /// Tests a pattern.
-    pub(super) fn test(&mut self, pattern: &[ContactState]) -> Sieved {
+    /// Whether it is proven that a pattern has `D != 0` and no solution.
+    pub(super) fn excludes(&mut self, pattern: &[ContactState]) -> bool {
         self.assemble(pattern);
-        let Some(determinant) = self.invert() else { return Sieved::Open };
-        let Some(largest) = self.bound() else { return Sieved::Open };
+        if !self.invert() {
+            return false;
+        }
+        let Some(largest) = self.bound() else { return false };
         let gamma = self.gamma();
-        for (contact, &state) in pattern.iter().enumerate() {
+        pattern.iter().enumerate().any(|(contact, &state)| {
             let value = self.solution[contact];
             let error = (self.correction[contact] + self.defect[contact] * largest) * (1.0 + gamma);
-            let beyond = state == ContactState::Gap && value - error > 1.0;
-            if value + error < 0.0 || beyond {
-                return Sieved::NoSolution { determinant };
-            }
-        }
-        Sieved::Open
+            value + error < 0.0 || state == ContactState::Gap && value - error > 1.0
+        })
     }
 
     /// More than twice the error of a sum of `contacts + 2` products, relative to the sum of their sizes.
@@ -146,9 +135,8 @@ impl Sieve {
         }
     }
 
-    /// The approximate inverse by Gauss-Jordan elimination with row pivoting, and the size of the
-    /// determinant; none if a pivot is zero.
-    fn invert(&mut self) -> Option<f64> {
+    /// The approximate inverse by Gauss-Jordan elimination with row pivoting; false if a pivot is zero.
+    fn invert(&mut self) -> bool {
         let contacts = self.contacts;
         let width = 2 * contacts;
         for row in 0..contacts {
@@ -157,22 +145,21 @@ impl Sieve {
             right.fill(0.0);
             right[row] = 1.0;
         }
-        let mut determinant = 1.0;
         for step in 0..contacts {
             let size = |row: &usize| self.table[row * width + step].abs();
-            let pivot_row = (step..contacts).max_by(|one, other| size(one).total_cmp(&size(other)))?;
+            let largest = (step..contacts).max_by(|one, other| size(one).total_cmp(&size(other)));
+            let pivot_row = largest.unwrap_or(step);
             if pivot_row != step {
                 let (above, below) = self.table.split_at_mut(pivot_row * width);
                 above[step * width..][..width].swap_with_slice(&mut below[..width]);
             }
             let pivot = self.table[step * width + step];
             if pivot == 0.0 || !pivot.is_finite() {
-                return None;
+                return false;
             }
-            determinant *= pivot.abs();
             self.eliminate(step, pivot);
         }
-        Some(determinant)
+        true
     }
 
     fn eliminate(&mut self, step: usize, pivot: f64) {
