@@ -1,11 +1,14 @@
 //! The search within one group of contacts.
 
-use super::cells::{self, Walked};
+use nalgebra::DVector;
+
+use super::cells::{self, Covered};
 use super::leaf::{Enclosures, Leaves};
 use super::load::LoadedProblem;
 use super::low_rank::LowRank;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
+use super::relaxation::load_error;
 use super::report::{GroupReport, Method, PatternShares, SearchOptions, StopReason};
 use super::tree::{Tree, TreeReport};
 use super::uniqueness;
@@ -43,15 +46,13 @@ pub(super) fn search_group(
     let unique = proof.and_then(|solved| by_uniqueness(&scaled, solved, &mut leaves, monitor));
     let answered = unique.or_else(|| {
         let worthwhile = arguments.low_rank && scaled.contacts() >= CELLS_FROM;
-        if worthwhile { by_cells(&scaled, &mut leaves, monitor) } else { None }
+        if worthwhile { by_cells(&scaled, &load_radius, &mut leaves, monitor) } else { None }
     });
     let (method, tree) = answered.unwrap_or_else(|| {
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
         let tree = Tree::new(&scaled, propagation, &load_radius, options).run(&mut leaves, monitor);
         (Method::BranchAndBound, tree)
     });
-    // Rounding errors in the walk along cells are not bounded.
-    let exclusions_proven = !matches!(method, Method::Cells { .. });
     let unproven = leaves.unproven();
     let (mut findings, enclosures) = leaves.into_findings();
     findings.sort();
@@ -64,7 +65,7 @@ pub(super) fn search_group(
         shares: tree.shares,
         loads: 1,
         unproven_patterns: unproven,
-        proven: exclusions_proven && unproven == 0,
+        proven: unproven == 0,
         exclusions: tree.exclusions,
     };
     GroupAnswer { solutions: findings.into_solutions(), enclosures, report }
@@ -94,11 +95,12 @@ fn by_uniqueness(
 /// The solutions among the cells of an arrangement, if the coupling is of low rank.
 fn by_cells(
     problem: &ScaledProblem,
+    load_radius: &DVector<f64>,
     leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {
-    let low_rank = LowRank::of(problem)?;
-    let Walked { candidates, patterns, fraction } = cells::walk(&low_rank, monitor)?;
+    let low_rank = LowRank::of(problem, &load_error(problem, load_radius))?;
+    let Covered { candidates, boxes, fraction } = cells::cover(&low_rank, monitor)?;
     let examined = (candidates.len() as f64).log2() - log2_patterns(problem);
     for sides in candidates {
         let pattern: Vec<ContactState> =
@@ -114,7 +116,7 @@ fn by_cells(
         unexplored: 1.0 - fraction,
         ..PatternShares::default()
     };
-    let report = TreeReport { shares, nodes: patterns, ..TreeReport::default() };
+    let report = TreeReport { shares, nodes: boxes, ..TreeReport::default() };
     Some((Method::Cells { rank: low_rank.rank() }, report))
 }
 

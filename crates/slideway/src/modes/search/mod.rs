@@ -5,8 +5,9 @@
 //!    4 (d)). Groups are solved in that order; independent groups multiply, and their solutions are
 //!    kept as a product, [`SolutionProduct`].
 //! 2. A group has exactly one solution if one of two cheap proofs says so (section 4 (a), (c)).
-//! 3. Where a large group is coupled through one to three quantities only, all patterns that can
-//!    occur are the cells of a hyperplane arrangement in so many dimensions (section 4 (e)).
+//! 3. Where a large group is coupled through one to six quantities only, all patterns that can
+//!    occur are the cells of a hyperplane arrangement in so many dimensions (section 4 (e)): the space
+//!    of these quantities is subdivided until each part is excluded or has few patterns.
 //! 4. Otherwise branch and bound over the states of the contacts. A node is excluded by interval
 //!    propagation or by an infeasible linear relaxation (section 4 (a), (b)); a node with all
 //!    contacts decided is solved as [`enumerate`](super::enumerate) does. The next contact to decide
@@ -18,14 +19,14 @@
 //! exclusion cannot be verified is split further. Patterns that are left are decided with the
 //! tolerances of [`modes`](super). [`SearchResult::completeness`] tells what is proven.
 //!
-//! Not proven are answers by method 3, whose rounding errors are not bounded, and patterns whose
-//! outcome within tolerances is not what [`certificate::decide`](super::certificate::decide) says of
-//! the numbers as given, for example within rounding of a boundary.
+//! Not proven are patterns whose outcome within tolerances is not what
+//! [`certificate::decide`](super::certificate::decide) says of the numbers as given, for example within
+//! rounding of a boundary.
 //!
 //! # Cost
 //! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
 //! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low
-//! rank: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary is met
+//! rank beyond that of method 3: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary is met
 //! in up to `2^m` patterns.
 //!
 //! Singular patterns that admit nothing (locking of the mode) are excluded like others and not
@@ -36,6 +37,7 @@ mod composition;
 mod count;
 mod group;
 mod groups;
+mod inverse;
 mod leaf;
 mod load;
 mod low_rank;

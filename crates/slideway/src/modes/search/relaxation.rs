@@ -73,8 +73,7 @@ impl Relaxation {
             }
         }
         let load_size = problem.load_size().as_slice().to_vec();
-        let load_error =
-            rounding_of_load(problem).iter().zip(load_radius).map(|(error, radius)| error + radius).collect();
+        let load_error = load_error(problem, load_radius).as_slice().to_vec();
         Self {
             program: LinearProgram::new(&columns, problem.base().as_slice().to_vec(), cost),
             first,
@@ -183,13 +182,14 @@ fn size_of_terms(values: &[f64], sizes: &[f64]) -> f64 {
     values.iter().zip(sizes).map(|(value, size)| value.abs() * size).sum()
 }
 
-/// What rounding (and jumps too small to count) can have changed in `N(0) + sum d^-` and in the jumps.
-fn rounding_of_load(problem: &ScaledProblem) -> Vec<f64> {
-    let terms = problem.base().iter().zip(problem.load_size());
-    let jumps_contribute = terms.clone().any(|(base, &size)| base.abs() != size);
+/// How far the right-hand side may be off: `load_radius`, and what rounding and jumps too small to
+/// count can have changed in `N(0) + sum d^-`.
+pub(super) fn load_error(problem: &ScaledProblem, load_radius: &DVector<f64>) -> DVector<f64> {
+    let terms = problem.base().zip_map(problem.load_size(), |base, size| base.abs() != size);
+    let jumps_contribute = terms.iter().any(|&contributes| contributes);
     let share =
         if jumps_contribute { IGNORED_JUMP + (problem.contacts() + 4) as f64 * f64::EPSILON } else { 0.0 };
-    terms.map(|(_, size)| share * size).collect()
+    problem.load_size() * share + load_radius
 }
 
 /// Costs that differ from variable to variable, so that the dual program is not degenerate.
