@@ -44,6 +44,9 @@ pub(super) struct RelaxedContact {
     pub(super) positive: f64,
     pub(super) negative: f64,
     pub(super) share: f64,
+    /// By how much the least cost grows at least where the contact is not pressed on its positive,
+    /// or its negative side; infinite if it must be.
+    pub(super) cost_without: [f64; 2],
 }
 
 /// What the relaxation says of a node.
@@ -89,16 +92,26 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
-    /// Solves the relaxation of a node from the basis of its parent.
-    pub(super) fn solve(&self, states: &[StateSet], basis: &mut Basis, iterations: &mut u64) -> Relaxed {
+    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own.
+    pub(super) fn solve(
+        &self,
+        states: &[StateSet],
+        parent: &Basis,
+        iterations: &mut u64,
+    ) -> (Relaxed, Basis) {
         let bounds = self.bounds(states);
-        match self.program.solve(basis, &bounds, iterations) {
-            LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values)),
+        let mut basis = parent.restricted(&bounds);
+        let relaxed = match self.program.solve(&mut basis, &bounds, iterations) {
+            LinearOutcome::Feasible(values) => {
+                let costs = basis.costs_of_zero(&self.program, &bounds);
+                Relaxed::Feasible(self.contacts(&values, &costs))
+            }
             LinearOutcome::Infeasible(farkas) => {
-                self.verified(farkas, &bounds, basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
+                self.verified(farkas, &bounds, &basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
             }
             LinearOutcome::Undecided => Relaxed::Undecided,
-        }
+        };
+        (relaxed, basis)
     }
 
     fn bounds(&self, states: &[StateSet]) -> Bounds {
@@ -120,12 +133,13 @@ impl Relaxation {
         bounds
     }
 
-    fn contacts(&self, values: &[f64]) -> Vec<RelaxedContact> {
+    fn contacts(&self, values: &[f64], costs: &[f64]) -> Vec<RelaxedContact> {
         let value = |variable: usize| values[variable] * self.column_scale[variable];
         let relaxed = |(&at, &jump): (&usize, &bool)| RelaxedContact {
             positive: value(at),
             negative: value(at + 1),
             share: if jump { value(at + 2) } else { 0.0 },
+            cost_without: [costs[at], costs[at + 1]],
         };
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
@@ -148,8 +162,8 @@ impl Relaxation {
                 let error = rounding * size_of_terms(self.program.column(variable), &sizes);
                 let (low, high) = (entry - error, entry + error);
                 if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
-                    let row = basis.row_of(variable)?;
-                    super::simplex::add_multiple(&mut shift, -2.0 * high, row);
+                    let row = basis.row_of(&self.program, variable)?;
+                    super::simplex::add_multiple(&mut shift, -2.0 * high, &row);
                     shifted = true;
                 } else if high > 0.0 {
                     most += high * bounds.upper[variable];
