@@ -49,6 +49,8 @@ mod report;
 mod result;
 mod simplex;
 mod states;
+#[cfg(test)]
+mod test_problems;
 mod tree;
 mod uniqueness;
 

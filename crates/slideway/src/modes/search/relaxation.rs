@@ -44,8 +44,8 @@ pub(super) struct RelaxedContact {
     pub(super) positive: f64,
     pub(super) negative: f64,
     pub(super) share: f64,
-    /// By how much the least cost grows at least where the contact is not pressed on its positive,
-    /// or its negative side; infinite if it must be.
+    /// Where both sides press: by how much the least cost grows at least without the positive, or the
+    /// negative side; infinite if it cannot be without.
     pub(super) cost_without: [f64; 2],
 }
 
@@ -102,10 +102,7 @@ impl Relaxation {
         let bounds = self.bounds(states);
         let mut basis = parent.restricted(&bounds);
         let relaxed = match self.program.solve(&mut basis, &bounds, iterations) {
-            LinearOutcome::Feasible(values) => {
-                let costs = basis.costs_of_zero(&self.program, &bounds);
-                Relaxed::Feasible(self.contacts(&values, &costs))
-            }
+            LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values, &basis)),
             LinearOutcome::Infeasible(farkas) => {
                 self.verified(farkas, &bounds, &basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
             }
@@ -133,13 +130,17 @@ impl Relaxation {
         bounds
     }
 
-    fn contacts(&self, values: &[f64], costs: &[f64]) -> Vec<RelaxedContact> {
+    fn contacts(&self, values: &[f64], basis: &Basis) -> Vec<RelaxedContact> {
         let value = |variable: usize| values[variable] * self.column_scale[variable];
-        let relaxed = |(&at, &jump): (&usize, &bool)| RelaxedContact {
-            positive: value(at),
-            negative: value(at + 1),
-            share: if jump { value(at + 2) } else { 0.0 },
-            cost_without: [costs[at], costs[at + 1]],
+        let relaxed = |(&at, &jump): (&usize, &bool)| {
+            let (positive, negative) = (value(at), value(at + 1));
+            let sides = if positive > 0.0 && negative > 0.0 { Some([at, at + 1]) } else { None };
+            RelaxedContact {
+                positive,
+                negative,
+                share: if jump { value(at + 2) } else { 0.0 },
+                cost_without: sides.map_or([0.0; 2], |sides| sides.map(|side| basis.cost_of_zero(side))),
+            }
         };
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
@@ -214,4 +215,77 @@ fn uneven_cost(variable: usize) -> f64 {
 
 fn power_of_two_below(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { size.log2().floor().clamp(-1000.0, 1000.0).exp2() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::states::all_states;
+    use super::super::test_problems::{Numbers, admitted, holds};
+    use super::*;
+    use crate::modes::problem::ModeProblem;
+
+    fn relaxation(problem: &ModeProblem, load_radius: f64) -> (ScaledProblem, Relaxation) {
+        let scaled = ScaledProblem::new(problem);
+        let radius = scaled.scaled_load(&DVector::repeat(problem.contacts(), load_radius));
+        let largest = vec![f64::INFINITY; problem.contacts()];
+        let relaxation = Relaxation::new(&scaled, &radius, largest);
+        (scaled, relaxation)
+    }
+
+    /// Random states of some contacts.
+    fn some_states(numbers: &mut Numbers, all: &[StateSet]) -> Vec<StateSet> {
+        let choose = |&set: &StateSet| {
+            let states: Vec<ContactState> = set.iter().collect();
+            match numbers.below(6) {
+                at @ 0..=2 => StateSet::only(states[at % states.len()]),
+                3 if states.len() > 2 => set.without(states[numbers.below(3)]),
+                _ => set,
+            }
+        };
+        all.iter().map(choose).collect()
+    }
+
+    #[test]
+    fn excluded_nodes_admit_nothing() {
+        let mut excluded = 0;
+        for seed in 0..150 {
+            let mut numbers = Numbers::new(seed);
+            let problem = numbers.problem(3, 1.5, seed % 2 == 0);
+            let radius = if seed % 3 == 0 { 0.2 } else { 0.0 };
+            let (scaled, relaxation) = relaxation(&problem, radius);
+            let nearby = numbers.with_load_off_by(&problem, radius);
+            let admitted = admitted(&nearby);
+            for _ in 0..12 {
+                let states = some_states(&mut numbers, &all_states(&scaled));
+                let (relaxed, _) = relaxation.solve(&states, &relaxation.first_basis(), &mut 0);
+                if matches!(relaxed, Relaxed::Excluded(_)) {
+                    excluded += 1;
+                    assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");
+                }
+            }
+        }
+        assert!(excluded > 200, "{excluded}");
+    }
+
+    #[test]
+    fn wrong_vectors_exclude_nothing() {
+        let mut verified = 0;
+        for seed in 0..60 {
+            let mut numbers = Numbers::new(500 + seed);
+            let problem = numbers.problem(3, 1.0, seed % 2 == 0);
+            let (scaled, relaxation) = relaxation(&problem, 0.0);
+            let admitted = admitted(&problem);
+            for _ in 0..40 {
+                let states = some_states(&mut numbers, &all_states(&scaled));
+                let bounds = relaxation.bounds(&states);
+                let basis = relaxation.first_basis();
+                let weights: Vec<f64> = (0..3).map(|_| numbers.number()).collect();
+                if relaxation.verified(weights, &bounds, &basis).is_some() {
+                    verified += 1;
+                    assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");
+                }
+            }
+        }
+        assert!(verified > 20, "{verified}");
+    }
 }

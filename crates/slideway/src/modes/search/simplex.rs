@@ -64,6 +64,8 @@ pub(super) struct Basis {
     tableau: Vec<f64>,
     /// Of the nonbasic variables.
     reduced_cost: Vec<f64>,
+    /// Where nonbasic variables may go: up (1), down (-1), or nowhere (0).
+    way: Vec<f64>,
     /// Values of the basic variables.
     value: Vec<f64>,
     updates: usize,
@@ -125,6 +127,7 @@ impl LinearProgram {
             nonbasic: (0..self.columns).map(|variable| Nonbasic { variable, at_upper: false }).collect(),
             tableau: self.by_row.clone(),
             reduced_cost: self.cost.clone(),
+            way: vec![0.0; self.columns],
             value: vec![0.0; self.rows],
             updates: 0,
         }
@@ -144,7 +147,7 @@ impl LinearProgram {
                 }
                 continue;
             };
-            match basis.entering(self, bounds, row, direction) {
+            match basis.entering(row, direction) {
                 Step::Infeasible => {
                     let mut farkas = basis.inverse_row(self, row);
                     farkas.iter_mut().for_each(|entry| *entry *= direction);
@@ -198,6 +201,7 @@ impl Basis {
             nonbasic: kept.iter().map(|&at| self.nonbasic[at]).collect(),
             tableau,
             reduced_cost: kept.iter().map(|&at| self.reduced_cost[at]).collect(),
+            way: kept.iter().map(|&at| self.way[at]).collect(),
             value: self.value.clone(),
             updates: self.updates,
         }
@@ -209,16 +213,11 @@ impl Basis {
         Some(self.inverse_row(program, row))
     }
 
-    /// By how much the least cost grows at least if each variable is fixed to zero: infinite if that
-    /// is impossible, zero for variables that are zero.
-    pub(super) fn costs_of_zero(&self, program: &LinearProgram, bounds: &Bounds) -> Vec<f64> {
-        let mut costs = vec![0.0; program.columns];
-        for (row, (&variable, &value)) in self.basic.iter().zip(&self.value).enumerate() {
-            if variable < program.columns && value > 0.0 {
-                costs[variable] = value * self.longest_step(program, bounds, row, 1.0, 0.0);
-            }
-        }
-        costs
+    /// By how much the least cost grows at least if a variable is fixed to zero: infinite if that is
+    /// impossible, zero for a variable that is not in the basis.
+    pub(super) fn cost_of_zero(&self, variable: usize) -> f64 {
+        let row = self.basic.iter().position(|&basic| basic == variable);
+        row.map_or(0.0, |row| self.value[row] * self.longest_step(row, 1.0, 0.0))
     }
 
     fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
@@ -263,6 +262,7 @@ impl Basis {
                 nonbasic.at_upper = false;
             }
         }
+        self.way = self.nonbasic.iter().map(|at| at.way(program, bounds)).collect();
         let load =
             |variable: usize| variable.checked_sub(program.columns).map(|at| program.right_hand_side[at]);
         let factor = |at: &Nonbasic| load(at.variable).unwrap_or_else(|| -at.value(program, bounds));
@@ -294,44 +294,26 @@ impl Basis {
         worst
     }
 
-    /// Whether a nonbasic variable can enter where the row's entry is `entry`, times the direction.
-    fn can_enter(&self, program: &LinearProgram, bounds: &Bounds, column: usize, entry: f64) -> bool {
-        let Nonbasic { variable, at_upper } = self.nonbasic[column];
-        (if at_upper { entry < -ZERO_PIVOT } else { entry > ZERO_PIVOT })
-            && variable < program.columns
-            && bounds.lower[variable] < bounds.upper[variable]
-    }
-
     /// How far reduced costs of the wrong sign, up to a slack, let the dual variable of a row go.
-    fn longest_step(
-        &self,
-        program: &LinearProgram,
-        bounds: &Bounds,
-        row: usize,
-        direction: f64,
-        slack: f64,
-    ) -> f64 {
+    fn longest_step(&self, row: usize, direction: f64, slack: f64) -> f64 {
         let mut step = f64::INFINITY;
-        for (column, &entry) in self.row(row).iter().enumerate() {
-            if self.can_enter(program, bounds, column, direction * entry) {
-                step = step.min((self.reduced_cost[column].abs() + slack) / entry.abs());
-            }
+        for ((&entry, &way), cost) in self.row(row).iter().zip(&self.way).zip(&self.reduced_cost) {
+            let pivot = direction * entry * way;
+            let ratio = if pivot > ZERO_PIVOT { (cost.abs() + slack) / pivot } else { f64::INFINITY };
+            step = if ratio < step { ratio } else { step };
         }
         step
     }
 
     /// Ratio test in two passes (Harris): of all variables whose reduced cost bounds the step, up to
     /// a slack, the one with the largest pivot.
-    fn entering(&self, program: &LinearProgram, bounds: &Bounds, row: usize, direction: f64) -> Step {
-        let step = self.longest_step(program, bounds, row, direction, DUAL_SLACK);
-        let entries = self.row(row);
-        let mut best: Option<usize> = None;
-        for (column, &entry) in entries.iter().enumerate() {
-            if self.can_enter(program, bounds, column, direction * entry)
-                && self.reduced_cost[column].abs() <= step * entry.abs()
-                && best.is_none_or(|best| entry.abs() > entries[best].abs())
-            {
-                best = Some(column);
+    fn entering(&self, row: usize, direction: f64) -> Step {
+        let step = self.longest_step(row, direction, DUAL_SLACK);
+        let (mut best, mut largest) = (None, ZERO_PIVOT);
+        for (column, (&entry, &way)) in self.row(row).iter().zip(&self.way).enumerate() {
+            let pivot = direction * entry * way;
+            if pivot > largest && self.reduced_cost[column].abs() <= step * pivot {
+                (best, largest) = (Some(column), pivot);
             }
         }
         best.map_or(Step::Infeasible, Step::Pivot)
@@ -366,6 +348,7 @@ impl Basis {
         self.value[row] = entered;
         self.basic[row] = self.nonbasic[column].variable;
         self.nonbasic[column] = Nonbasic { variable: leaving, at_upper: direction > 0.0 };
+        self.way[column] = self.nonbasic[column].way(program, bounds);
         self.updates += 1;
     }
 
@@ -399,6 +382,15 @@ impl Nonbasic {
     fn value(self, program: &LinearProgram, bounds: &Bounds) -> f64 {
         let (lower, upper) = variable_bounds(program, bounds, self.variable);
         if self.at_upper { upper } else { lower }
+    }
+
+    fn way(self, program: &LinearProgram, bounds: &Bounds) -> f64 {
+        let (lower, upper) = variable_bounds(program, bounds, self.variable);
+        match (lower < upper, self.at_upper) {
+            (false, _) => 0.0,
+            (true, false) => 1.0,
+            (true, true) => -1.0,
+        }
     }
 }
 

@@ -52,7 +52,8 @@ impl<'a> Tree<'a> {
         let largest = propagation.map_or_else(unbounded, |propagation| propagation.largest.clone());
         Self {
             problem,
-            propagation,
+            // Without bounds there is nothing to propagate.
+            propagation: propagation.filter(|propagation| propagation.is_contraction()),
             relaxation: Relaxation::new(problem, load_radius, largest),
             keep_exclusions: options.keep_exclusions,
             report: TreeReport::default(),
