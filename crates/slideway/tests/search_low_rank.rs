@@ -48,8 +48,8 @@ fn many_contacts_are_proven() {
 
 #[test]
 fn equal_and_parallel_hyperplanes() {
-    for seed in 0..6 {
-        let mut random = Random::new(40 + seed);
+    for seed in 0..6_usize {
+        let mut random = Random::new(40 + seed as u64);
         let size = 13;
         let left = DMatrix::from_fn(size, 2, |row, _| if row < 4 { 1.0 } else { random.integer(2) });
         let [positive, negative] = [4.0, -4.0].map(|sign| {
@@ -59,7 +59,7 @@ fn equal_and_parallel_hyperplanes() {
         let load = DVector::from_fn(size, |row, _| if row < 2 { 3.0 } else { random.integer(6) + 0.5 });
         let none = DMatrix::zeros(size, size);
         let problem = ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit");
-        assert_same_as_enumeration(&problem, &SearchOptions::default(), seed as usize);
+        assert_same_as_enumeration(&problem, &SearchOptions::default(), seed);
     }
 }
 

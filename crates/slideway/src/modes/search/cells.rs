@@ -88,7 +88,7 @@ struct Part {
     /// The coordinate that is 1 or -1.
     pinned: usize,
     /// Contacts not decided in the part that this one was cut from.
-    undecided: Vec<u32>,
+    undecided: Vec<usize>,
     /// The equations of all others.
     decided: [Point; LARGEST_RANK],
     /// The share of the cube's surface.
@@ -186,7 +186,7 @@ impl<'a> Cover<'a> {
         let mut ranges = Vec::with_capacity(part.undecided.len());
         let mut undecided = std::mem::take(&mut part.undecided);
         undecided.retain(|&contact| {
-            let plane = &self.hyperplanes[contact as usize];
+            let plane = &self.hyperplanes[contact];
             let (middle, radius) = plane.range(&part.centre, &part.radius);
             if middle.abs() <= radius {
                 ranges.push((middle, radius));
@@ -204,7 +204,7 @@ impl<'a> Cover<'a> {
         let mut equations =
             Enclosure { gradient: part.decided, constant: [0.0; LARGEST_RANK], noise: self.noise };
         for (&contact, &(middle, radius)) in part.undecided.iter().zip(ranges) {
-            let plane = &self.hyperplanes[contact as usize];
+            let plane = &self.hyperplanes[contact];
             let [up, down] = &plane.slopes;
             // m s <= |s| <= m s + c for s from middle - radius to middle + radius.
             let (m, c) = (middle / radius, (radius - middle.abs()) * (radius + middle.abs()) / radius);
@@ -229,7 +229,7 @@ impl<'a> Cover<'a> {
     fn axis_to_halve(&self, part: &Part) -> usize {
         let mut bends = [0.0; SPACE];
         for &contact in &part.undecided {
-            let plane = &self.hyperplanes[contact as usize];
+            let plane = &self.hyperplanes[contact];
             let [up, down] = &plane.slopes;
             let bend: f64 = up.iter().zip(down).map(|(up, down)| (up - down).abs()).sum();
             for (total, normal) in bends.iter_mut().zip(&plane.normal) {
@@ -245,13 +245,13 @@ impl<'a> Cover<'a> {
     /// Tests every pattern that a part may have.
     fn file(&mut self, part: &Part) {
         let sides_at_centre = self.hyperplanes.iter().enumerate().map(|(contact, plane)| {
-            self.problem.side(contact, inner(&plane.normal, &part.centre) > 0.0) as u8
+            u8::from(self.problem.side(contact, inner(&plane.normal, &part.centre) > 0.0) == 1)
         });
         let at_centre: Vec<u8> = sides_at_centre.collect();
         for choice in 0..1_usize << part.undecided.len() {
             let mut sides = at_centre.clone();
             for (bit, &contact) in part.undecided.iter().enumerate() {
-                sides[contact as usize] = (choice >> bit & 1) as u8;
+                sides[contact] = u8::from(choice >> bit & 1 == 1);
             }
             if self.tested.insert(sides.clone()) && self.may_be_solved(&sides) {
                 self.covered.candidates.insert(sides);
@@ -403,7 +403,7 @@ impl Enclosure {
 
 /// The faces of the cube with `t >= 0`.
 fn faces(rank: usize, contacts: usize) -> Vec<Part> {
-    let undecided: Vec<u32> = (0..contacts as u32).collect();
+    let undecided: Vec<usize> = (0..contacts).collect();
     let share = 1.0 / (2 * rank + 1) as f64;
     let face = |pinned: usize, value: f64| {
         let (mut centre, mut radius) = ([0.0; SPACE], [0.0; SPACE]);

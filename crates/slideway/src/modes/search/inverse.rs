@@ -12,7 +12,7 @@ pub(super) type Square = [Vector; LARGEST_RANK];
 
 /// An approximate inverse `R` of a matrix `A`, and bounds of `|I - R A|`.
 pub(super) struct Inverse {
-    inverse: Square,
+    approximate: Square,
     defect: Square,
     rank: usize,
 }
@@ -20,29 +20,29 @@ pub(super) struct Inverse {
 impl Inverse {
     /// None if elimination breaks down.
     pub(super) fn new(matrix: &Square, rank: usize) -> Option<Self> {
-        let inverse = eliminated(*matrix, rank)?;
+        let approximate = eliminated(*matrix, rank)?;
         let mut defect = [[0.0; LARGEST_RANK]; LARGEST_RANK];
         for row in 0..rank {
             for column in 0..rank {
                 let (mut sum, mut size) = (if row == column { 1.0 } else { 0.0 }, 1.0);
                 for at in 0..rank {
-                    let product = inverse[row][at] * matrix[at][column];
+                    let product = approximate[row][at] * matrix[at][column];
                     sum -= product;
                     size += product.abs();
                 }
                 defect[row][column] = sum.abs() + size * ROUNDING;
             }
         }
-        Some(Self { inverse, defect, rank })
+        Some(Self { approximate, defect, rank })
     }
 
     pub(super) fn times(&self, vector: &Vector) -> Vector {
-        std::array::from_fn(|row| (0..self.rank).map(|at| self.inverse[row][at] * vector[at]).sum())
+        std::array::from_fn(|row| (0..self.rank).map(|at| self.approximate[row][at] * vector[at]).sum())
     }
 
     /// `|R| vector` for a vector without negative entries.
     pub(super) fn size_times(&self, vector: &Vector) -> Vector {
-        std::array::from_fn(|row| (0..self.rank).map(|at| self.inverse[row][at].abs() * vector[at]).sum())
+        std::array::from_fn(|row| (0..self.rank).map(|at| self.approximate[row][at].abs() * vector[at]).sum())
     }
 
     /// A bound of `|I - R A| vector` for a vector without negative entries.

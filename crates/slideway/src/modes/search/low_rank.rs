@@ -70,7 +70,7 @@ impl LowRank {
         let mut right = [right_factor(&columns[0], &left)?, right_factor(&columns[1], &left)?];
         let unit = unit_of_coordinates(&left, problem.base());
         left *= unit;
-        right.iter_mut().for_each(|right| *right /= unit);
+        right = right.map(|right| right / unit);
         let diagonal = [0, 1].map(|side| {
             DVector::from_fn(contacts, |k, _| {
                 columns[side][(k, k)] - left.row(k).dot(&right[side].column(k).transpose())

@@ -149,9 +149,8 @@ impl LinearProgram {
             };
             match basis.entering(row, direction) {
                 Step::Infeasible => {
-                    let mut farkas = basis.inverse_row(self, row);
-                    farkas.iter_mut().for_each(|entry| *entry *= direction);
-                    return LinearOutcome::Infeasible(farkas);
+                    let edge = basis.inverse_row(self, row);
+                    return LinearOutcome::Infeasible(edge.iter().map(|entry| direction * entry).collect());
                 }
                 Step::Pivot(column) => {
                     *iterations += 1;
@@ -331,7 +330,9 @@ impl Basis {
         let entered = self.nonbasic[column].value(program, bounds) + step;
 
         pivot_row[column] = 1.0;
-        pivot_row.iter_mut().for_each(|entry| *entry /= pivot);
+        for entry in &mut pivot_row {
+            *entry /= pivot;
+        }
         for (at, target) in self.tableau.chunks_exact_mut(width).enumerate() {
             if at == row {
                 target.copy_from_slice(&pivot_row);

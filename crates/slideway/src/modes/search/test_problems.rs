@@ -28,7 +28,7 @@ impl Numbers {
 
     /// From 0 to less than `count`.
     pub(super) fn below(&mut self, count: usize) -> usize {
-        (f64::midpoint(self.number(), 1.0) * count as f64) as usize % count
+        (0..count).rfind(|&at| f64::midpoint(self.number(), 1.0) < 1.0 / (at + 1) as f64).unwrap_or(0)
     }
 
     /// Two different versions of the columns, and jumps of all contacts but the first, or of none.
