@@ -11,7 +11,7 @@
 //! 4. Otherwise branch and bound over the states of the contacts. A node is excluded by interval
 //!    propagation or by an infeasible linear relaxation (section 4 (a), (b)); a node with all
 //!    contacts decided is solved as [`enumerate`](super::enumerate) does. The next contact to decide
-//!    is the one that the relaxation presses on both sides most.
+//!    is the one for which, as far as one dual step tells, forbidding either side costs most.
 //!
 //! # Accuracy
 //! Exclusions are made with a margin and hold with rounding errors accounted for: a node that is
