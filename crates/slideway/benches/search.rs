@@ -139,7 +139,7 @@ fn chained_groups_1000(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| solve(&problem));
 }
 
-#[divan::bench(args = [1, 2], sample_count = 3, sample_size = 1)]
+#[divan::bench(args = [1, 2, 3], sample_count = 3, sample_size = 1)]
 fn low_rank_300(bencher: Bencher<'_, '_>, rank: usize) {
     let problem = low_rank(300, rank);
     bencher.bench_local(|| solve(&problem));

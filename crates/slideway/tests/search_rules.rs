@@ -4,7 +4,7 @@
 mod search_support;
 
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use search_support::{Random, low_rank, run, switches};
+use search_support::{Random, run, switches};
 use slideway::modes::certificate::proves_empty;
 use slideway::modes::{
     Arguments, Completeness, ContactState, ExclusionArgument, Method, ModeProblem, ModeProblemError,
@@ -146,26 +146,6 @@ fn exclusions_carry_proofs_that_others_can_verify() -> Outcome {
     }
     assert!(verified > 20);
     Ok(())
-}
-
-#[test]
-fn cells_and_branch_and_bound_agree() {
-    let with_cells = Arguments { uniqueness: false, ..Arguments::default() };
-    let arguments = Arguments { low_rank: false, ..with_cells };
-    let mut several = 0;
-    for seed in 0..8 {
-        let mut random = Random::new(100 + seed);
-        let (size, rank) = (13, 1 + random.below(2));
-        let problem = low_rank(&mut random, size, rank, 4.0);
-        let cells = run(&problem, &SearchOptions { arguments: with_cells, ..SearchOptions::default() });
-        assert_eq!(cells.groups[0].method, Method::Cells { rank });
-        assert_eq!(cells.completeness, Completeness::NotProven);
-        let tree = run(&problem, &SearchOptions { arguments, ..SearchOptions::default() });
-        assert_eq!(tree.completeness, Completeness::Proven);
-        assert_eq!(cells.counts(), tree.counts());
-        several += u64::from(cells.counts().solutions.to_u64() > Some(1));
-    }
-    assert!(several > 0);
 }
 
 /// Blocks of 10 contacts; with `chained`, the first of each acts on the first of the next.

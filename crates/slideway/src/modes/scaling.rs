@@ -160,6 +160,6 @@ pub(super) fn patterns_of(problem: ProblemView<'_>) -> u64 {
 
 /// The smallest power of two above `size`, kept within the range where its reciprocal is finite;
 /// 1 for zero.
-fn power_of_two_above(size: f64) -> f64 {
+pub(super) fn power_of_two_above(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { (size.log2().floor() + 1.0).clamp(-1000.0, 1000.0).exp2() }
 }

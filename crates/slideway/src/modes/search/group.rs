@@ -1,12 +1,15 @@
 //! The search within one group of contacts.
 
-use super::cells::{self, Walked};
+use nalgebra::DVector;
+
+use super::cells::{self, Covered};
 use super::every;
 use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::low_rank::LowRank;
 use super::monitor::Monitor;
 use super::propagation::Propagation;
+use super::relaxation::load_error;
 use super::report::{GroupReport, Method, PatternOutcomes, PatternShares, SearchOptions};
 use super::tree::{Tree, TreeReport};
 use super::uniqueness;
@@ -43,8 +46,6 @@ pub(super) fn search_group(
     } else {
         search_large_group(loaded, &scaled, options, (&mut leaves, monitor))
     };
-    // Rounding errors in the walk along cells are not bounded.
-    let exclusions_proven = !matches!(method, Method::Cells { .. });
     let (unproven, depends_on_ancestors) = (leaves.unproven(), leaves.depends_on_ancestors());
     let mut findings = leaves.into_findings();
     findings.sort();
@@ -59,7 +60,7 @@ pub(super) fn search_group(
         loads: 1,
         barren_loads: u64::from(solutions.admits_nothing()),
         unproven_patterns: unproven,
-        proven: exclusions_proven && unproven == 0,
+        proven: unproven == 0,
         outcomes: (method == Method::EveryPattern).then(|| PatternOutcomes::of(&solutions)),
         exclusions: tree.exclusions,
     };
@@ -85,7 +86,7 @@ fn search_large_group(
     let unique = proof.and_then(|solved| by_uniqueness(scaled, solved, leaves, monitor));
     let answered = unique.or_else(|| {
         let large = scaled.contacts() >= CELLS_FROM && !loaded.has_spread_columns();
-        if arguments.low_rank && large { by_cells(scaled, leaves, monitor) } else { None }
+        if arguments.low_rank && large { by_cells(scaled, &load_radius, leaves, monitor) } else { None }
     });
     answered.unwrap_or_else(|| {
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
@@ -120,11 +121,12 @@ fn by_uniqueness(
 /// The solutions among the cells of an arrangement, if the coupling is of low rank.
 fn by_cells(
     problem: &ScaledProblem,
+    load_radius: &DVector<f64>,
     leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {
-    let low_rank = LowRank::of(problem)?;
-    let Walked { candidates, patterns, fraction } = cells::walk(&low_rank, monitor)?;
+    let low_rank = LowRank::of(problem, &load_error(problem, load_radius))?;
+    let Covered { candidates, boxes, fraction } = cells::cover(&low_rank, monitor)?;
     let examined = (candidates.len() as f64).log2() - log2_patterns(problem);
     for sides in candidates {
         let pattern: Vec<ContactState> =
@@ -140,7 +142,7 @@ fn by_cells(
         unexplored: 1.0 - fraction,
         ..PatternShares::default()
     };
-    let report = TreeReport { shares, nodes: patterns, ..TreeReport::default() };
+    let report = TreeReport { shares, nodes: boxes, ..TreeReport::default() };
     Some((Method::Cells { rank: low_rank.rank() }, report))
 }
 

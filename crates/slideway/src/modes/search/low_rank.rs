@@ -1,30 +1,46 @@
-//! Coupling through few quantities: `C = diagonal + low rank`.
+//! Coupling through few quantities: `C = diagonal + low rank + remainder`.
 //!
 //! ```text
-//! c_k^{sigma} = delta_k^{sigma} e_k + U v_k^{sigma},   U: r x q,   q <= 3
-//! delta_i^{sigma_i} y_i = s_i(z) = b_i - u_i . z,      z = sum_k v_k^{sigma_k} y_k
+//! c_k^{sigma} = delta_k^{sigma} e_k + U v_k^{sigma} + E_k^{sigma},   U: r x q,   q <= 6
+//! delta_i^{sigma_i} y_i = s_i(z) - epsilon_i,   s_i(z) = b_i - u_i . z,   z = sum_k v_k^{sigma_k} y_k
 //! ```
 //!
-//! with `u_i` the rows of `U`. Where `delta_i^+` and `delta_i^-` have opposite signs the side of every
-//! contact follows from the sign of `s_i(z)` (theory, section 4 (e)): only cells of the arrangement of
-//! the hyperplanes `s_i = 0` can be patterns.
+//! with `u_i` the rows of `U` and `epsilon_i` what the remainder and the bounds of the right-hand side
+//! make up. `U`, `v` and `delta` are the very numbers held here, so that `z` is defined without
+//! rounding; `E` is what they leave, and bounded entry by entry. Where `delta_i^+` and `delta_i^-` have
+//! opposite signs the side of every contact follows from the sign of `s_i(z) - epsilon_i` (theory,
+//! section 4 (e)).
+//!
+//! # Bounds of the errors
+//! With `t = 1 / max(1, |z|)` and everything multiplied by `t`, `w = t z` has no entry above 1, and
+//!
+//! ```text
+//! t y_i <= (|b_i| + sum_j |u_ij| + t |epsilon_i|) / min |delta_i|
+//! t |epsilon_i| <= radius(b_i) + sum_k |E_ik| t y_k
+//! ```
+//!
+//! Where the largest row sum of `|E_ik| / min |delta_i|` is at most 2/5, the largest `t y` is at most
+//! 5/3 of what it would be without `E`; this bounds all `t |epsilon_i|`. A bound of errors in the
+//! columns would add to `|E|`, and nothing else would change.
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::modes::scaling::ScaledProblem;
+use crate::modes::scaling::{ScaledProblem, power_of_two_above};
 use crate::modes::solutions::ContactState;
 
 /// The highest rank that is looked for.
-const LARGEST_RANK: usize = 3;
+pub(super) const LARGEST_RANK: usize = 6;
 /// Entries below this fraction of the largest entry are zero.
 const ZERO: f64 = 1e-11;
 /// The decomposition holds to this fraction of the largest entry.
 const ACCURACY: f64 = 1e-10;
+/// Rounding of a sum of `LARGEST_RANK + 2` products, with much to spare, relative to its terms.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The decomposition of both versions of the columns; `[positive, negative]`.
 #[derive(Debug, Clone)]
 pub(super) struct LowRank {
-    /// `U` (r x q).
+    /// `U` (r x q), scaled such that `u_i . z` and `b_i` are of one size where `|z|` is about 1.
     pub(super) left: DMatrix<f64>,
     /// `v_k` as columns (q x r).
     pub(super) right: [DMatrix<f64>; 2],
@@ -32,12 +48,14 @@ pub(super) struct LowRank {
     pub(super) diagonal: [DVector<f64>; 2],
     /// `b` (r).
     pub(super) load: DVector<f64>,
+    /// Bounds of `|epsilon_i| / max(1, |z|)` (r).
+    pub(super) error: DVector<f64>,
 }
 
 impl LowRank {
-    /// The decomposition of a problem without jumps, if its coupling has a rank from 1 to 3 and the
-    /// sides follow from the signs of `s_i`.
-    pub(super) fn of(problem: &ScaledProblem) -> Option<Self> {
+    /// The decomposition of a problem without jumps, for all right-hand sides within `load_error`, if
+    /// its coupling has a rank from 1 to 6 and the sides follow from the signs of `s_i`.
+    pub(super) fn of(problem: &ScaledProblem, load_error: &DVector<f64>) -> Option<Self> {
         if problem.has_jump.iter().any(|&jump| jump) {
             return None;
         }
@@ -48,8 +66,11 @@ impl LowRank {
         });
         let size = columns.iter().fold(0.0, |most: f64, matrix| most.max(off_diagonal_size(matrix)));
         let pivots = pivot_columns(&columns, ZERO * size)?;
-        let left = left_factor(&columns, &pivots)?;
-        let right = [right_factor(&columns[0], &left)?, right_factor(&columns[1], &left)?];
+        let mut left = left_factor(&columns, &pivots)?;
+        let mut right = [right_factor(&columns[0], &left)?, right_factor(&columns[1], &left)?];
+        let unit = unit_of_coordinates(&left, problem.base());
+        left *= unit;
+        right = right.map(|right| right / unit);
         let diagonal = [0, 1].map(|side| {
             DVector::from_fn(contacts, |k, _| {
                 columns[side][(k, k)] - left.row(k).dot(&right[side].column(k).transpose())
@@ -60,7 +81,10 @@ impl LowRank {
             .all(|side| off_diagonal_size(&(&columns[side] - &left * &right[side])) <= ACCURACY * size);
         let decides = |(up, down): (&f64, &f64)| up * down < 0.0 && up.abs().min(down.abs()) > 1e-6;
         let decided = diagonal[0].iter().zip(&diagonal[1]).all(decides);
-        (holds && decided).then(|| Self { left, right, diagonal, load: problem.base().clone() })
+        let load = problem.base().clone();
+        let mut found = Self { left, right, diagonal, load, error: load_error.clone() };
+        found.error = found.bound_errors(&columns, load_error).filter(|_| holds && decided)?;
+        Some(found)
     }
 
     pub(super) fn rank(&self) -> usize {
@@ -72,6 +96,36 @@ impl LowRank {
     pub(super) fn side(&self, contact: usize, positive: bool) -> usize {
         usize::from((self.diagonal[0][contact] > 0.0) != positive)
     }
+
+    /// Bounds of all `|epsilon_i| / max(1, |z|)`; none if the remainder is too large.
+    fn bound_errors(&self, columns: &[DMatrix<f64>; 2], load_error: &DVector<f64>) -> Option<DVector<f64>> {
+        let contacts = self.load.len();
+        let remainder = self.remainder(&columns[0], 0).sup(&self.remainder(&columns[1], 1));
+        let least = self.diagonal[0].abs().inf(&self.diagonal[1].abs());
+        let without = DVector::from_fn(contacts, |i, _| {
+            (self.load[i].abs() + self.left.row(i).abs().sum() + load_error[i]) / least[i]
+        });
+        let gain = remainder.column_sum().component_div(&least).amax();
+        // The factor 2.5 instead of 5/3 covers the rounding here.
+        let largest = 2.5 * without.amax();
+        let error = (load_error + remainder.column_sum() * largest) * (1.0 + contacts as f64 * ROUNDING);
+        (gain <= 0.4 && error.iter().all(|value| value.is_finite())).then_some(error)
+    }
+
+    /// Bounds of `|E|` for one side.
+    fn remainder(&self, columns: &DMatrix<f64>, side: usize) -> DMatrix<f64> {
+        let diagonal = DMatrix::from_diagonal(&self.diagonal[side]);
+        let left_over = (columns - &diagonal - &self.left * &self.right[side]).abs();
+        let terms = columns.abs() + diagonal.abs() + self.left.abs() * self.right[side].abs();
+        (left_over + terms * ROUNDING).map(|value| value + f64::MIN_POSITIVE)
+    }
+}
+
+/// The power of two by which `U` is multiplied.
+fn unit_of_coordinates(left: &DMatrix<f64>, load: &DVector<f64>) -> f64 {
+    let size = left.abs().column_sum().amax();
+    let unit = power_of_two_above(load.amax()) / power_of_two_above(size);
+    unit.clamp((-100.0_f64).exp2(), 100.0_f64.exp2())
 }
 
 fn off_diagonal_size(matrix: &DMatrix<f64>) -> f64 {

@@ -7,12 +7,13 @@
 //! 2. A group with few patterns has each of them decided, so that all outcomes are known, locked modes
 //!    included ([`GroupReport::outcomes`]).
 //! 3. A larger group has exactly one solution if one of two cheap proofs says so (section 4 (a), (c)).
-//! 4. Where a large group is coupled through one to three quantities only, all patterns that can
-//!    occur are the cells of a hyperplane arrangement in so many dimensions (section 4 (e)).
+//! 4. Where a large group is coupled through one to six quantities only, all patterns that can
+//!    occur are the cells of a hyperplane arrangement in so many dimensions (section 4 (e)): the space
+//!    of these quantities is subdivided until each part is excluded or has few patterns.
 //! 5. Otherwise branch and bound over the states of the contacts. A node is excluded by interval
 //!    propagation or by an infeasible linear relaxation (section 4 (a), (b)); a node with all
-//!    contacts decided is a pattern to decide. The next contact to branch on is the one that the
-//!    relaxation presses on both sides most.
+//!    contacts decided is a pattern to decide. The next contact to branch on is the one for which, as far
+//!    as one dual step tells, forbidding either side costs most.
 //!
 //! # What is proven
 //! The problem is exact ([`ModeProblem`](super::ModeProblem)), or given within bounds
@@ -33,15 +34,15 @@
 //!   gap if `d_k^+` and `d_k^-` may differ within the bounds; where both are one number that is known within
 //!   bounds, let it be part of the right-hand side.
 //!
-//! [`SearchResult::completeness`] tells whether all of this worked. Not proven are answers by method 4, whose
-//! rounding errors are not bounded, and singular sets that take too much work to describe exactly. Without
-//! [`SearchOptions::certify`] patterns are solved with the tolerances of [`modes`](super), and nothing is proven.
+//! [`SearchResult::completeness`] tells whether all of this worked. Not proven are singular sets that take too
+//! much work to describe exactly. Without [`SearchOptions::certify`] patterns are solved with the tolerances of
+//! [`modes`](super), and nothing is proven.
 //!
 //! # Cost
 //! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
 //! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low
-//! rank: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary is met
-//! in up to `2^m` patterns, each of which is decided.
+//! rank beyond that of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a
+//! boundary is met in up to `2^m` patterns, each of which is decided.
 //!
 //! Outside of groups whose every pattern is tried, singular patterns that admit nothing (locking of the mode)
 //! are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
@@ -52,6 +53,7 @@ mod count;
 mod every;
 mod group;
 mod groups;
+mod inverse;
 mod joined;
 mod leaf;
 mod load;
@@ -65,6 +67,8 @@ mod result;
 mod sieve;
 mod simplex;
 mod states;
+#[cfg(test)]
+mod test_problems;
 mod tree;
 mod uniqueness;
 

@@ -184,3 +184,50 @@ fn narrowed(states: StateSet, y: (f64, f64), force: (f64, f64)) -> (StateSet, (f
     }
     (left, (low.max(y.0), high.min(y.1)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::states::all_states;
+    use super::super::test_problems::{Numbers, admitted, holds};
+    use super::*;
+    use crate::modes::problem::ModeProblem;
+
+    #[test]
+    fn all_solutions_are_within_the_bounds() {
+        let (mut bounded, mut decided) = (0, 0);
+        for seed in 0..400 {
+            let mut numbers = Numbers::new(seed);
+            let problem = numbers.problem(3, 0.4, seed % 2 == 0);
+            let radius = if seed % 3 == 0 { 0.2 } else { 0.0 };
+            let scaled = ScaledProblem::new(&problem);
+            let load_radius = scaled.scaled_load(&DVector::repeat(3, radius));
+            let Some(propagation) = Propagation::new(&scaled, &load_radius) else { continue };
+            bounded += usize::from(propagation.is_contraction());
+            let nearby = numbers.with_load_off_by(&problem, radius);
+            let mut states = all_states(&scaled);
+            let possible = propagation.fix_sides(&mut states);
+            decided += states.iter().filter(|states| states.decided().is_some()).count();
+            for (pattern, unknowns) in admitted(&nearby) {
+                assert!(possible && holds(&states, &pattern), "seed {seed} {problem:?}");
+                for (contact, value) in unknowns.iter().enumerate() {
+                    let y = if pattern[contact] == ContactState::Gap { 0.0 } else { *value };
+                    let most = propagation.largest[contact] * scaled.load_unit;
+                    assert!(y <= most * (1.0 + 1e-9), "seed {seed} {problem:?}");
+                }
+            }
+        }
+        assert!(bounded > 100 && decided > 200, "{bounded} {decided}");
+    }
+
+    #[test]
+    fn coupling_of_gain_one_is_no_contraction() {
+        for (other, expected) in [(0.49, true), (0.5, false), (0.6, false)] {
+            let coupling = DMatrix::from_row_slice(2, 2, &[0.5, 0.5, other, 0.5]);
+            let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
+            let problem = ModeProblem::from_absolute_value_equation(&identity, &coupling, load);
+            let scaled = ScaledProblem::new(&problem.expect("shapes fit"));
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
+            assert_eq!(propagation.is_contraction(), expected);
+        }
+    }
+}

@@ -46,6 +46,9 @@ pub(super) struct RelaxedContact {
     pub(super) positive: f64,
     pub(super) negative: f64,
     pub(super) share: f64,
+    /// Where both sides press: by how much the least cost grows at least without the positive, or the
+    /// negative side; infinite if it cannot be without.
+    pub(super) cost_without: [f64; 2],
 }
 
 /// What the relaxation says of a node.
@@ -77,8 +80,7 @@ impl Relaxation {
             }
         }
         let load_size = problem.load_size().as_slice().to_vec();
-        let load_error =
-            rounding_of_load(problem).iter().zip(load_radius).map(|(error, radius)| error + radius).collect();
+        let load_error = load_error(problem, load_radius).as_slice().to_vec();
         Self {
             program: LinearProgram::new(&columns, problem.base().as_slice().to_vec(), cost),
             first,
@@ -95,16 +97,23 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
-    /// Solves the relaxation of a node from the basis of its parent.
-    pub(super) fn solve(&self, states: &[StateSet], basis: &mut Basis, iterations: &mut u64) -> Relaxed {
+    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own.
+    pub(super) fn solve(
+        &self,
+        states: &[StateSet],
+        parent: &Basis,
+        iterations: &mut u64,
+    ) -> (Relaxed, Basis) {
         let bounds = self.bounds(states);
-        match self.program.solve(basis, &bounds, iterations) {
-            LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values)),
+        let mut basis = parent.restricted(&bounds);
+        let relaxed = match self.program.solve(&mut basis, &bounds, iterations) {
+            LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values, &basis)),
             LinearOutcome::Infeasible(farkas) => {
-                self.verified(farkas, &bounds, basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
+                self.verified(farkas, &bounds, &basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
             }
             LinearOutcome::Undecided => Relaxed::Undecided,
-        }
+        };
+        (relaxed, basis)
     }
 
     fn bounds(&self, states: &[StateSet]) -> Bounds {
@@ -126,12 +135,17 @@ impl Relaxation {
         bounds
     }
 
-    fn contacts(&self, values: &[f64]) -> Vec<RelaxedContact> {
+    fn contacts(&self, values: &[f64], basis: &Basis) -> Vec<RelaxedContact> {
         let value = |variable: usize| values[variable] * self.column_scale[variable];
-        let relaxed = |(&at, &jump): (&usize, &bool)| RelaxedContact {
-            positive: value(at),
-            negative: value(at + 1),
-            share: if jump { value(at + 2) } else { 0.0 },
+        let relaxed = |(&at, &jump): (&usize, &bool)| {
+            let (positive, negative) = (value(at), value(at + 1));
+            let sides = if positive > 0.0 && negative > 0.0 { Some([at, at + 1]) } else { None };
+            RelaxedContact {
+                positive,
+                negative,
+                share: if jump { value(at + 2) } else { 0.0 },
+                cost_without: sides.map_or([0.0; 2], |sides| sides.map(|side| basis.cost_of_zero(side))),
+            }
         };
         self.first.iter().zip(&self.has_jump).map(relaxed).collect()
     }
@@ -155,8 +169,8 @@ impl Relaxation {
                     + 1.01 * size_of_terms(&self.spread[variable], &sizes);
                 let (low, high) = (entry - error, entry + error);
                 if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
-                    let row = basis.row_of(variable)?;
-                    super::simplex::add_multiple(&mut shift, -2.0 * high, row);
+                    let row = basis.row_of(&self.program, variable)?;
+                    super::simplex::add_multiple(&mut shift, -2.0 * high, &row);
                     shifted = true;
                 } else if high > 0.0 {
                     most += high * bounds.upper[variable];
@@ -189,13 +203,14 @@ fn size_of_terms(values: &[f64], sizes: &[f64]) -> f64 {
     values.iter().zip(sizes).map(|(value, size)| value.abs() * size).sum()
 }
 
-/// What rounding (and jumps too small to count) can have changed in `N(0) + sum d^-` and in the jumps.
-fn rounding_of_load(problem: &ScaledProblem) -> Vec<f64> {
-    let terms = problem.base().iter().zip(problem.load_size());
-    let jumps_contribute = terms.clone().any(|(base, &size)| base.abs() != size);
+/// How far the right-hand side may be off: `load_radius`, and what rounding and jumps too small to
+/// count can have changed in `N(0) + sum d^-`.
+pub(super) fn load_error(problem: &ScaledProblem, load_radius: &DVector<f64>) -> DVector<f64> {
+    let terms = problem.base().zip_map(problem.load_size(), |base, size| base.abs() != size);
+    let jumps_contribute = terms.iter().any(|&contributes| contributes);
     let share =
         if jumps_contribute { IGNORED_JUMP + (problem.contacts() + 4) as f64 * f64::EPSILON } else { 0.0 };
-    terms.map(|(_, size)| share * size).collect()
+    problem.load_size() * share + load_radius
 }
 
 /// Costs that differ from variable to variable, so that the dual program is not degenerate.
@@ -206,4 +221,77 @@ fn uneven_cost(variable: usize) -> f64 {
 
 fn power_of_two_below(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { size.log2().floor().clamp(-1000.0, 1000.0).exp2() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::states::all_states;
+    use super::super::test_problems::{Numbers, admitted, holds};
+    use super::*;
+    use crate::modes::problem::ModeProblem;
+
+    fn relaxation(problem: &ModeProblem, load_radius: f64) -> (ScaledProblem, Relaxation) {
+        let scaled = ScaledProblem::new(problem);
+        let radius = scaled.scaled_load(&DVector::repeat(problem.contacts(), load_radius));
+        let largest = vec![f64::INFINITY; problem.contacts()];
+        let relaxation = Relaxation::new(&scaled, &radius, largest);
+        (scaled, relaxation)
+    }
+
+    /// Random states of some contacts.
+    fn some_states(numbers: &mut Numbers, all: &[StateSet]) -> Vec<StateSet> {
+        let choose = |&set: &StateSet| {
+            let states: Vec<ContactState> = set.iter().collect();
+            match numbers.below(6) {
+                at @ 0..=2 => StateSet::only(states[at % states.len()]),
+                3 if states.len() > 2 => set.without(states[numbers.below(3)]),
+                _ => set,
+            }
+        };
+        all.iter().map(choose).collect()
+    }
+
+    #[test]
+    fn excluded_nodes_admit_nothing() {
+        let mut excluded = 0;
+        for seed in 0..150 {
+            let mut numbers = Numbers::new(seed);
+            let problem = numbers.problem(3, 1.5, seed % 2 == 0);
+            let radius = if seed % 3 == 0 { 0.2 } else { 0.0 };
+            let (scaled, relaxation) = relaxation(&problem, radius);
+            let nearby = numbers.with_load_off_by(&problem, radius);
+            let admitted = admitted(&nearby);
+            for _ in 0..12 {
+                let states = some_states(&mut numbers, &all_states(&scaled));
+                let (relaxed, _) = relaxation.solve(&states, &relaxation.first_basis(), &mut 0);
+                if matches!(relaxed, Relaxed::Excluded(_)) {
+                    excluded += 1;
+                    assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");
+                }
+            }
+        }
+        assert!(excluded > 200, "{excluded}");
+    }
+
+    #[test]
+    fn wrong_vectors_exclude_nothing() {
+        let mut verified = 0;
+        for seed in 0..60 {
+            let mut numbers = Numbers::new(500 + seed);
+            let problem = numbers.problem(3, 1.0, seed % 2 == 0);
+            let (scaled, relaxation) = relaxation(&problem, 0.0);
+            let admitted = admitted(&problem);
+            for _ in 0..40 {
+                let states = some_states(&mut numbers, &all_states(&scaled));
+                let bounds = relaxation.bounds(&states);
+                let basis = relaxation.first_basis();
+                let weights: Vec<f64> = (0..3).map(|_| numbers.number()).collect();
+                if relaxation.verified(weights, &bounds, &basis).is_some() {
+                    verified += 1;
+                    assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");
+                }
+            }
+        }
+        assert!(verified > 20, "{verified}");
+    }
 }

@@ -4,10 +4,12 @@
 //! minimise cost . x   subject to   A x = b,   lower <= x <= upper
 //! ```
 //!
-//! with `A` of `rows x columns`. The explicit inverse of the basis is kept: the problems have as
-//! many rows as contacts, and an explicit inverse makes exact steepest-edge pricing and Farkas
-//! vectors free. Every row has an artificial variable that is fixed to zero, so that the artificial
-//! basis starts from any data as long as `cost >= 0`.
+//! with `A` of `rows x columns`. The tableau `B^-1 N` of the nonbasic columns is kept, row after row:
+//! a pivot row, an exact measure of each row's length and what any branching would cost at once are
+//! then there to be read. Every row has an artificial variable that is fixed to zero, so that the
+//! artificial basis starts from any data as long as `cost >= 0`; the tableau's columns of artificial
+//! variables are those of `B^-1`, which makes Farkas vectors free. Variables that are fixed to zero
+//! from some node on are dropped from the tableaus below it.
 //!
 //! Costs only steer the search; whether a program is infeasible is judged by its Farkas vector.
 
@@ -19,9 +21,9 @@ const FEASIBLE: f64 = 1e-9;
 const ZERO_PIVOT: f64 = 1e-9;
 /// Wrong signs of reduced costs up to this are traded for a larger pivot.
 const DUAL_SLACK: f64 = 1e-9;
-/// Row and column computation of a pivot may differ by this fraction.
-const PIVOT_ACCURACY: f64 = 1e-7;
-/// The inverse is computed afresh after so many updates.
+/// Equations may be missed by this fraction of the largest variable (or of 1).
+const RESIDUAL: f64 = 1e-7;
+/// The tableau is computed afresh after so many updates.
 const UPDATES: usize = 120;
 
 /// The data that all nodes of a search share.
@@ -44,23 +46,26 @@ pub(super) struct Bounds {
     pub(super) upper: Vec<f64>,
 }
 
-/// Where a variable is.
+/// A nonbasic variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
-    Basic(usize),
-    Lower,
-    Upper,
+struct Nonbasic {
+    variable: usize,
+    at_upper: bool,
 }
 
-/// A basis with its inverse: all that a child inherits from its parent.
+/// A basis with its tableau: all that a child inherits from its parent.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
     /// The variable of each row; `columns + i` is the artificial one of row `i`.
     basic: Vec<usize>,
-    place: Vec<Place>,
-    /// `B^-1`, row after row.
-    inverse: Vec<f64>,
+    /// The variable of each column of the tableau.
+    nonbasic: Vec<Nonbasic>,
+    /// `B^-1 N`, row after row.
+    tableau: Vec<f64>,
+    /// Of the nonbasic variables.
     reduced_cost: Vec<f64>,
+    /// Where nonbasic variables may go: up (1), down (-1), or nowhere (0).
+    way: Vec<f64>,
     /// Values of the basic variables.
     value: Vec<f64>,
     updates: usize,
@@ -78,7 +83,8 @@ pub(super) enum LinearOutcome {
 }
 
 enum Step {
-    Pivot { entering: usize },
+    /// The column of the tableau that enters.
+    Pivot(usize),
     Infeasible,
 }
 
@@ -116,17 +122,13 @@ impl LinearProgram {
 
     /// The basis of artificial variables.
     pub(super) fn artificial_basis(&self) -> Basis {
-        let rows = self.rows;
-        let mut inverse = vec![0.0; rows * rows];
-        inverse.iter_mut().step_by(rows + 1).for_each(|entry| *entry = 1.0);
-        let mut place = vec![Place::Lower; self.columns + rows];
-        (0..rows).for_each(|row| place[self.columns + row] = Place::Basic(row));
         Basis {
-            basic: (self.columns..self.columns + rows).collect(),
-            place,
-            inverse,
+            basic: (self.columns..self.columns + self.rows).collect(),
+            nonbasic: (0..self.columns).map(|variable| Nonbasic { variable, at_upper: false }).collect(),
+            tableau: self.by_row.clone(),
             reduced_cost: self.cost.clone(),
-            value: vec![0.0; rows],
+            way: vec![0.0; self.columns],
+            value: vec![0.0; self.rows],
             updates: 0,
         }
     }
@@ -135,23 +137,25 @@ impl LinearProgram {
     /// counts the pivots.
     pub(super) fn solve(&self, basis: &mut Basis, bounds: &Bounds, iterations: &mut u64) -> LinearOutcome {
         let limit = 50 + 20 * self.rows;
-        let mut combined = Vec::with_capacity(self.columns);
         basis.compute_values(self, bounds);
         for _ in 0..limit {
             let Some((row, direction)) = basis.worst_row(self, bounds) else {
-                return self.accept(basis, bounds);
-            };
-            let pivot_row = basis.inverse[row * self.rows..][..self.rows].to_vec();
-            self.row_combination(&pivot_row, &mut combined);
-            match basis.entering(self, bounds, &combined, direction) {
-                Step::Infeasible => {
-                    let farkas = pivot_row.iter().map(|entry| direction * entry).collect();
-                    return LinearOutcome::Infeasible(farkas);
+                let outcome = self.accept(basis, bounds);
+                if outcome != LinearOutcome::Undecided || basis.updates == 0 || !basis.refactor(self, bounds)
+                {
+                    return outcome;
                 }
-                Step::Pivot { entering } => {
+                continue;
+            };
+            match basis.entering(row, direction) {
+                Step::Infeasible => {
+                    let edge = basis.inverse_row(self, row);
+                    return LinearOutcome::Infeasible(edge.iter().map(|entry| direction * entry).collect());
+                }
+                Step::Pivot(column) => {
                     *iterations += 1;
-                    let sound = basis.pivot(self, bounds, row, entering, direction, &combined);
-                    if (!sound || basis.updates > UPDATES) && !basis.refactor(self, bounds) {
+                    basis.pivot(self, bounds, row, column, direction);
+                    if basis.updates > UPDATES && !basis.refactor(self, bounds) {
                         return LinearOutcome::Undecided;
                     }
                 }
@@ -161,14 +165,14 @@ impl LinearProgram {
     }
 
     /// The solution of a feasible basis, provided that it solves the equations.
-    fn accept(&self, basis: &mut Basis, bounds: &Bounds) -> LinearOutcome {
+    fn accept(&self, basis: &Basis, bounds: &Bounds) -> LinearOutcome {
         let values = basis.all_values(self, bounds);
         let mut residual = self.right_hand_side.clone();
         for (column, &value) in values.iter().enumerate().filter(|(_, value)| **value != 0.0) {
             add_multiple(&mut residual, -value, self.column(column));
         }
         let size = values.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
-        if residual.iter().all(|rest| rest.abs() <= 1e-7 * size) {
+        if residual.iter().all(|rest| rest.abs() <= RESIDUAL * size) {
             LinearOutcome::Feasible(values)
         } else {
             LinearOutcome::Undecided
@@ -177,45 +181,93 @@ impl LinearProgram {
 }
 
 impl Basis {
-    /// The rows of the inverse that belong to the variables of the program in the basis.
-    pub(super) fn row_of(&self, variable: usize) -> Option<&[f64]> {
-        let rows = self.basic.len();
-        match self.place[variable] {
-            Place::Basic(row) => Some(&self.inverse[row * rows..][..rows]),
-            Place::Lower | Place::Upper => None,
+    /// A copy without the variables that `bounds` fix to zero.
+    pub(super) fn restricted(&self, bounds: &Bounds) -> Self {
+        let is_kept = |nonbasic: &Nonbasic| {
+            let at = nonbasic.variable;
+            at >= bounds.upper.len() || bounds.upper[at] != 0.0 || bounds.lower[at] != 0.0
+        };
+        let kept: Vec<usize> = (0..self.nonbasic.len()).filter(|&at| is_kept(&self.nonbasic[at])).collect();
+        if kept.len() == self.nonbasic.len() {
+            return self.clone();
+        }
+        let mut tableau = Vec::with_capacity(self.basic.len() * kept.len());
+        for row in self.rows() {
+            tableau.extend(kept.iter().map(|&at| row[at]));
+        }
+        Self {
+            basic: self.basic.clone(),
+            nonbasic: kept.iter().map(|&at| self.nonbasic[at]).collect(),
+            tableau,
+            reduced_cost: kept.iter().map(|&at| self.reduced_cost[at]).collect(),
+            way: kept.iter().map(|&at| self.way[at]).collect(),
+            value: self.value.clone(),
+            updates: self.updates,
         }
     }
 
-    fn nonbasic_value(&self, variable: usize, bounds: &Bounds) -> f64 {
-        match self.place[variable] {
-            Place::Lower => bounds.lower[variable],
-            Place::Upper => bounds.upper[variable],
-            Place::Basic(row) => self.value[row],
+    /// The row of `B^-1` that belongs to a variable in the basis.
+    pub(super) fn row_of(&self, program: &LinearProgram, variable: usize) -> Option<Vec<f64>> {
+        let row = self.basic.iter().position(|&basic| basic == variable)?;
+        Some(self.inverse_row(program, row))
+    }
+
+    /// By how much the least cost grows at least if a variable is fixed to zero: infinite if that is
+    /// impossible, zero for a variable that is not in the basis.
+    pub(super) fn cost_of_zero(&self, variable: usize) -> f64 {
+        let row = self.basic.iter().position(|&basic| basic == variable);
+        row.map_or(0.0, |row| self.value[row] * self.longest_step(row, 1.0, 0.0))
+    }
+
+    fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.tableau.chunks_exact(self.nonbasic.len().max(1))
+    }
+
+    fn row(&self, row: usize) -> &[f64] {
+        &self.tableau[row * self.nonbasic.len()..][..self.nonbasic.len()]
+    }
+
+    fn inverse_row(&self, program: &LinearProgram, row: usize) -> Vec<f64> {
+        let mut inverse = vec![0.0; program.rows];
+        if let Some(artificial) = self.basic[row].checked_sub(program.columns) {
+            inverse[artificial] = 1.0;
         }
+        for (nonbasic, &entry) in self.nonbasic.iter().zip(self.row(row)) {
+            if let Some(artificial) = nonbasic.variable.checked_sub(program.columns) {
+                inverse[artificial] = entry;
+            }
+        }
+        inverse
     }
 
     fn all_values(&self, program: &LinearProgram, bounds: &Bounds) -> Vec<f64> {
-        (0..program.columns).map(|variable| self.nonbasic_value(variable, bounds)).collect()
-    }
-
-    /// `x_B = B^-1 (b - sum of the nonbasic columns)`.
-    fn compute_values(&mut self, program: &LinearProgram, bounds: &Bounds) {
-        let mut rest = program.right_hand_side.clone();
-        for variable in 0..program.columns {
-            if matches!(self.place[variable], Place::Basic(_)) {
-                continue;
-            }
-            // A bound that went to infinity cannot hold a variable.
-            if !self.nonbasic_value(variable, bounds).is_finite() {
-                self.place[variable] = Place::Lower;
-            }
-            let value = self.nonbasic_value(variable, bounds);
-            if value != 0.0 {
-                add_multiple(&mut rest, -value, program.column(variable));
+        let mut values = vec![0.0; program.columns];
+        for nonbasic in self.nonbasic.iter().filter(|nonbasic| nonbasic.variable < program.columns) {
+            values[nonbasic.variable] = nonbasic.value(program, bounds);
+        }
+        for (&variable, &value) in self.basic.iter().zip(&self.value) {
+            if variable < program.columns {
+                values[variable] = value;
             }
         }
-        for (value, row) in self.value.iter_mut().zip(self.inverse.chunks_exact(program.rows.max(1))) {
-            *value = dot(row, &rest);
+        values
+    }
+
+    /// `x_B = B^-1 b - B^-1 N x_N`.
+    fn compute_values(&mut self, program: &LinearProgram, bounds: &Bounds) {
+        for nonbasic in &mut self.nonbasic {
+            // A bound that went to infinity cannot hold a variable.
+            if !nonbasic.value(program, bounds).is_finite() {
+                nonbasic.at_upper = false;
+            }
+        }
+        self.way = self.nonbasic.iter().map(|at| at.way(program, bounds)).collect();
+        let load =
+            |variable: usize| variable.checked_sub(program.columns).map(|at| program.right_hand_side[at]);
+        let factor = |at: &Nonbasic| load(at.variable).unwrap_or_else(|| -at.value(program, bounds));
+        let factors: Vec<f64> = self.nonbasic.iter().map(factor).collect();
+        for row in 0..self.basic.len() {
+            self.value[row] = load(self.basic[row]).unwrap_or(0.0) + dot(self.row(row), &factors);
         }
     }
 
@@ -230,8 +282,8 @@ impl Basis {
             let (missed, direction) =
                 if value > upper { (value - upper, 1.0) } else { (lower - value, -1.0) };
             if missed > FEASIBLE * size {
-                let edge = &self.inverse[row * program.rows..][..program.rows];
-                let measure = missed * missed / dot(edge, edge);
+                let edge = self.row(row);
+                let measure = missed * missed / (1.0 + dot(edge, edge));
                 if measure > most {
                     most = measure;
                     worst = Some((row, direction));
@@ -241,119 +293,105 @@ impl Basis {
         worst
     }
 
-    /// Ratio test in two passes (Harris): of all variables whose reduced cost bounds the step, up to
-    /// a slack, the one with the largest pivot.
-    fn entering(&self, program: &LinearProgram, bounds: &Bounds, combined: &[f64], direction: f64) -> Step {
-        let eligible = |variable: usize| {
-            let entry = direction * combined[variable];
-            let can_move = bounds.lower[variable] < bounds.upper[variable];
-            can_move
-                && match self.place[variable] {
-                    Place::Basic(_) => false,
-                    Place::Lower => entry > ZERO_PIVOT,
-                    Place::Upper => entry < -ZERO_PIVOT,
-                }
-        };
+    /// How far reduced costs of the wrong sign, up to a slack, let the dual variable of a row go.
+    fn longest_step(&self, row: usize, direction: f64, slack: f64) -> f64 {
         let mut step = f64::INFINITY;
-        for variable in (0..program.columns).filter(|&variable| eligible(variable)) {
-            let ratio = (self.reduced_cost[variable].abs() + DUAL_SLACK) / combined[variable].abs();
-            step = step.min(ratio);
+        for ((&entry, &way), cost) in self.row(row).iter().zip(&self.way).zip(&self.reduced_cost) {
+            let pivot = direction * entry * way;
+            let ratio = if pivot > ZERO_PIVOT { (cost.abs() + slack) / pivot } else { f64::INFINITY };
+            step = if ratio < step { ratio } else { step };
         }
-        let mut best: Option<usize> = None;
-        for variable in (0..program.columns).filter(|&variable| eligible(variable)) {
-            let size = combined[variable].abs();
-            if self.reduced_cost[variable].abs() <= step * size
-                && best.is_none_or(|best| size > combined[best].abs())
-            {
-                best = Some(variable);
-            }
-        }
-        best.map_or(Step::Infeasible, |entering| Step::Pivot { entering })
+        step
     }
 
-    /// Exchanges the basic variable of a row; false if rounding has spoiled the inverse.
-    fn pivot(
-        &mut self,
-        program: &LinearProgram,
-        bounds: &Bounds,
-        row: usize,
-        entering: usize,
-        direction: f64,
-        combined: &[f64],
-    ) -> bool {
-        let rows = program.rows;
-        let column = program.column(entering);
-        let change: Vec<f64> = self.inverse.chunks_exact(rows).map(|row| dot(row, column)).collect();
-        let pivot = change[row];
-        if (pivot - combined[entering]).abs() > PIVOT_ACCURACY * combined[entering].abs() {
-            return false;
+    /// Ratio test in two passes (Harris): of all variables whose reduced cost bounds the step, up to
+    /// a slack, the one with the largest pivot.
+    fn entering(&self, row: usize, direction: f64) -> Step {
+        let step = self.longest_step(row, direction, DUAL_SLACK);
+        let (mut best, mut largest) = (None, ZERO_PIVOT);
+        for (column, (&entry, &way)) in self.row(row).iter().zip(&self.way).enumerate() {
+            let pivot = direction * entry * way;
+            if pivot > largest && self.reduced_cost[column].abs() <= step * pivot {
+                (best, largest) = (Some(column), pivot);
+            }
         }
+        best.map_or(Step::Infeasible, Step::Pivot)
+    }
+
+    /// Exchanges the basic variable of a row for the nonbasic one of a column.
+    fn pivot(&mut self, program: &LinearProgram, bounds: &Bounds, row: usize, column: usize, direction: f64) {
+        let width = self.nonbasic.len();
+        let mut pivot_row = self.row(row).to_vec();
+        let pivot = pivot_row[column];
         let leaving = self.basic[row];
         let (lower, upper) = variable_bounds(program, bounds, leaving);
         let target = if direction > 0.0 { upper } else { lower };
         let step = (self.value[row] - target) / pivot;
-        let entered = self.nonbasic_value(entering, bounds) + step;
+        let entered = self.nonbasic[column].value(program, bounds) + step;
 
-        self.update_costs(program, entering, leaving, self.reduced_cost[entering] / pivot, combined);
-        add_multiple(&mut self.value, -step, &change);
-        self.value[row] = entered;
-        // B^-1 of the new basis: the pivot row divided by the pivot, and eliminated from the others.
-        let mut pivot_row = self.inverse[row * rows..][..rows].to_vec();
+        pivot_row[column] = 1.0;
         for entry in &mut pivot_row {
             *entry /= pivot;
         }
-        for ((at, target), &factor) in self.inverse.chunks_exact_mut(rows).enumerate().zip(&change) {
+        for (at, target) in self.tableau.chunks_exact_mut(width).enumerate() {
             if at == row {
                 target.copy_from_slice(&pivot_row);
-            } else if factor != 0.0 {
+                continue;
+            }
+            let factor = std::mem::take(&mut target[column]);
+            if factor != 0.0 {
+                self.value[at] -= factor * step;
                 add_multiple(target, -factor, &pivot_row);
             }
         }
-        self.place[leaving] = if direction > 0.0 { Place::Upper } else { Place::Lower };
-        self.place[entering] = Place::Basic(row);
-        self.basic[row] = entering;
+        let factor = std::mem::take(&mut self.reduced_cost[column]);
+        add_multiple(&mut self.reduced_cost, -factor, &pivot_row);
+        self.value[row] = entered;
+        self.basic[row] = self.nonbasic[column].variable;
+        self.nonbasic[column] = Nonbasic { variable: leaving, at_upper: direction > 0.0 };
+        self.way[column] = self.nonbasic[column].way(program, bounds);
         self.updates += 1;
-        true
     }
 
-    fn update_costs(
-        &mut self,
-        program: &LinearProgram,
-        entering: usize,
-        leaving: usize,
-        step: f64,
-        combined: &[f64],
-    ) {
-        add_multiple(&mut self.reduced_cost, -step, combined);
-        self.reduced_cost[entering] = 0.0;
-        if leaving < program.columns {
-            self.reduced_cost[leaving] = -step;
-        }
-    }
-
-    /// Computes inverse, values and reduced costs afresh; false if the basis is singular.
+    /// Computes tableau, values and reduced costs afresh; false if the basis is singular.
     pub(super) fn refactor(&mut self, program: &LinearProgram, bounds: &Bounds) -> bool {
         let rows = program.rows;
-        let basis =
-            DMatrix::from_fn(rows, rows, |row, at| match self.basic[at].checked_sub(program.columns) {
-                Some(artificial) => f64::from(u8::from(artificial == row)),
-                None => program.column(self.basic[at])[row],
-            });
+        let column = |variable: usize, row: usize| match variable.checked_sub(program.columns) {
+            Some(artificial) => f64::from(u8::from(artificial == row)),
+            None => program.column(variable)[row],
+        };
+        let cost = |variable: usize| program.cost.get(variable).copied().unwrap_or(0.0);
+        let basis = DMatrix::from_fn(rows, rows, |row, at| column(self.basic[at], row));
         let Some(inverse) = basis.try_inverse() else { return false };
-        self.inverse = inverse.transpose().as_slice().to_vec();
+        let nonbasic =
+            DMatrix::from_fn(rows, self.nonbasic.len(), |row, at| column(self.nonbasic[at].variable, row));
+        let tableau = inverse * nonbasic;
+        self.tableau = tableau.transpose().as_slice().to_vec();
         self.updates = 0;
-        // Reduced costs c - c_B B^-1 A.
-        let mut multipliers = vec![0.0; rows];
-        for (&variable, row) in self.basic.iter().zip(self.inverse.chunks_exact(rows)) {
-            if variable < program.columns {
-                add_multiple(&mut multipliers, -program.cost[variable], row);
-            }
+        // Reduced costs c_N - c_B B^-1 N.
+        let mut reduced_cost: Vec<f64> = self.nonbasic.iter().map(|at| cost(at.variable)).collect();
+        for (&variable, row) in self.basic.iter().zip(self.rows()) {
+            add_multiple(&mut reduced_cost, -cost(variable), row);
         }
-        let mut combined = Vec::new();
-        program.row_combination(&multipliers, &mut combined);
-        self.reduced_cost = combined.iter().zip(&program.cost).map(|(a, b)| a + b).collect();
+        self.reduced_cost = reduced_cost;
         self.compute_values(program, bounds);
         true
+    }
+}
+
+impl Nonbasic {
+    fn value(self, program: &LinearProgram, bounds: &Bounds) -> f64 {
+        let (lower, upper) = variable_bounds(program, bounds, self.variable);
+        if self.at_upper { upper } else { lower }
+    }
+
+    fn way(self, program: &LinearProgram, bounds: &Bounds) -> f64 {
+        let (lower, upper) = variable_bounds(program, bounds, self.variable);
+        match (lower < upper, self.at_upper) {
+            (false, _) => 0.0,
+            (true, false) => 1.0,
+            (true, true) => -1.0,
+        }
     }
 }
 

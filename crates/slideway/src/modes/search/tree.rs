@@ -14,6 +14,10 @@ use super::states::{StateSet, all_states, fraction_of_patterns};
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::ContactState;
 
+/// Costs of forbidding a side are compared within these limits.
+const LEAST_COST: f64 = 1e-6;
+const MOST_COST: f64 = 1e9;
+
 /// A node that waits for its turn, with the basis of its parent.
 struct Node {
     states: Vec<StateSet>,
@@ -48,7 +52,8 @@ impl<'a> Tree<'a> {
         let largest = propagation.map_or_else(unbounded, |propagation| propagation.largest.clone());
         Self {
             problem,
-            propagation,
+            // Without bounds there is nothing to propagate.
+            propagation: propagation.filter(|propagation| propagation.is_contraction()),
             relaxation: Relaxation::new(problem, load_radius, largest),
             keep_exclusions: options.keep_exclusions,
             report: TreeReport::default(),
@@ -84,8 +89,8 @@ impl<'a> Tree<'a> {
         if !self.propagate(&mut node.states) {
             return Ok(());
         }
-        let mut basis = Basis::clone(&node.basis);
-        let relaxed = match self.relaxation.solve(&node.states, &mut basis, &mut self.report.pivots) {
+        let (relaxed, basis) = self.relaxation.solve(&node.states, &node.basis, &mut self.report.pivots);
+        let relaxed = match relaxed {
             Relaxed::Excluded(farkas) => {
                 self.report.shares.relaxation += fraction_of_patterns(self.problem, &node.states);
                 let problem = self.problem;
@@ -140,9 +145,9 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// The contact to branch on and the state to look at first: where both sides press most, or, if no
-/// contact presses on both sides, the one that presses most, whose other states are furthest from
-/// the solution at hand.
+/// The contact to branch on and the state to look at first. Of the contacts that press on both sides
+/// the one for which forbidding either side costs most, as a product; if there are none, the one that
+/// presses most, whose other states are furthest from the solution at hand.
 fn branching(states: &[StateSet], relaxed: Option<&[RelaxedContact]>) -> (usize, ContactState) {
     let undecided = (0..states.len()).filter(|&contact| states[contact].decided().is_none());
     let Some(relaxed) = relaxed else {
@@ -150,12 +155,13 @@ fn branching(states: &[StateSet], relaxed: Option<&[RelaxedContact]>) -> (usize,
     };
     let mut best = (0, (f64::NEG_INFINITY, f64::NEG_INFINITY));
     for contact in undecided {
-        let RelaxedContact { positive, negative, share } = relaxed[contact];
+        let RelaxedContact { positive, negative, share, cost_without } = relaxed[contact];
         let mut violation = positive.min(negative);
         if states[contact].len() > 2 || states[contact].contains(ContactState::Gap) {
             violation = violation.max(positive.min(1.0 - share)).max(negative.min(share));
         }
-        let score = (violation, positive.max(negative));
+        let cost: f64 = cost_without.iter().map(|cost| cost.clamp(LEAST_COST, MOST_COST)).product();
+        let score = (if violation > 0.0 { cost } else { 0.0 }, positive.max(negative));
         if score > best.1 {
             best = (contact, score);
         }

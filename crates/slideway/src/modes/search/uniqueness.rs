@@ -76,3 +76,49 @@ fn pattern_of(normal_force: &DVector<f64>) -> Vec<ContactState> {
     let state = |&force: &f64| if force >= 0.0 { ContactState::Positive } else { ContactState::Negative };
     normal_force.iter().map(state).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modes::problem::ModeProblem;
+
+    fn proof_of(problem: &ModeProblem) -> Option<Method> {
+        let scaled = ScaledProblem::new(problem);
+        let load_radius = DVector::zeros(problem.contacts());
+        proof(&scaled, &Propagation::new(&scaled, &load_radius).expect("regular"))
+    }
+
+    /// `N + B |N| = b`.
+    fn equation(coupling: &DMatrix<f64>) -> ModeProblem {
+        let load = DVector::from_vec(vec![1.0, -2.0]);
+        ModeProblem::from_absolute_value_equation(&DMatrix::identity(2, 2), coupling, load)
+            .expect("shapes fit")
+    }
+
+    #[test]
+    fn singular_values_must_be_below_one() {
+        // A rotation times the gain, which is its singular value.
+        let (sine, cosine) = 0.7_f64.sin_cos();
+        let rotation = DMatrix::from_row_slice(2, 2, &[cosine, -sine, sine, cosine]);
+        assert_eq!(proof_of(&equation(&(&rotation * 0.999_999))), Some(Method::SingularValue));
+        for gain in [1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.5] {
+            assert_eq!(proof_of(&equation(&(&rotation * gain))), None);
+        }
+        assert_eq!(proof_of(&equation(&(&rotation * 0.5))), Some(Method::Contraction));
+    }
+
+    #[test]
+    fn columns_shorter_than_one_prove_nothing() {
+        // Both columns have the length 0.99, and the largest singular value is 1.4.
+        assert_eq!(proof_of(&equation(&DMatrix::from_element(2, 2, 0.7))), None);
+    }
+
+    #[test]
+    fn jumps_are_no_contraction() {
+        // N = -1 + 2 lambda has three states.
+        let one = DMatrix::from_element(1, 1, 1.0);
+        let load = DVector::from_element(1, -1.0);
+        let problem = ModeProblem::new(one.clone(), -&one, &one * 2.0, DMatrix::zeros(1, 1), load);
+        assert_eq!(proof_of(&problem.expect("shapes fit")), None);
+    }
+}
