@@ -17,7 +17,8 @@ use crate::modes::findings::Findings;
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::{ContactState, Solutions};
 
-/// All patterns of a group are tried if they are so few.
+/// All patterns of a group are tried if they are so few. For 8 contacts without jumps that takes about 0.4 ms,
+/// several times as long as branch and bound, which does not tell the outcome of each.
 const EVERY_PATTERN_UP_TO: u64 = 256;
 /// The fewest contacts for which the cells of an arrangement are worth a look.
 const CELLS_FROM: usize = 13;

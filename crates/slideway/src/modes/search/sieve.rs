@@ -239,7 +239,12 @@ impl Sieve {
 
 impl Bounded {
     fn scaled(column: Column<'_>, scale: &[f64]) -> Self {
-        let product = |values: &[f64]| values.iter().zip(scale).map(|(value, scale)| value * scale).collect();
+        let exact = |(&value, scale): (&f64, &f64)| match value * scale {
+            // Lost to underflow: not a number that is let in.
+            0.0 if value != 0.0 => f64::NAN,
+            product => product,
+        };
+        let product = |values: &[f64]| values.iter().zip(scale).map(exact).collect();
         let radius = column.radius.map_or_else(|| vec![0.0; scale.len()], product);
         Self { centre: product(column.centre), radius }
     }
