@@ -40,7 +40,7 @@ class Run:
         log(instance.name)
         path = instance.save(self.folder)
         result = {"family": instance.family, "size": instance.size}
-        own = rivals.slideway(self.program, path, self.limit, MOST_TRIED, self.environment)
+        own = rivals.slideway(self.program, path, self.limit, MOST_TRIED, MOST_CUTS, self.environment)
         result["slideway"] = own
         if instance.size <= MOST_TRIED:
             result |= self.every_pattern(instance)
@@ -90,7 +90,7 @@ class Run:
         steps = []
         for size in family.ladder:
             path = family.make(name, size).save(self.folder)
-            own = rivals.slideway(self.program, path, limit, 0, self.environment)
+            own = rivals.slideway(self.program, path, limit, 0, 0, self.environment)
             path.unlink()
             search = own["search"]
             steps.append({"size": size, "seconds": search["seconds"], "outcome": search["outcome"]})

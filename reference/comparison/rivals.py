@@ -31,9 +31,10 @@ def _json_of(command, environment, timeout=None):
     return json.loads(output.stdout)
 
 
-def slideway(program, path, time_limit, exhaustive, environment):
-    """Search and, up to so many unknowns, exhaustive proof."""
-    command = [program, "solve", "--time-limit", time_limit, "--exhaustive", exhaustive, path]
+def slideway(program, path, time_limit, exhaustive, listed, environment):
+    """Search and, up to so many unknowns, exhaustive proof; lists so many solutions at most."""
+    limits = ["--time-limit", time_limit, "--exhaustive", exhaustive, "--listed", listed]
+    command = [program, "solve", *limits, path]
     result = _json_of(command, environment)
     result["patterns"] = [signs(values) for values in result["search"].pop("solutions")]
     return result
@@ -104,8 +105,8 @@ def highs(instance, bounds, time_limit):
     solver = _model(positive, negative, load, largest)
     start, found, spurious, outcome = time.perf_counter(), [], 0, "time limit"
     while (left := time_limit - (time.perf_counter() - start)) > 0:
-        solver.zeroAllClocks()
-        solver.setOptionValue("time_limit", left)
+        # HiGHS' clock goes on from run to run.
+        solver.setOptionValue("time_limit", solver.getRunTime() + left)
         solver.run()
         status = solver.getModelStatus()
         if status == highspy.HighsModelStatus.kInfeasible:
