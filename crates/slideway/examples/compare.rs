@@ -118,9 +118,8 @@ fn limited(
 ) -> Result<SearchResult, slideway::modes::ModeProblemError> {
     let start = Instant::now();
     let options = SearchOptions { nodes: u64::MAX, ..SearchOptions::default() };
-    search(problem, &options, &mut |_| match start.elapsed() < time_limit {
-        true => ControlFlow::Continue(()),
-        false => ControlFlow::Break(()),
+    search(problem, &options, &mut |_| {
+        if start.elapsed() < time_limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })
 }
 
