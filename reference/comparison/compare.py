@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares slideway with other codes on the same instances and writes the tables of the book.
 
-    python3 reference/comparison/compare.py            about 25 minutes
+    python3 reference/comparison/compare.py            about 30 minutes
     python3 reference/comparison/compare.py --quick    about 3 minutes, smaller instances
 
 Makes what it needs first: Siconos from Debian's packages (asks apt-get if it is not installed, which needs root), a
