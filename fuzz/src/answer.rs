@@ -1,0 +1,17 @@
+//! The answer to a raw problem within small limits.
+
+use std::ops::ControlFlow;
+
+use slideway::modes::{Limits, SearchOptions};
+use slideway::raw_problem::{RawProblem, solve, to_json, to_npz, to_text};
+use slideway::report::Style;
+
+/// Solves the problem and writes the answer in all forms.
+pub fn answer(problem: &RawProblem) {
+    let limits = Limits { solutions: 100, singular: 20, bases: 1000, ..Limits::default() };
+    let options = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
+    let Ok(report) = solve(problem, &options, 10, &mut |_| ControlFlow::Continue(())) else { return };
+    let json = to_json(&report);
+    assert!(!json.contains("null"), "{json}");
+    let _ = (to_text(&report, Style::default()), to_npz(&report));
+}

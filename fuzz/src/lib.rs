@@ -1,0 +1,7 @@
+//! What the fuzz targets share.
+
+mod answer;
+mod small;
+
+pub use answer::answer;
+pub use small::{patterns, problem};
