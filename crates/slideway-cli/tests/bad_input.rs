@@ -83,7 +83,7 @@ fn settings_and_model_together() {
 
 #[test]
 fn too_many_contacts_are_refused_at_once() {
-    let boom = slideway(&["models", "telescopic-boom", "--stages", "40"]);
+    let boom = slideway(&["models", "telescopic-boom", "--stages", "300"]);
     let run = slideway_reading(&["solve", "-"], boom.stdout.as_bytes());
     assert_eq!(run.code, 2);
     insta::assert_snapshot!(run.stderr);

@@ -129,7 +129,7 @@ fn exhaustive(problem: &ModeProblem) -> Value {
     let (proof, decided) = median(|| prove(problem));
     let of_kind = |kind: fn(&Decision) -> bool| -> Vec<String> {
         let those = decided.iter().filter(|(_, verdict)| kind(&verdict.decision));
-        those.map(|(bits, _)| pattern(*bits, problem.contacts())).collect()
+        those.map(|(pattern, _)| self::pattern(pattern.negative, problem.contacts())).collect()
     };
     json!({
         "screen_seconds": screening,

@@ -10,8 +10,8 @@ use klepp_example::{example, reference};
 use nalgebra::DMatrix;
 use slideway::modes::certificate::{IntervalMatrix, IntervalModeProblem};
 use slideway::modes::{
-    BySide, Certificate, Completeness, ContactState, Limits, ModeSolution, SearchOptions, Side, Solutions, enumerate,
-    search,
+    BySide, Certificate, Completeness, ContactState, Limits, ModeSolution, SearchOptions, Side, Solutions,
+    enumerate, search,
 };
 
 fn solve(mu_1: f64, preload: [f64; 3], velocity: f64) -> Result<Solutions, Box<dyn Error>> {

@@ -37,12 +37,9 @@ use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::{Arguments, Progress, SearchOptions, search};
+use crate::modes::{Progress, SearchOptions, search};
 use crate::report::Report;
 use std::ops::ControlFlow;
-
-/// With so many contacts every pattern is tried by itself.
-const FEW_CONTACTS: usize = 6;
 
 /// What a solution may cost, and how much of it is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,12 +85,11 @@ pub fn solve_with(
     let influence = Influence::new(&equations);
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;
     let enclosed = enclosure(model, &UncertainParameters::default(), &mechanism, &configuration);
-    let result = match &enclosed {
-        Ok(enclosed) => search(&enclosed.problem, &search_options(&mechanism, options), progress),
-        Err(_) => {
-            let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
-            search(&problem, &search_options(&mechanism, options), progress)
-        }
+    let result = if let Ok(enclosed) = &enclosed {
+        search(&enclosed.problem, &options.search, progress)
+    } else {
+        let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
+        search(&problem, &options.search, progress)
     };
     let result = result.map_err(|_| mode_problem::overflow())?;
     let answer = answer::Answer {
@@ -104,13 +100,4 @@ pub fn solve_with(
         velocity_signs: &velocity_signs,
     };
     answer.report(&found::Found { result: &result, rounded: enclosed.as_ref().err(), most: options.most })
-}
-
-/// Few contacts are searched as one group, so that the outcome of every pattern is known.
-fn search_options(mechanism: &Mechanism, options: &SolveOptions) -> SearchOptions {
-    let few = mechanism.contacts.len() <= FEW_CONTACTS;
-    let arguments = options.search.arguments;
-    let arguments =
-        Arguments { groups: arguments.groups && !few, uniqueness: arguments.uniqueness && !few, ..arguments };
-    SearchOptions { arguments, ..options.search }
 }
