@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use slideway::fault::Fault;
 use slideway::model::{SettingKind, Settings};
+use slideway::modes::SearchOptions;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -139,6 +140,9 @@ pub(crate) struct SolveArguments {
     pub(crate) format: Format,
 
     #[command(flatten)]
+    pub(crate) search: SearchArguments,
+
+    #[command(flatten)]
     pub(crate) destination: Destination,
 }
 
@@ -167,20 +171,35 @@ pub(crate) struct ModesArguments {
     #[arg(long, value_enum)]
     format: Option<ModesFormat>,
 
+    #[command(flatten)]
+    pub(crate) search: SearchArguments,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+/// What a search for solutions may cost, and how much of it is told.
+#[derive(Debug, Args)]
+pub(crate) struct SearchArguments {
     /// List at most so many solutions; all are counted.
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub(crate) max_solutions: usize,
 
     /// End the search after so many nodes; the answer is then partial.
     #[arg(long, value_name = "N")]
-    pub(crate) max_nodes: Option<u64>,
+    max_nodes: Option<u64>,
 
     /// End the search after this time (30s, 500ms, 2min, 1.5h); the answer is then partial.
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time_limit: Option<Duration>,
+}
 
-    #[command(flatten)]
-    pub(crate) destination: Destination,
+impl SearchArguments {
+    /// The options of the search.
+    pub(crate) fn options(&self) -> SearchOptions {
+        let defaults = SearchOptions::default();
+        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), ..defaults }
+    }
 }
 
 impl ModesArguments {

@@ -228,6 +228,8 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error("the range of {what} is reversed: it goes from {from} down to {to}")]
+    ReversedRange { what: String, from: f64, to: f64 },
     #[error("{what} is not a finite number")]
     NotFinite { what: String },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
@@ -301,15 +303,9 @@ pub enum FaultKind {
     )]
     ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
 
-    // Enumeration of the modes.
-    #[error("{contacts} contacts with friction have 2^{contacts} contact modes; at most 2^{limit} are tried")]
+    // Search for the modes.
+    #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
     TooManyContacts { contacts: usize, limit: usize },
-    #[error(
-        "{contacts} contacts, {with_jump} of them with preload, have more contact modes and preload gaps than the {limit} that are tried"
-    )]
-    TooManyPatterns { contacts: usize, with_jump: usize, limit: u64 },
-    #[error("more than {limit} sign patterns give a solution")]
-    TooManySolutions { limit: usize },
     #[error("{quantity} is too large or too small to compute with")]
     Overflow { quantity: String },
 }
@@ -410,7 +406,6 @@ impl FaultKind {
             }
             Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
-            Self::TooManyPatterns { .. } => Some("preload_line = \"centre\" makes no gaps to be tried"),
             Self::TooManyContacts { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
             }

@@ -5,8 +5,9 @@ use crate::arguments::{Format, SolveArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::watch::Watch;
 use slideway::report::{Status, to_csv, to_json, to_text};
-use slideway::solve;
+use slideway::solve::{SolveOptions, solve_with};
 
 /// Finds and writes all solutions of a model.
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -14,7 +15,11 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     arguments.model.spare(&arguments.destination)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let report = solve::solve(&model).map_err(|faults| input.refused(faults))?;
+    let options = SolveOptions { search: arguments.search.options(), most: arguments.search.max_solutions };
+    let mut watch = Watch::new(arguments.search.time_limit);
+    let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
+        .map_err(|faults| input.refused(faults))?;
+    drop(watch);
     output.write(&match arguments.format {
         Format::Text => to_text(&report, output.style()),
         Format::Json => to_json(&report),

@@ -1,8 +1,8 @@
 //! From kinetic equations within intervals to bounds of the influence coefficients.
 
-use super::{NotEnclosed, solution};
+use super::{EnclosedCouple, NotEnclosed, solution};
 use crate::configuration::Configuration;
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
 use crate::kinetics::{Assembled, Reaction, equilibration, scaled};
 use crate::mechanism::{Contact, Mechanism, Slider};
@@ -23,46 +23,72 @@ pub(super) struct Coefficients<'a> {
 }
 
 impl Coefficients<'_> {
-    /// Bounds of everything that the mode problem is made of.
-    pub(super) fn influence(&self) -> Result<IntervalInfluence, NotEnclosed> {
+    /// Bounds of everything that the mode problem is made of, and of the couples of guided sliders.
+    pub(super) fn influence(&self) -> Result<(IntervalInfluence, Vec<EnclosedCouple>), NotEnclosed> {
         let velocity_signs = self.velocity_signs()?;
         let contacts = &self.mechanism.contacts;
-        let normal_forces = self.normal_forces().ok_or(NotEnclosed::Equations)?;
+        let unknowns = self.unknowns().ok_or(NotEnclosed::Equations)?;
+        let normal_forces = self.normal_forces(&unknowns).ok_or(NotEnclosed::Equations)?;
         let positive = normal_forces.columns(1, contacts.len()).into_owned();
         let eta = [positive.clone(), self.negative_versions(positive)];
         let preload = self.preload_columns(&eta);
         let values = |of: &dyn Fn(&Contact<Interval>) -> Interval| {
             bounded(&DMatrix::from_fn(contacts.len(), 1, |k, _| of(&contacts[k])))
         };
-        Ok(IntervalInfluence {
+        let influence = IntervalInfluence {
             eta: BySide { positive: bounded(&eta[0])?, negative: bounded(&eta[1])? },
             eta_preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },
             mu: BySide { positive: values(&|k| k.mu[0])?, negative: values(&|k| k.mu[1])? },
             preload: BySide { positive: values(&|k| k.preload[0])?, negative: values(&|k| k.preload[1])? },
             velocity_signs,
             frictionless: bounded(&normal_forces.columns(0, 1).into_owned())?,
-        })
+        };
+        Ok((influence, self.couples(&unknowns)))
     }
 
-    /// The normal forces without friction (column 0), and what a unit friction of each contact adds to them at the face
-    /// that is pressed when its normal force is positive; none if the equations are not proven to be regular.
-    fn normal_forces(&self) -> Option<DMatrix<Interval>> {
-        let Assembled { matrix, load, friction, layout, .. } = self.equations;
+    /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the face that
+    /// is pressed when its normal force is positive; none if the equations are not proven to be regular.
+    fn unknowns(&self) -> Option<DMatrix<Interval>> {
+        let Assembled { matrix, load, friction, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
         let right = DMatrix::from_fn(load.len(), 1 + friction.len(), |row, column| {
             let value = if column == 0 { load[row] } else { friction[column - 1][0][row] };
             value * Interval::point(rows[row])
         });
         let solution = solution(&scaled(matrix, &rows, &columns), &right)?;
-        let unknown = |row: usize, column: usize| solution.entry(row, column) * Interval::point(columns[row]);
-        let normal: Option<Vec<usize>> =
-            (0..friction.len()).map(|k| layout.reaction(Reaction::Normal(ContactId(k)))).collect();
-        let normal = normal?;
-        let greatest = self.greatest_force(&|row| unknown(row, 0));
-        Some(DMatrix::from_fn(normal.len(), 1 + friction.len(), |contact, column| {
-            let scale = if column == 0 { greatest } else { 1.0 };
-            without_rounding(unknown(normal[contact], column), scale)
+        Some(DMatrix::from_fn(load.len(), 1 + friction.len(), |row, column| {
+            solution.entry(row, column) * Interval::point(columns[row])
         }))
+    }
+
+    /// The rows of the normal forces among all unknowns.
+    fn normal_forces(&self, unknowns: &DMatrix<Interval>) -> Option<DMatrix<Interval>> {
+        let contacts = self.mechanism.contacts.len();
+        let row = |k| self.equations.layout.reaction(Reaction::Normal(ContactId(k)));
+        let rows: Option<Vec<usize>> = (0..contacts).map(row).collect();
+        let rows = rows?;
+        let greatest = self.greatest_force(&|row| unknowns[(row, 0)]);
+        Some(DMatrix::from_fn(contacts, 1 + contacts, |contact, column| {
+            let scale = if column == 0 { greatest } else { 1.0 };
+            without_rounding(unknowns[(rows[contact], column)], scale)
+        }))
+    }
+
+    /// The couples of the guided sliders.
+    fn couples(&self, unknowns: &DMatrix<Interval>) -> Vec<EnclosedCouple> {
+        let joints = self.mechanism.joints.iter().enumerate();
+        let couple = |(index, _)| {
+            let joint = JointId(index);
+            let slider = self.mechanism.slider(joint)?;
+            let row = self.equations.layout.reaction(Reaction::Couple(joint))?;
+            Some(EnclosedCouple {
+                contact: slider.contacts.first()?.index(),
+                half_length: slider.length * Interval::point(0.5),
+                frictionless: unknowns[(row, 0)],
+                influence: unknowns.row(row).iter().skip(1).copied().collect(),
+            })
+        };
+        joints.filter_map(couple).collect()
     }
 
     /// The greatest sum of sizes of forces in an equation of motion, for given unknowns (N).

@@ -28,7 +28,10 @@
 //! ```
 
 mod coefficients;
+mod couples;
 mod motion;
+
+pub use couples::{EnclosedCouple, Tipping};
 
 use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
@@ -91,6 +94,8 @@ pub struct EnclosedModeProblem {
     /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are moved to
     /// the right-hand side, so that they do not look like a jump.
     pub problem: IntervalModeProblem,
+    /// Bounds of the couples of guided sliders, in the order of the joints.
+    pub couples: Vec<EnclosedCouple>,
 }
 
 /// Why the numbers of a mechanism could not be enclosed.
@@ -164,9 +169,9 @@ pub fn enclosure(
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
     let coefficients =
         Coefficients { model, mechanism: &mechanism, configuration: &configuration, equations: &equations };
-    let influence = coefficients.influence()?;
+    let (influence, couples) = coefficients.influence()?;
     let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
-    Ok(EnclosedModeProblem { influence, problem })
+    Ok(EnclosedModeProblem { influence, problem, couples })
 }
 
 /// Bounds of the solutions of a linear system; none if it is not proven to be regular.

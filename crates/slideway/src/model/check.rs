@@ -232,6 +232,7 @@ impl Model {
 
     /// Relations between values: static and kinetic friction, travel limits, points that give a direction.
     fn check_relations(&self, values: &[Option<f64>], faults: &mut Faults) {
+        self.check_ranges(values, faults);
         let value = |id: FormulaId| values[id.index()];
         for joint in &self.joints {
             let JointKind::Slider(slider) = &joint.kind else { continue };

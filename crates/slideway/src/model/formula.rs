@@ -52,6 +52,8 @@ pub enum Allowed {
 pub struct Formula {
     /// What it computes.
     pub expression: Expression,
+    /// The ends of the range of which the expression is the middle; only parameters have one.
+    pub range: Option<Box<[Expression; 2]>>,
     /// The dimension its value must have; nothing for parameters, which may have any.
     pub wanted: Option<Dimension>,
     /// Whether it may use coordinates, rates and time.

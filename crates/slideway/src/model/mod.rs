@@ -34,6 +34,7 @@ mod check;
 mod file;
 mod formula;
 mod quantity;
+mod range;
 mod read;
 mod sections;
 mod settings;
@@ -41,6 +42,7 @@ mod structure;
 
 pub use file::{CarriedBy, ForceFrame, PreloadLine};
 pub use formula::{Allowed, Formula, Origin};
+pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
 
 use crate::fault::{Fault, FaultKind, Faults, Place};

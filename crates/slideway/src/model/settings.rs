@@ -1,6 +1,7 @@
 //! What a command changes in a model before it is solved: parameters, coordinate values and rates.
 
 use super::formula::{Allowed, Formula, Origin};
+use super::range::parse_value;
 use super::{Coordinate, Model};
 use crate::expression::{Dimension, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
@@ -167,7 +168,11 @@ impl Model {
         let start = setting.name.len() + 1;
         let origin =
             Origin { source, span: start..start + setting.value.len(), expression_start: Some(start) };
-        let expression = parse(&setting.value, &self.names()).map_err(|list| {
+        let value = match setting.kind {
+            SettingKind::Parameter => parse_value(&setting.value, &self.names()),
+            _ => parse(&setting.value, &self.names()).map(|expression| (expression, None)),
+        };
+        let (expression, range) = value.map_err(|list| {
             let mut faults = Faults::default();
             faults.extend(list.into_iter().map(|fault| origin.fault(fault)));
             faults
@@ -175,6 +180,7 @@ impl Model {
         let what = Arc::from(format!("the value of {}", setting.name));
         Ok(Formula {
             expression,
+            range,
             wanted,
             allowed: Allowed::Any,
             may_move: false,

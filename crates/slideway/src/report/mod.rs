@@ -84,6 +84,10 @@ pub struct Report {
     pub closest_modes: Vec<ClosestMode>,
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
+    /// What parameters known within bounds leave certain; absent if there are none. Everything else in the report
+    /// holds for the middle of their ranges.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
     /// Accelerations and normal forces without friction, and the influence coefficients.
     pub influence: InfluenceSummary,
     /// Greatest factor by which rounding in the kinetic equations may be amplified.
@@ -197,6 +201,63 @@ pub struct UndecidedMode {
     pub joints: Vec<JointMode>,
     /// The contacts whose normal force may be zero; none if the determinant may.
     pub contacts: Vec<String>,
+}
+
+/// What is certain for all values of parameters that are known within bounds only.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Uncertainty {
+    /// The parameters and their bounds.
+    pub parameters: Vec<UncertainParameter>,
+    /// For every value there are at least so many solutions.
+    pub least_solutions: usize,
+    /// For every value there are at most so many solutions; absent if that could not be proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub most_solutions: Option<usize>,
+    /// The modes that exist for some value, and those of which that could not be ruled out.
+    pub modes: Vec<UncertainMode>,
+    /// The parts into which the ranges were divided.
+    pub parts: usize,
+    /// Why parts of the ranges could not be searched; empty if all were.
+    pub open: Vec<String>,
+}
+
+/// A parameter that is known within bounds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UncertainParameter {
+    /// Its name.
+    pub name: String,
+    /// Its lower bound (SI units).
+    pub from: f64,
+    /// Its upper bound.
+    pub to: f64,
+    /// The value for which the rest of the report holds: the middle.
+    pub value: f64,
+}
+
+/// A mode that exists for some values of the uncertain parameters, or perhaps does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UncertainMode {
+    /// Its pattern.
+    pub pattern: String,
+    /// The contact mode of each sliding joint.
+    pub joints: Vec<JointMode>,
+    /// For which values it has a solution.
+    pub persistence: Persistence,
+    /// Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_force_bounds: Option<Vec<[f64; 2]>>,
+}
+
+/// For which values of the uncertain parameters a mode has a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Persistence {
+    /// For all, proven.
+    AllValues,
+    /// For some, proven; not for all, or that could not be proven.
+    SomeValues,
+    /// Whether it has one for any value could not be decided.
+    Undecided,
 }
 
 /// A contact in a solution. Signs as in theory, section 1.

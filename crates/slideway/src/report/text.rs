@@ -2,7 +2,10 @@
 
 use super::number::{against, number};
 use super::table::table;
-use super::{CertificateKind, ClosestMode, Contact, JointMode, PatternSummary, Report, Solution, Status};
+use super::{
+    CertificateKind, ClosestMode, Contact, JointMode, PatternSummary, Persistence, Report, Solution, Status,
+    UncertainMode,
+};
 use anstyle::{AnsiColor, Style as Ansi};
 use std::fmt::Write;
 
@@ -51,6 +54,7 @@ pub fn to_text(report: &Report, style: Style) -> String {
         let title = format!("Preload gap {} of {}", index + 1, report.preload_gap_states.len());
         text.solution(&title, state);
     }
+    text.uncertainty();
     text.continua();
     text.undecided();
     text.rejected();
@@ -185,6 +189,38 @@ impl Text<'_> {
         }
     }
 
+    fn uncertainty(&mut self) {
+        let Some(uncertainty) = &self.report.uncertainty else { return };
+        self.line("");
+        let ranges: Vec<String> = uncertainty
+            .parameters
+            .iter()
+            .map(|range| format!("{} from {} to {}", range.name, number(range.from), number(range.to)))
+            .collect();
+        self.line(&self.style.heading(&format!("For {}", ranges.join(", "))));
+        let least = uncertainty.least_solutions;
+        let solutions = match uncertainty.most_solutions {
+            Some(most) if most == least => {
+                format!("{} for every value", count(least, "solution", "solutions"))
+            }
+            Some(most) => format!("{least} to {} for every value", count(most, "solution", "solutions")),
+            None => format!("at least {} for every value", count(least, "solution", "solutions")),
+        };
+        self.line(&format!("  {solutions}, proven with {}.", count(uncertainty.parts, "part", "parts")));
+        for reason in &uncertainty.open {
+            self.line(&format!("  Not all values could be dealt with: {reason}."));
+        }
+        let rows: Vec<Vec<String>> =
+            uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
+        self.out.push_str(&table(&["signs", "exists", "normal forces in N"], &rows, 3));
+        let nominal: Vec<String> = uncertainty
+            .parameters
+            .iter()
+            .map(|range| format!("{} = {}", range.name, number(range.value)))
+            .collect();
+        self.line(&format!("  Everything else holds for {}.", nominal.join(", ")));
+    }
+
     fn continua(&mut self) {
         for continuum in &self.report.continua {
             self.line("");
@@ -283,6 +319,23 @@ fn tried(counts: &PatternSummary) -> String {
         let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
     }
     line
+}
+
+fn uncertain_row(report: &Report, mode: &UncertainMode) -> Vec<String> {
+    let exists = match mode.persistence {
+        Persistence::AllValues => "for all values",
+        Persistence::SomeValues => "for some values",
+        Persistence::Undecided => "undecided",
+    };
+    let names = report.solutions.first().map_or(&[][..], |solution| &solution.contacts);
+    let bound = |(contact, [from, to]): (usize, &[f64; 2])| {
+        let name = names.get(contact).map_or(String::new(), |contact| format!("{} ", contact.name));
+        format!("{name}{} to {}", number(*from), number(*to))
+    };
+    let bounds = mode.normal_force_bounds.as_ref();
+    let bounds: Vec<String> =
+        bounds.map_or_else(Vec::new, |bounds| bounds.iter().enumerate().map(bound).collect());
+    vec![spaced(&mode.pattern), exists.to_owned(), bounds.join(", ")]
 }
 
 fn closest_row(mode: &ClosestMode) -> Vec<String> {

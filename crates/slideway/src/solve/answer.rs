@@ -6,6 +6,7 @@ use super::found::Found;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
 use crate::configuration::{Configuration, unit};
+use crate::enclosure::{EnclosedModeProblem, Tipping};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
@@ -24,7 +25,7 @@ const COUPLE_TOLERANCE: f64 = 1e-9;
 
 /// Solutions of the equations in which a guided slider would tip.
 #[derive(Default)]
-struct Tipping {
+struct Tipped {
     count: u64,
     rejected: Vec<report::Rejection>,
 }
@@ -36,13 +37,15 @@ pub(super) struct Answer<'a> {
     pub(super) equations: &'a KineticEquations,
     pub(super) influence: &'a Influence,
     pub(super) velocity_signs: &'a DVector<f64>,
+    /// Bounds of the exact numbers, if they could be enclosed.
+    pub(super) enclosed: Option<&'a EnclosedModeProblem>,
 }
 
 impl<'a> Answer<'a> {
     /// The report on all solutions.
     pub(super) fn report(&self, found: &Found<'_>) -> Result<Report, Faults> {
         let lists = found.lists();
-        let mut tipping = Tipping::default();
+        let mut tipping = Tipped::default();
         let mut keep = |state: &State<'_>| self.kept(state, &mut tipping);
         let mut solutions: Vec<_> = lists
             .solutions
@@ -90,6 +93,7 @@ impl<'a> Answer<'a> {
                 outcomes.closest.iter().map(|mode| self.closest_mode(mode)).collect()
             }),
             jammed_groups: self.jammed_groups(found),
+            uncertainty: None,
             influence: self.influence_summary(),
             condition: self.equations.condition(),
         };
@@ -98,7 +102,7 @@ impl<'a> Answer<'a> {
     }
 
     /// A state as a solution, unless a guided slider would tip in it.
-    fn kept(&self, state: &State<'_>, tipping: &mut Tipping) -> Option<report::Solution> {
+    fn kept(&self, state: &State<'_>, tipping: &mut Tipped) -> Option<report::Solution> {
         let unknowns = self.equations.without_noise(&self.influence.unknowns(&self.friction(state)));
         match self.tipping(state, &unknowns) {
             None => Some(self.solution(state, &unknowns)),
@@ -228,7 +232,7 @@ impl<'a> Answer<'a> {
             patterns: state.patterns.clone(),
             signs: state.signs.clone(),
             on_boundary: state.on_boundary,
-            certificate: certificate(state),
+            certificate: self.certificate(state),
             determinant: state.determinant,
             oriented_determinant: state.determinant * orientation,
             contacts: self.contacts(state, unknowns, &friction),
@@ -238,6 +242,23 @@ impl<'a> Answer<'a> {
             coordinates: self.coordinates(unknowns),
             drives: self.drives(unknowns),
             residual: residuals.iter().map(|residual| residual.relative).fold(0.0, f64::max),
+        }
+    }
+
+    fn certificate(&self, state: &State<'_>) -> report::CertificateKind {
+        match state.certificate {
+            Certificate::Proven { unknowns } => {
+                let tipping = self.enclosed.map(|enclosed| enclosed.tipping(state.pattern, unknowns));
+                if tipping.is_none_or(|tipping| tipping == Tipping::Never) {
+                    report::CertificateKind::Proven
+                } else {
+                    report::CertificateKind::OnBoundary
+                }
+            }
+            Certificate::NotProven => report::CertificateKind::NotProven,
+            Certificate::Boundary { .. }
+            | Certificate::Singular
+            | Certificate::OnBoundaryWithinBounds { .. } => report::CertificateKind::OnBoundary,
         }
     }
 
@@ -283,7 +304,7 @@ impl<'a> Answer<'a> {
         (0..state.pattern.len()).map(one).collect()
     }
 
-    fn joint_modes(&self, signs: &[i8]) -> Vec<report::JointMode> {
+    pub(super) fn joint_modes(&self, signs: &[i8]) -> Vec<report::JointMode> {
         let one = |(joint, slider): (JointId, &Slider)| {
             let tangent = self.configuration.slide(self.mechanism, slider).tangent;
             let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
@@ -415,16 +436,6 @@ fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> St
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,
         _ => Status::Several,
-    }
-}
-
-fn certificate(state: &State<'_>) -> report::CertificateKind {
-    match state.certificate {
-        Certificate::Proven { .. } => report::CertificateKind::Proven,
-        Certificate::NotProven => report::CertificateKind::NotProven,
-        Certificate::Boundary { .. } | Certificate::Singular | Certificate::OnBoundaryWithinBounds { .. } => {
-            report::CertificateKind::OnBoundary
-        }
     }
 }
 

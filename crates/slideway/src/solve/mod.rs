@@ -24,6 +24,7 @@ mod equilibrium;
 mod found;
 mod mode_problem;
 mod state;
+mod uncertainty;
 mod words;
 
 pub use mode_problem::mode_problem;
@@ -34,9 +35,10 @@ use crate::configuration::Configuration;
 use crate::enclosure::{UncertainParameters, enclosure};
 use crate::fault::Faults;
 use crate::influence::Influence;
+use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
-use crate::model::Model;
+use crate::model::{Model, ParameterRange};
 use crate::modes::{Progress, SearchOptions, search};
 use crate::report::Report;
 use std::ops::ControlFlow;
@@ -84,7 +86,8 @@ pub fn solve_with(
     let equations = KineticEquations::new(&mechanism, &configuration)?;
     let influence = Influence::new(&equations);
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-    let enclosed = enclosure(model, &UncertainParameters::default(), &mechanism, &configuration);
+    let ranges = model.ranges()?;
+    let enclosed = enclosure(model, &middle(&ranges), &mechanism, &configuration);
     let result = if let Ok(enclosed) = &enclosed {
         search(&enclosed.problem, &options.search, progress)
     } else {
@@ -98,6 +101,21 @@ pub fn solve_with(
         equations: &equations,
         influence: &influence,
         velocity_signs: &velocity_signs,
+        enclosed: enclosed.as_ref().ok(),
     };
-    answer.report(&found::Found { result: &result, rounded: enclosed.as_ref().err(), most: options.most })
+    let mut report = answer.report(&found::Found {
+        result: &result,
+        rounded: enclosed.as_ref().err(),
+        most: options.most,
+    })?;
+    report.uncertainty = answer.uncertainty(model, &ranges, options, progress)?;
+    Ok(report)
+}
+
+/// The middle of each range, as the only value.
+fn middle(ranges: &[ParameterRange]) -> UncertainParameters {
+    let with = |all: UncertainParameters, range: &ParameterRange| {
+        all.with(&range.name, Interval::point(range.middle))
+    };
+    ranges.iter().fold(UncertainParameters::default(), with)
 }

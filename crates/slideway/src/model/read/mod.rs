@@ -10,10 +10,11 @@ mod loads;
 
 use super::formula::{Allowed, Formula, Origin, expression_start};
 use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity, Written};
+use super::range::{Value, parse_value};
 use super::sections::{JointContents, Sections, sections};
 use super::structure::STAND_IN;
 use super::{Along, Gravity, Model, NamedPoint, Parameter};
-use crate::expression::{Dimension, Expression, Names, is_reserved, is_valid_name, parse};
+use crate::expression::{Dimension, Expression, ExpressionFault, Names, is_reserved, is_valid_name, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
 use std::collections::BTreeMap;
@@ -204,6 +205,7 @@ impl<'t> Reader<'t> {
     fn number(&mut self, value: f64, span: &super::quantity::Span) -> FormulaId {
         self.push(Formula {
             expression: Expression::constant(value),
+            range: None,
             wanted: None,
             allowed: Allowed::Any,
             may_move: false,
@@ -233,15 +235,16 @@ impl<'t> Reader<'t> {
         let parsed = match &quantity.written {
             Written::Number(value) if value.is_finite() => {
                 let written = self.text.get(quantity.span.clone()).unwrap_or_default();
-                Some(Expression::decimal(*value, written))
+                Some((Expression::decimal(*value, written), None))
             }
             Written::Number(_) => {
                 self.fault(FaultKind::NotFinite { what: what.clone() }, &quantity.span);
                 None
             }
             Written::Text(text) if self.mended && text == STAND_IN => None,
-            Written::Text(text) => match parse(text, &self.names) {
-                Ok(expression) => Some(expression),
+            // Only parameters may have any dimension, and a range.
+            Written::Text(text) => match self.parse(text, dimension.is_none()) {
+                Ok(value) => Some(value),
                 Err(faults) => {
                     self.faults.extend(faults.into_iter().map(|fault| origin.fault(fault)));
                     None
@@ -249,9 +252,13 @@ impl<'t> Reader<'t> {
             },
         };
         let broken = parsed.is_none();
-        let expression = parsed.unwrap_or_else(|| Expression::constant(0.0));
+        let (expression, range) = parsed.unwrap_or_else(|| (Expression::constant(0.0), None));
         let what = Arc::from(what);
-        self.push(Formula { expression, wanted: dimension, allowed, may_move, broken, what, origin })
+        self.push(Formula { expression, range, wanted: dimension, allowed, may_move, broken, what, origin })
+    }
+
+    fn parse(&self, text: &str, may_be_range: bool) -> Result<Value, Vec<ExpressionFault>> {
+        if may_be_range { parse_value(text, &self.names) } else { Ok((parse(text, &self.names)?, None)) }
     }
 
     fn components(&mut self, components: &Components, what: &str, dimension: Dimension) -> [FormulaId; 2] {

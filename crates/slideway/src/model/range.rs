@@ -1,0 +1,100 @@
+//! Parameters that are only known within bounds: `mu = "0.1..0.15"`.
+
+use super::{Model, Parameter};
+use crate::expression::{Expression, ExpressionFault, Names, Values, parse};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::interval::Interval;
+
+/// What separates the ends of a range.
+const TO: &str = "..";
+
+/// A parameter that is known within bounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterRange {
+    /// Its name.
+    pub name: String,
+    /// Its lower bound (SI units).
+    pub from: f64,
+    /// Its upper bound.
+    pub to: f64,
+    /// The value that counts where one is needed: the middle.
+    pub middle: f64,
+}
+
+impl ParameterRange {
+    /// The bounds as an interval.
+    pub fn interval(&self) -> Interval {
+        Interval::point(self.from).hull(Interval::point(self.to))
+    }
+}
+
+/// The value of a parameter: an expression, or the middle of a range with its ends.
+pub(super) type Value = (Expression, Option<Box<[Expression; 2]>>);
+
+/// Reads an expression, or a range of two, `from..to`.
+///
+/// # Errors
+/// The faults of the expressions, with places in the whole text.
+pub(super) fn parse_value(text: &str, names: &Names) -> Result<Value, Vec<ExpressionFault>> {
+    let Some((from, to)) = text.split_once(TO) else { return Ok((parse(text, names)?, None)) };
+    let start = from.len() + TO.len();
+    let ends = [(from, 0), (to, start)].map(|(end, offset)| {
+        parse(end, names).map_err(|mut faults| {
+            for fault in &mut faults {
+                fault.span = fault.span.start + offset..fault.span.end + offset;
+            }
+            faults
+        })
+    });
+    match ends {
+        [Ok(lower), Ok(upper)] => {
+            let middle = parse(&format!("(({from}) + ({to})) / 2"), names)?;
+            Ok((middle, Some(Box::new([lower, upper]))))
+        }
+        ends => Err(ends.into_iter().filter_map(Result::err).flatten().collect()),
+    }
+}
+
+impl Model {
+    /// The parameters that are known within bounds, in the order of the file.
+    ///
+    /// # Errors
+    /// The faults of the model's values, reversed ranges among them.
+    pub fn ranges(&self) -> Result<Vec<ParameterRange>, Faults> {
+        if self.parameters.iter().all(|parameter| self.formula(parameter.value).range.is_none()) {
+            return Ok(Vec::new());
+        }
+        let values = self.parameter_values(&self.constants()?);
+        let ranges = self.parameters.iter().zip(&values).filter_map(|(parameter, &middle)| {
+            let [from, to] = self.range_ends(parameter, &values)?.ok()?;
+            Some(ParameterRange { name: parameter.name.to_string(), from, to, middle })
+        });
+        Ok(ranges.collect())
+    }
+
+    /// A fault for each range that is reversed, or has an end without a value.
+    pub(super) fn check_ranges(&self, values: &[Option<f64>], faults: &mut Faults) {
+        let values: Vec<f64> =
+            self.parameters.iter().map(|parameter| values[parameter.value.index()].unwrap_or(0.0)).collect();
+        for parameter in &self.parameters {
+            let place = self.formula(parameter.value).origin.place();
+            match self.range_ends(parameter, &values) {
+                Some(Ok([from, to])) if from > to => {
+                    let kind = FaultKind::ReversedRange { what: parameter.name.to_string(), from, to };
+                    faults.push(Fault::new(kind, place));
+                }
+                Some(Err(fault)) => faults.push(fault),
+                _ => {}
+            }
+        }
+    }
+
+    /// The ends of a parameter's range, if it has one.
+    fn range_ends(&self, parameter: &Parameter, parameters: &[f64]) -> Option<Result<[f64; 2], Fault>> {
+        let formula = self.formula(parameter.value);
+        let values = Values { parameters, coordinates: &[], rates: &[], time: 0.0 };
+        let end = |end: &Expression| end.evaluate(&values).map_err(|fault| formula.origin.fault(fault));
+        let [from, to] = formula.range.as_deref()?;
+        Some(end(from).and_then(|from| Ok([from, end(to)?])))
+    }
+}

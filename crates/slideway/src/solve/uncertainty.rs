@@ -1,0 +1,202 @@
+//! Which solutions exist for all values of parameters that are known within bounds only.
+//!
+//! The box of the parameters is searched as a whole, with bounds of the mode problem for all its values. Where that
+//! leaves a mode open the box is halved, and so on: a parameter counts as independent in each number that uses it, and
+//! smaller boxes lose less by that.
+
+use super::SolveOptions;
+use super::answer::Answer;
+use super::state::{pattern, pressed, signs};
+use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosure};
+use crate::fault::Faults;
+use crate::interval::Interval;
+use crate::model::{Model, ParameterRange};
+use crate::modes::{Certificate, Completeness, ContactState, Progress, SearchResult, StateLists, search};
+use crate::report::{self, Persistence};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+/// The most boxes that are searched.
+const BOXES: usize = 255;
+
+/// What is known of one mode in one box.
+struct Presence {
+    /// Whether it exists for all values; else perhaps for some.
+    certain: bool,
+    /// Bounds of `y_k`, or of the share of a contact in its gap.
+    unknowns: Option<Vec<Interval>>,
+}
+
+/// What is known of a box: its modes, or why it could not be searched.
+type Searched = Result<BTreeMap<Vec<ContactState>, Presence>, String>;
+
+/// What is known of one mode over all boxes.
+struct Record {
+    certain: usize,
+    bounds: Option<Vec<[f64; 2]>>,
+}
+
+impl Answer<'_> {
+    /// Which modes exist for all values within the ranges, for some, or perhaps.
+    pub(super) fn uncertainty(
+        &self,
+        model: &Model,
+        ranges: &[ParameterRange],
+        options: &SolveOptions,
+        progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<Option<report::Uncertainty>, Faults> {
+        if ranges.is_empty() {
+            return Ok(None);
+        }
+        let mut search_box = |values: &[Interval]| -> Searched {
+            let named = ranges.iter().zip(values);
+            let uncertain = named
+                .fold(UncertainParameters::default(), |all, (range, &value)| all.with(&range.name, value));
+            let enclosed = enclosure(model, &uncertain, self.mechanism, self.configuration)
+                .map_err(|reason| reason.to_string())?;
+            let result = search(&enclosed.problem, &options.search, progress)
+                .map_err(|_| "numbers overflow".to_owned())?;
+            presences(&enclosed, &result, options)
+        };
+        let searched = subdivide(ranges, &mut search_box);
+        Ok(Some(self.summary(ranges, &searched)))
+    }
+
+    fn summary(&self, ranges: &[ParameterRange], searched: &[Searched]) -> report::Uncertainty {
+        let mut records: BTreeMap<&[ContactState], Record> = BTreeMap::new();
+        for modes in searched.iter().flatten() {
+            for (mode, presence) in modes {
+                let found = presence.unknowns.as_deref().map(|unknowns| forces(mode, unknowns));
+                let record =
+                    records.entry(mode).or_insert_with(|| Record { certain: 0, bounds: found.clone() });
+                record.certain += usize::from(presence.certain);
+                record.bounds = record.bounds.take().zip(found).map(|(one, other)| hull(&one, &other));
+            }
+        }
+        let persistence = |record: &Record| match record.certain {
+            certain if certain == searched.len() => Persistence::AllValues,
+            0 => Persistence::Undecided,
+            _ => Persistence::SomeValues,
+        };
+        let mode = |(mode, record): (&&[ContactState], &Record)| report::UncertainMode {
+            pattern: pattern(mode),
+            joints: self.joint_modes(&signs(mode)),
+            persistence: persistence(record),
+            normal_force_bounds: record.bounds.clone(),
+        };
+        let count = |certain: bool| {
+            let pressed = |mode: &[ContactState]| !mode.contains(&ContactState::Gap);
+            searched.iter().map(move |modes| match modes {
+                Ok(modes) => {
+                    modes.iter().filter(|(mode, p)| pressed(mode) && (p.certain || !certain)).count()
+                }
+                Err(_) => 0,
+            })
+        };
+        let mut open: Vec<String> =
+            searched.iter().filter_map(|modes| modes.as_ref().err().cloned()).collect();
+        open.sort_unstable();
+        open.dedup();
+        report::Uncertainty {
+            parameters: ranges.iter().map(parameter).collect(),
+            least_solutions: count(true).min().unwrap_or(0),
+            most_solutions: open.is_empty().then(|| count(false).max().unwrap_or(0)),
+            modes: records.iter().map(mode).collect(),
+            parts: searched.len(),
+            open,
+        }
+    }
+}
+
+/// Searches the whole box, and halves what leaves something open, as far as the number of boxes allows.
+fn subdivide(
+    ranges: &[ParameterRange],
+    search_box: &mut dyn FnMut(&[Interval]) -> Searched,
+) -> Vec<Searched> {
+    let whole: Vec<Interval> = ranges.iter().map(ParameterRange::interval).collect();
+    let mut done = Vec::new();
+    let mut waiting = std::collections::VecDeque::from([whole.clone()]);
+    let mut searched = 0;
+    while let Some(part) = waiting.pop_front() {
+        let modes = search_box(&part);
+        searched += 1;
+        let is_open = modes.as_ref().map_or(true, |modes| modes.values().any(|mode| !mode.certain));
+        match halves(&part, &whole).filter(|_| is_open && searched + waiting.len() + 2 <= BOXES) {
+            Some(halves) => waiting.extend(halves),
+            None => done.push(modes),
+        }
+    }
+    done
+}
+
+/// The halves of a box, cut across its longest side relative to the whole; none if it has no extent.
+fn halves(part: &[Interval], whole: &[Interval]) -> Option<[Vec<Interval>; 2]> {
+    let extent = |k: &usize| part[*k].width() / whole[*k].width();
+    let longest = (0..part.len())
+        .filter(|&k| part[k].width() > 0.0)
+        .max_by(|one, other| extent(one).total_cmp(&extent(other)))?;
+    let middle = part[longest].middle();
+    let half = |from: f64, to: f64| {
+        let mut half = part.to_vec();
+        half[longest] = Interval::new(from, to)?;
+        Some(half)
+    };
+    Some([half(part[longest].lower(), middle)?, half(middle, part[longest].upper())?])
+}
+
+/// The modes of a box.
+fn presences(enclosed: &EnclosedModeProblem, result: &SearchResult, options: &SolveOptions) -> Searched {
+    let lists: StateLists = result.lists(options.most, 1);
+    if matches!(result.completeness, Completeness::Partial(_) | Completeness::Unexamined) || !lists.all_listed
+    {
+        return Err("the search was not completed".to_owned());
+    }
+    let mut modes = BTreeMap::new();
+    let mut add = |mode: Vec<ContactState>, certificate: &Certificate| {
+        let unknowns = certificate.unknowns().map(<[Interval]>::to_vec);
+        let tipping = match &unknowns {
+            Some(unknowns) => enclosed.tipping(&mode, unknowns),
+            None => Tipping::Open,
+        };
+        if tipping != Tipping::Always {
+            let proven = matches!(certificate, Certificate::Proven { .. });
+            modes.insert(mode, Presence { certain: proven && tipping == Tipping::Never, unknowns });
+        }
+    };
+    for solution in &lists.solutions {
+        add(pressed(&solution.pattern), &solution.certificate);
+    }
+    for gap in &lists.gaps {
+        add(gap.pattern.clone(), &gap.certificate);
+    }
+    for mode in &lists.singular {
+        add(mode.pattern.clone(), &mode.certificate);
+    }
+    for undecided in lists.undecided {
+        modes.entry(undecided.pattern).or_insert(Presence { certain: false, unknowns: undecided.unknowns });
+    }
+    Ok(modes)
+}
+
+/// Bounds of the signed normal forces; a `y_k` is not negative.
+fn forces(mode: &[ContactState], unknowns: &[Interval]) -> Vec<[f64; 2]> {
+    let one = |(state, y): (&ContactState, &Interval)| match state {
+        ContactState::Positive => [y.lower().max(0.0), y.upper().max(0.0)],
+        ContactState::Negative => [-y.upper().max(0.0), -y.lower().max(0.0)],
+        ContactState::Gap => [0.0, 0.0],
+    };
+    mode.iter().zip(unknowns).map(one).collect()
+}
+
+fn hull(one: &[[f64; 2]], other: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    one.iter().zip(other).map(|(a, b)| [a[0].min(b[0]), a[1].max(b[1])]).collect()
+}
+
+fn parameter(range: &ParameterRange) -> report::UncertainParameter {
+    report::UncertainParameter {
+        name: range.name.clone(),
+        from: range.from,
+        to: range.to,
+        value: range.middle,
+    }
+}
