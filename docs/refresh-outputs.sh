@@ -47,6 +47,7 @@ show klepp-two.txt 0 solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6
 show klepp-jam.txt 1 solve models/klepp-2002.toml --set F_20=0 --set direction=-1
 show klepp-boundary.txt 0 solve models/klepp-2002.toml --set F_20=0 --set direction=-1 --set "mu_1=1/tan(alpha)"
 show klepp-gap.txt 0 solve models/klepp-2002.toml --set F_20=0 --set "F_30=0.5*m*g" --set mu_1=0.24
+show klepp-range.txt 0 solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.4..0.6
 raw klepp-two.json solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format json
 raw klepp-two.csv solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format csv
 

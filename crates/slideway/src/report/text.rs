@@ -46,6 +46,7 @@ pub fn to_text(report: &Report, style: Style) -> String {
     let mut text = Text { report, style, out: String::new() };
     text.heading();
     text.verdict();
+    text.uncertainty();
     for (index, solution) in report.solutions.iter().enumerate() {
         let title = format!("Solution {} of {}", index + 1, report.solutions.len());
         text.solution(&title, solution);
@@ -54,7 +55,6 @@ pub fn to_text(report: &Report, style: Style) -> String {
         let title = format!("Preload gap {} of {}", index + 1, report.preload_gap_states.len());
         text.solution(&title, state);
     }
-    text.uncertainty();
     text.continua();
     text.undecided();
     text.rejected();

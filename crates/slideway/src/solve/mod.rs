@@ -108,7 +108,7 @@ pub fn solve_with(
         rounded: enclosed.as_ref().err(),
         most: options.most,
     })?;
-    report.uncertainty = answer.uncertainty(model, &ranges, options, progress)?;
+    report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
     Ok(report)
 }
 

@@ -8,7 +8,6 @@ use super::SolveOptions;
 use super::answer::Answer;
 use super::state::{pattern, pressed, signs};
 use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosure};
-use crate::fault::Faults;
 use crate::interval::Interval;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{Certificate, Completeness, ContactState, Progress, SearchResult, StateLists, search};
@@ -44,9 +43,9 @@ impl Answer<'_> {
         ranges: &[ParameterRange],
         options: &SolveOptions,
         progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
-    ) -> Result<Option<report::Uncertainty>, Faults> {
+    ) -> Option<report::Uncertainty> {
         if ranges.is_empty() {
-            return Ok(None);
+            return None;
         }
         let mut search_box = |values: &[Interval]| -> Searched {
             let named = ranges.iter().zip(values);
@@ -59,7 +58,7 @@ impl Answer<'_> {
             presences(&enclosed, &result, options)
         };
         let searched = subdivide(ranges, &mut search_box);
-        Ok(Some(self.summary(ranges, &searched)))
+        Some(self.summary(ranges, &searched))
     }
 
     fn summary(&self, ranges: &[ParameterRange], searched: &[Searched]) -> report::Uncertainty {

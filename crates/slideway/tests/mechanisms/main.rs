@@ -18,4 +18,5 @@ mod preload_gap;
 mod properties;
 mod symmetries;
 mod textbook;
+mod uncertainty;
 mod words;
