@@ -32,10 +32,13 @@ fn the_paper_s_number_of_solutions_for_ranges_of_friction() {
     assert_eq!(persistence(&across, "-++"), Persistence::SomeValues);
 }
 
+/// A parameter, its bounds, and their unit.
+type Range = (&'static str, f64, f64, &'static str);
+
 /// Every solution at values within the ranges is in the list, with its forces in the bounds.
 #[test]
 fn no_solution_at_any_value_is_missing() {
-    let ranges: [(&str, &[(&str, f64, f64, &str)]); 4] = [
+    let ranges: [(&str, &[Range]); 4] = [
         ("klepp-2002", &[("mu_1", 0.44, 0.5, ""), ("mu_2", 0.05, 0.15, "")]),
         ("klepp-2002", &[("F_20", 8.0, 11.0, "N"), ("P", -1.0, 1.0, "N")]),
         ("cam-follower", &[("mu", 0.2, 0.6, "")]),
