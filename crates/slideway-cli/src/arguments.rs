@@ -31,6 +31,7 @@ Examples:
   slideway models drawer > drawer.toml          write one of them to a file
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
+  slideway limits drawer.toml --vary mu         at which friction it jams
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -41,6 +42,9 @@ pub(crate) enum Command {
     /// Find all solutions of a mechanism in its state
     #[command(after_help = SOLVE_HELP)]
     Solve(SolveArguments),
+    /// Say for which friction, load or size each contact mode exists, and where it locks
+    #[command(after_help = LIMITS_HELP)]
+    Limits(LimitsArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = CHECK_HELP)]
     Check(CheckArguments),
@@ -75,6 +79,18 @@ Exit codes:
   1  no solution: friction locks the mechanism
   2  faulty input: the model, the settings, the files or the arguments
   3  unknown: nothing was found, but not every contact mode could be decided";
+
+const LIMITS_HELP: &str = "\
+Examples:
+  slideway limits klepp-2002.toml --vary mu_1=0..0.8
+  slideway limits klepp-2002.toml --vary mu_1 --set F_20=0 --both-directions
+  slideway limits drawer.toml --vary friction        all coefficients of friction together
+  slideway limits drawer.toml --vary L=\"0.2 m..0.5 m\"
+  slideway limits slider-crank.toml --vary phi=\"-80 deg..80 deg\"
+
+Exit codes:
+  0  done
+  2  faulty input: the model, the settings, the name or the range, the arguments";
 
 const CHECK_HELP: &str = "\
 Examples:
@@ -144,6 +160,40 @@ pub(crate) struct SolveArguments {
 
     #[command(flatten)]
     pub(crate) destination: Destination,
+}
+
+/// Arguments of `slideway limits`.
+#[derive(Debug, Args)]
+pub(crate) struct LimitsArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// What to vary: a parameter, a coordinate, or `friction` for the factor of all coefficients of friction.
+    #[arg(long, value_name = "NAME[=FROM..TO]")]
+    pub(crate) vary: String,
+
+    /// Look at motion in the opposite direction, too.
+    #[arg(long)]
+    pub(crate) both_directions: bool,
+
+    /// Modes end where a normal force exceeds this (N).
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub(crate) max_reaction: Option<f64>,
+
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+/// A positive number.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        _ => Err("it must be a positive number".to_owned()),
+    }
 }
 
 /// Arguments of `slideway check`.

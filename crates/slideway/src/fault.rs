@@ -228,6 +228,16 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error("`{text}` is no value or range of {name}")]
+    MalformedRange { text: String, name: String },
+    #[error("{what} needs a range: {name}=FROM..TO")]
+    RangeNeeded { what: String, name: String },
+    #[error("the range of {what} is empty: it begins and ends at {from}")]
+    EmptyRange { what: String, from: f64 },
+    #[error("nothing in the mode problem depends on {what} between {from} and {to}")]
+    NothingVaries { what: String, from: f64, to: f64 },
+    #[error("{contacts} contacts have more contact modes than the {limit} whose limits are computed")]
+    TooManyModes { contacts: usize, limit: u64 },
     #[error("the range of {what} is reversed: it goes from {from} down to {to}")]
     ReversedRange { what: String, from: f64, to: f64 },
     #[error("{what} is not a finite number")]

@@ -27,6 +27,7 @@ pub mod ids;
 pub mod influence;
 pub mod interval;
 pub mod kinetics;
+pub mod limits;
 pub mod mechanism;
 pub mod model;
 pub mod modes;

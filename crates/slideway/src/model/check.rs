@@ -1,7 +1,7 @@
 //! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
 //! relations between values, and how its parts are connected.
 
-use super::{Along, BODY_LIMIT, JointKind, LoadKind, Model, NamedPoint, Slider};
+use super::{Along, BODY_LIMIT, Formula, JointKind, LoadKind, Model, NamedPoint, Slider};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
@@ -75,6 +75,25 @@ impl Model {
     /// The values of the parameters among those of all formulas.
     pub fn parameter_values<T: Real>(&self, constants: &[T]) -> Vec<T> {
         self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
+    }
+
+    /// Whether some coefficient of friction is this parameter, or computed from it.
+    pub fn is_friction_coefficient(&self, parameter: &str) -> bool {
+        let Some(wanted) = self.parameters.iter().position(|other| &*other.name == parameter) else {
+            return false;
+        };
+        let sliders = self.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => Some(slider),
+            JointKind::Hinge(_) => None,
+        });
+        let contacts = sliders.flat_map(|slider| &slider.contacts);
+        contacts.flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
+    }
+
+    /// Whether a formula uses a parameter, by way of others if need be; there are no circles.
+    fn uses(&self, formula: FormulaId, wanted: usize) -> bool {
+        self.used_parameters(formula)
+            .any(|used| used == wanted || self.uses(self.parameters[used].value, wanted))
     }
 
     fn used_parameters(&self, formula: FormulaId) -> impl Iterator<Item = usize> + '_ {
@@ -163,15 +182,24 @@ impl Model {
     fn check_dimensions(&self, faults: &mut Faults) {
         let inferred = self.inferred_parameters();
         let of = |symbol| self.inferred(symbol, &inferred);
-        let name = |symbol| match symbol {
+        for (index, formula) in self.formulas.iter().enumerate().filter(|(_, formula)| !formula.broken) {
+            let found = formula.check(&of, &|symbol| self.symbol_name(symbol));
+            faults.extend(found.into_iter().map(|fault| self.blame_setting(FormulaId(index), fault)));
+        }
+    }
+
+    /// Every way in which a formula that is not in the model is not what is wanted.
+    pub(super) fn check_formula(&self, formula: &Formula) -> Vec<Fault> {
+        let inferred = self.inferred_parameters();
+        formula.check(&|symbol| self.inferred(symbol, &inferred), &|symbol| self.symbol_name(symbol))
+    }
+
+    fn symbol_name(&self, symbol: Symbol) -> String {
+        match symbol {
             Symbol::Parameter(index) => self.parameters[index].name.to_string(),
             Symbol::Coordinate(index) => self.coordinates[index].name.to_string(),
             Symbol::Rate(index) => format!("rate({})", self.coordinates[index].name),
             Symbol::Time => "t".to_owned(),
-        };
-        for (index, formula) in self.formulas.iter().enumerate().filter(|(_, formula)| !formula.broken) {
-            let found = formula.check(&of, &name);
-            faults.extend(found.into_iter().map(|fault| self.blame_setting(FormulaId(index), fault)));
         }
     }
 

@@ -159,6 +159,30 @@ impl Model {
         Ok(())
     }
 
+    /// The value that a parameter or coordinate would have by a setting (SI units), whether or not the model makes sense
+    /// with it.
+    ///
+    /// # Errors
+    /// An expression that cannot be read or has no value, or one of another dimension than it has now.
+    pub fn setting_value(&self, setting: &Setting) -> Result<f64, Faults> {
+        let (parameters, coordinates) = (&self.parameters, &self.coordinates);
+        let wanted = match setting.kind {
+            SettingKind::Parameter => {
+                let index = parameters.iter().position(|parameter| *parameter.name == *setting.name);
+                index.and_then(|index| self.parameter_dimension(index))
+            }
+            _ => {
+                let coordinate = coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
+                coordinate.map(|found| dimension_of(found, setting.kind == SettingKind::Position))
+            }
+        };
+        let formula = self.setting_formula(setting, Source::Setting(0), wanted)?;
+        let mut faults = Faults::default();
+        faults.extend(self.check_formula(&formula));
+        faults.or(())?;
+        Ok(formula.constant(&self.parameter_values(&self.constants()?))?)
+    }
+
     fn setting_formula(
         &self,
         setting: &Setting,

@@ -13,6 +13,7 @@ mod gallery;
 mod gallery_frictionless;
 mod guided_slider;
 mod klepp_2002;
+mod limits;
 mod loads;
 mod preload_gap;
 mod properties;

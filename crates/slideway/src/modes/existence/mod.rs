@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::problem::{BySide, ModeProblem, Side};
 use super::solutions::ContactState;
-use line::{Cause, Condition, End, Extent, Line, Part};
+use line::{Cause, Condition, End, Extent, Line, Part, Value};
 
 pub use counts::{CountInterval, counts};
 pub use line::Limit;
@@ -82,6 +82,23 @@ pub enum EndCause {
     OutputBound(Vec<usize>),
     /// These contacts reach [`ExistenceOptions::greatest_normal_force`].
     GreatestNormalForce(Vec<usize>),
+    /// Beyond it there is no mode problem; only where the numbers do not depend linearly on the parameter.
+    NoProblem,
+}
+
+impl EndCause {
+    /// Whether all that this names is named by another cause of the same kind.
+    fn is_part_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::SideChange(part), Self::SideChange(all))
+            | (Self::GapCloses(part), Self::GapCloses(all))
+            | (Self::OutputBound(part), Self::OutputBound(all))
+            | (Self::GreatestNormalForce(part), Self::GreatestNormalForce(all)) => {
+                part.iter().all(|one| all.contains(one))
+            }
+            _ => false,
+        }
+    }
 }
 
 /// An end of an interval in which a mode exists.
@@ -199,6 +216,65 @@ impl ModeProblemLine {
         Ok(existence)
     }
 
+    /// The patterns that have a solution at one parameter, in the order of enumeration.
+    ///
+    /// # Errors
+    /// [`TooManyModes`] if there are more patterns than the options allow.
+    pub fn present(
+        &self,
+        at: f64,
+        options: &ExistenceOptions,
+    ) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
+        let mut patterns = self.patterns(options.patterns)?;
+        patterns.retain(|pattern| self.exists(pattern, at, options));
+        Ok(patterns)
+    }
+
+    /// Whether a pattern has a solution at one parameter; boundaries count.
+    pub fn exists(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> bool {
+        let mode = self.mode(pattern, options);
+        mode.line.solution(at).is_some_and(|unknowns| mode.violated(&unknowns).is_empty())
+    }
+
+    /// Why a pattern that has a solution here has none in a problem close by, both at `t = 0`; none where its
+    /// determinant changes its sign between them.
+    pub fn cause(
+        &self,
+        beyond: &Self,
+        pattern: &[ContactState],
+        options: &ExistenceOptions,
+    ) -> Option<EndCause> {
+        let (here, there) = (self.mode(pattern, options), beyond.mode(pattern, options));
+        let determinant = |mode: &Mode<'_>| mode.line.matrix_at(0.0).determinant();
+        if determinant(&here) * determinant(&there) <= 0.0 {
+            return None;
+        }
+        let violated = there.violated(&there.line.solution(0.0)?);
+        (!violated.is_empty()).then(|| there.cause(&Cause::Conditions(violated)))
+    }
+
+    /// What vanishes where a mode ends for this reason, positive where the mode exists but for the sign of a determinant;
+    /// none where its equations are singular.
+    pub fn slack(
+        &self,
+        pattern: &[ContactState],
+        cause: &EndCause,
+        options: &ExistenceOptions,
+    ) -> Option<f64> {
+        let mode = self.mode(pattern, options);
+        if *cause == EndCause::Locking {
+            return Some(mode.line.matrix_at(0.0).determinant());
+        }
+        let unknowns = mode.line.solution(0.0)?;
+        let concerned = (0..mode.conditions.len())
+            .filter(|&index| mode.cause(&Cause::Conditions(vec![index])).is_part_of(cause));
+        let value = |index: usize| {
+            let condition = &mode.conditions[index];
+            condition.times(unknowns.as_slice()) + condition.offset
+        };
+        concerned.map(value).reduce(f64::min)
+    }
+
     /// All patterns in the order of enumeration: the first contact varies slowest.
     fn patterns(&self, limit: u64) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
         let with_jump = self.has_jump.iter().filter(|&&jump| jump).count();
@@ -300,6 +376,17 @@ struct Mode<'p> {
 const NONE: (usize, f64) = (0, 0.0);
 
 impl Mode<'_> {
+    /// The conditions that a solution contradicts.
+    fn violated(&self, unknowns: &DVector<f64>) -> Vec<usize> {
+        let contradicts = |&index: &usize| {
+            let condition = &self.conditions[index];
+            let value = condition.times(unknowns.as_slice()) + condition.offset;
+            let magnitude = condition.magnitude(unknowns.as_slice()) + condition.offset.abs();
+            !Value { value, magnitude: magnitude.max(unknowns.amax()) }.is_met()
+        };
+        (0..self.conditions.len()).filter(contradicts).collect()
+    }
+
     /// Adds the condition `weights . z + offset >= 0`.
     fn require(&mut self, weights: [(usize, f64); 2], offset: f64, meaning: Meaning) {
         self.conditions.push(Condition { weights, offset });

@@ -1,0 +1,180 @@
+//! The mode problem of a model in numbers, with the couples of its guided sliders.
+
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::JointId;
+use crate::influence::Influence;
+use crate::kinetics::{KineticEquations, Reaction};
+use crate::mechanism::{JointKind, Mechanism};
+use crate::model::{Model, PreloadLine, SliderKind};
+use crate::modes::existence::{ModeProblemLine, OutputBound};
+use crate::modes::{BySide, ModeProblem, Side};
+use crate::solve::{check_size, mode_problem, velocity_signs};
+use nalgebra::{DMatrix, DVector};
+
+/// Numbers that differ by less than this share of the largest are the same.
+const SAME: f64 = 1e-10;
+
+/// Columns, jumps and right-hand side of eq. (6); below them those of the couples of guided sliders.
+#[derive(Debug, Clone)]
+pub(super) struct Parts {
+    columns: BySide<DMatrix<f64>>,
+    jumps: BySide<DMatrix<f64>>,
+    right_hand_side: DVector<f64>,
+    bounds: Vec<OutputBound>,
+    has_jump: Vec<bool>,
+}
+
+/// A model in its state, ready for its mode problem.
+pub(super) struct Stages {
+    pub(super) mechanism: Mechanism,
+    pub(super) configuration: Configuration,
+    influence: Influence,
+    velocity_signs: DVector<f64>,
+}
+
+impl Stages {
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(super) fn new(model: &Model) -> Result<Self, Faults> {
+        let mechanism = Mechanism::new(model)?;
+        check_size(&mechanism)?;
+        let configuration = Configuration::new(&mechanism)?;
+        let equations = KineticEquations::new(&mechanism, &configuration)?;
+        let influence = Influence::new(&equations);
+        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
+        Ok(Self { mechanism, configuration, influence, velocity_signs })
+    }
+
+    /// The mode problem with every coefficient of friction multiplied by a factor.
+    ///
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point.
+    pub(super) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
+        let mut mechanism = self.mechanism.clone();
+        for contact in &mut mechanism.contacts {
+            contact.mu = contact.mu.map(|mu| mu * friction);
+        }
+        let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
+        Ok(Parts::new(&mechanism, &self.influence, &self.velocity_signs, &problem))
+    }
+}
+
+impl Parts {
+    fn new(
+        mechanism: &Mechanism,
+        influence: &Influence,
+        velocity_signs: &DVector<f64>,
+        problem: &ModeProblem,
+    ) -> Self {
+        let contacts = problem.contacts();
+        let couples = couples(mechanism, influence);
+        let rows = contacts + couples.len();
+        let extended = |upper: &DMatrix<f64>, below: &dyn Fn(usize, usize) -> f64| {
+            DMatrix::from_fn(rows, contacts, |row, k| {
+                if row < contacts { upper[(row, k)] } else { below(couples[row - contacts].1, k) }
+            })
+        };
+        // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
+        let side = |side: Side| {
+            let face = usize::from(side == Side::Negative);
+            let gamma = |row: usize, k: usize| influence.columns[k][face][row];
+            let columns = extended(problem.columns(side), &|row, k| {
+                -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k]
+            });
+            let jumps = extended(problem.jumps(side), &|row, k| {
+                let contact = &mechanism.contacts[k];
+                let gamma = match contact.preload_line {
+                    PreloadLine::Pressed => gamma(row, k),
+                    PreloadLine::Centre => {
+                        f64::midpoint(influence.columns[k][0][row], influence.columns[k][1][row])
+                    }
+                };
+                gamma * contact.preload[face] * velocity_signs[k]
+            });
+            (columns, jumps)
+        };
+        let ((cp, dp), (cn, dn)) = (side(Side::Positive), side(Side::Negative));
+        let right_hand_side = DVector::from_fn(rows, |row, _| {
+            if row < contacts {
+                problem.right_hand_side()[row]
+            } else {
+                influence.frictionless[couples[row - contacts].1]
+            }
+        });
+        Self {
+            columns: BySide { positive: cp, negative: cn },
+            jumps: BySide { positive: dp, negative: dn },
+            right_hand_side,
+            bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
+            has_jump: (0..contacts).map(|contact| problem.has_jump(contact)).collect(),
+        }
+    }
+
+    /// The line of problems from this one at `t = 0` to another one at `t = 1`.
+    pub(super) fn line_to(&self, end: &Self) -> ModeProblemLine {
+        let between = |one: &BySide<DMatrix<f64>>, other: &BySide<DMatrix<f64>>| {
+            let slope = BySide {
+                positive: without_rounding(&other.positive - &one.positive, &one.positive),
+                negative: without_rounding(&other.negative - &one.negative, &one.negative),
+            };
+            [one.clone(), slope]
+        };
+        let load = &end.right_hand_side - &self.right_hand_side;
+        let slope = if load.amax() <= SAME * self.right_hand_side.amax() { load * 0.0 } else { load };
+        ModeProblemLine {
+            columns: between(&self.columns, &end.columns),
+            jumps: between(&self.jumps, &end.jumps),
+            right_hand_side: [self.right_hand_side.clone(), slope],
+            bounds: self.bounds.clone(),
+            has_jump: self.has_jump.iter().zip(&end.has_jump).map(|(one, other)| *one || *other).collect(),
+        }
+    }
+
+    /// Whether these numbers are those at `t` on the line from `start` to `end`.
+    pub(super) fn is_between(&self, start: &Self, end: &Self, t: f64) -> bool {
+        let matrix = |part: fn(&Self) -> &DMatrix<f64>| {
+            let middle = part(start) * (1.0 - t) + part(end) * t;
+            (part(self) - middle).amax() <= SAME * part(start).amax().max(part(end).amax())
+        };
+        let load = &start.right_hand_side * (1.0 - t) + &end.right_hand_side * t;
+        let scale = start.right_hand_side.amax().max(end.right_hand_side.amax());
+        matrix(|parts| &parts.columns.positive)
+            && matrix(|parts| &parts.columns.negative)
+            && matrix(|parts| &parts.jumps.positive)
+            && matrix(|parts| &parts.jumps.negative)
+            && (&self.right_hand_side - load).amax() <= SAME * scale
+            && self.bounds == start.bounds
+            && self.bounds == end.bounds
+    }
+
+    /// Whether these are the same numbers.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.is_between(other, other, 0.0)
+    }
+}
+
+/// Columns that change by no more than rounding do not change.
+fn without_rounding(mut slope: DMatrix<f64>, start: &DMatrix<f64>) -> DMatrix<f64> {
+    for (column, mut change) in slope.column_iter_mut().enumerate() {
+        if change.amax() <= SAME * start.column(column).amax() {
+            change.fill(0.0);
+        }
+    }
+    slope
+}
+
+/// The bound of each guided slider's couple, and its row among the unknowns.
+fn couples(mechanism: &Mechanism, influence: &Influence) -> Vec<(OutputBound, usize)> {
+    let mut couples = Vec::new();
+    for (index, joint) in mechanism.joints.iter().enumerate() {
+        let JointKind::Slider(slider) = &joint.kind else { continue };
+        let row = influence.layout().reaction(Reaction::Couple(JointId(index)));
+        if let (SliderKind::Guided, Some(row), Some(contact)) = (slider.kind, row, slider.contacts.first()) {
+            let bound =
+                OutputBound { output: couples.len(), contact: contact.index(), factor: slider.length / 2.0 };
+            couples.push((bound, row));
+        }
+    }
+    couples
+}

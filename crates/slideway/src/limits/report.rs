@@ -1,0 +1,291 @@
+//! What is told of limits: plain data, which are the JSON output.
+
+use super::conclusion::conclusion;
+use super::varied::Varied;
+use super::{Found, STEPS};
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::JointId;
+use crate::mechanism::{JointKind, Mechanism, Slider};
+use crate::model::Model;
+use crate::modes::ContactState;
+use crate::modes::existence::{EndCause, Limit, ModeEnd, ModeInterval};
+use crate::report::{JointMode, indented_json};
+use crate::solve::mode_in_words;
+use serde::Serialize;
+
+/// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/limits/1";
+
+/// For which values each mode exists.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LimitsReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// The title of the model.
+    pub title: Option<String>,
+    /// What is varied.
+    pub vary: VariedQuantity,
+    /// "closed form" or "bracketing".
+    pub method: &'static str,
+    /// What the method can miss, in words.
+    pub guarantee: String,
+    /// The modes in the direction of the model's rates.
+    pub modes: Vec<ModeLimits>,
+    /// Numbers of solutions in that direction.
+    pub counts: Vec<CountLimits>,
+    /// Ranges in which the mechanism cannot be assembled or solved, in that direction.
+    pub without_mode_problem: Vec<[f64; 2]>,
+    /// The opposite direction, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reversed: Option<Direction>,
+    /// What it comes to, in words.
+    pub conclusion: Vec<String>,
+}
+
+/// What is varied, in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VariedQuantity {
+    /// Its name.
+    pub name: String,
+    /// Where the range begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Its value in the model.
+    pub value: f64,
+}
+
+/// The modes of the opposite direction of motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Direction {
+    /// The modes.
+    pub modes: Vec<ModeLimits>,
+    /// Numbers of solutions.
+    pub counts: Vec<CountLimits>,
+    /// Ranges in which the mechanism cannot be assembled or solved.
+    pub without_mode_problem: Vec<[f64; 2]>,
+}
+
+/// An interval in which a mode has a solution.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModeLimits {
+    /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
+    pub pattern: String,
+    /// The same as numbers.
+    pub signs: Vec<i8>,
+    /// Whether a contact rests in its preload gap.
+    pub preload_gap: bool,
+    /// The contact mode of each sliding joint, as the mechanism lies in the model's state.
+    pub joints: Vec<JointMode>,
+    /// Where it begins.
+    pub from: Option<f64>,
+    /// Where it ends.
+    pub to: Option<f64>,
+    /// Why it begins there: "range", "locking", "side_change", "gap_closes", "tipping", "greatest_reaction" or
+    /// "no_mode_problem".
+    pub from_is: &'static str,
+    /// Why it ends there, likewise.
+    pub to_is: &'static str,
+    /// The contacts or guided sliders that begin it.
+    pub from_at: Vec<String>,
+    /// The contacts or guided sliders that end it.
+    pub to_at: Vec<String>,
+    /// What the normal force of each contact does towards both ends.
+    pub reactions: Vec<EndReaction>,
+}
+
+/// What a normal force does towards both ends of an interval.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EndReaction {
+    /// The contact.
+    pub contact: String,
+    /// Its limit towards the beginning (N); null where it grows without bound or was not computed.
+    pub from: Option<f64>,
+    /// Its limit towards the end, likewise.
+    pub to: Option<f64>,
+    /// 1 or -1 where it grows without bound towards the beginning with this sign, else 0.
+    pub from_grows: i8,
+    /// The same towards the end.
+    pub to_grows: i8,
+}
+
+/// An interval with the same number of solutions throughout.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CountLimits {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Number of solutions.
+    pub solutions: usize,
+    /// Number of preload-gap states, which are counted apart.
+    pub preload_gap_states: usize,
+}
+
+/// The report as indented JSON.
+pub fn to_json(report: &LimitsReport) -> String {
+    indented_json(report)
+}
+
+/// The names of a mechanism's parts, and how its guides lie.
+pub(super) struct Naming {
+    mechanism: Mechanism,
+    configuration: Configuration,
+}
+
+impl Naming {
+    /// # Errors
+    /// A model that cannot be assembled in its state.
+    pub(super) fn new(model: &Model) -> Result<Self, Faults> {
+        let mechanism = Mechanism::new(model)?;
+        let configuration = Configuration::new(&mechanism)?;
+        Ok(Self { mechanism, configuration })
+    }
+
+    fn joint_modes(&self, signs: &[i8]) -> Vec<JointMode> {
+        let one = |(_, name, slider): (JointId, &str, &Slider)| {
+            let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
+            let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
+            JointMode { name: name.to_owned(), mode: mode_in_words(slider, tangent, &signs) }
+        };
+        self.sliders().map(one).collect()
+    }
+
+    fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
+        self.mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
+            JointKind::Slider(slider) => Some((JointId(index), &*joint.name, slider)),
+            JointKind::Hinge(_) => None,
+        })
+    }
+
+    fn contacts(&self, contacts: &[usize]) -> Vec<String> {
+        contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
+    }
+
+    /// The guided sliders with these bounds, which are numbered in the order of the joints.
+    fn guided(&self, bounds: &[usize]) -> Vec<String> {
+        let guided = self.sliders().filter(|(_, _, slider)| slider.kind == crate::model::SliderKind::Guided);
+        let names: Vec<&str> = guided.map(|(_, name, _)| name).collect();
+        bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
+    }
+
+    fn mode(&self, mode: &ModeInterval) -> ModeLimits {
+        let signs: Vec<i8> = mode.pattern.iter().map(|state| sign(*state)).collect();
+        let (from_is, from_at) = self.cause(&mode.from.cause);
+        let (to_is, to_at) = self.cause(&mode.to.cause);
+        let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
+            let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
+            EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
+        };
+        ModeLimits {
+            pattern: mode.pattern.iter().map(|state| character(*state)).collect(),
+            preload_gap: mode.pattern.contains(&ContactState::Gap),
+            joints: self.joint_modes(&signs),
+            signs,
+            from: finite(mode.from.at),
+            to: finite(mode.to.at),
+            from_is,
+            to_is,
+            from_at,
+            to_at,
+            reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
+        }
+    }
+
+    fn cause(&self, cause: &EndCause) -> (&'static str, Vec<String>) {
+        match cause {
+            EndCause::Range => ("range", Vec::new()),
+            EndCause::Locking => ("locking", Vec::new()),
+            EndCause::SideChange(contacts) => ("side_change", self.contacts(contacts)),
+            EndCause::GapCloses(contacts) => ("gap_closes", self.contacts(contacts)),
+            EndCause::OutputBound(bounds) => ("tipping", self.guided(bounds)),
+            EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", self.contacts(contacts)),
+            EndCause::NoProblem => ("no_mode_problem", Vec::new()),
+        }
+    }
+
+    fn direction(&self, found: &Found) -> Direction {
+        let count = |interval: &crate::modes::existence::CountInterval| CountLimits {
+            from: interval.from,
+            to: interval.to,
+            solutions: interval.solutions,
+            preload_gap_states: interval.gap_states,
+        };
+        Direction {
+            modes: found.existence.modes.iter().map(|mode| self.mode(mode)).collect(),
+            counts: found.counts.iter().map(count).collect(),
+            without_mode_problem: found.gaps.clone(),
+        }
+    }
+}
+
+/// The report on both directions, of which the opposite one may be absent.
+pub(super) fn report(
+    naming: &Naming,
+    varied: &Varied,
+    range: [f64; 2],
+    (found, reversed): (&Found, Option<&Found>),
+) -> LimitsReport {
+    let forwards = naming.direction(found);
+    let reversed = reversed.map(|found| naming.direction(found));
+    let conclusion = conclusion(&varied.name, &forwards, reversed.as_ref());
+    let value = varied.present().unwrap_or_default();
+    let mut guarantee = if found.is_linear {
+        "The mode problem depends linearly on it: all ends are zeros of determinants, and none is missed."
+            .to_owned()
+    } else {
+        let step = (range[1] - range[0]) / STEPS as f64;
+        format!(
+            "{} evenly spaced values were tried, and what changes between them was bisected to machine precision: a mode that comes and goes within a step of {step:.3e} may be missed.",
+            STEPS + 1
+        )
+    };
+    let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
+    if left_out > 0 {
+        guarantee += &format!(
+            " {left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
+        );
+    }
+    LimitsReport {
+        schema: SCHEMA,
+        title: naming.mechanism.title.clone(),
+        vary: VariedQuantity { name: varied.name.clone(), from: range[0], to: range[1], value },
+        method: if found.is_linear { "closed form" } else { "bracketing" },
+        guarantee,
+        modes: forwards.modes,
+        counts: forwards.counts,
+        without_mode_problem: forwards.without_mode_problem,
+        reversed,
+        conclusion,
+    }
+}
+
+fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {
+    match end.normal_force.as_ref().and_then(|force| force.get(contact)) {
+        // Adding zero turns -0 into 0.
+        Some(Limit::Finite(value)) => (finite(value + 0.0), 0),
+        Some(Limit::Infinite(sign)) => (None, if *sign > 0.0 { 1 } else { -1 }),
+        None => (None, 0),
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+fn sign(state: ContactState) -> i8 {
+    match state {
+        ContactState::Positive => 1,
+        ContactState::Negative => -1,
+        ContactState::Gap => 0,
+    }
+}
+
+fn character(state: ContactState) -> char {
+    match state {
+        ContactState::Positive => '+',
+        ContactState::Negative => '-',
+        ContactState::Gap => '0',
+    }
+}

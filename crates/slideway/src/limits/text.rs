@@ -1,0 +1,114 @@
+//! Limits as text for people.
+
+use super::conclusion::precise;
+use super::report::{CountLimits, LimitsReport, ModeLimits};
+use crate::report::Style;
+use crate::report::number::number;
+use crate::report::table::table;
+use std::fmt::Write;
+
+/// The report as text: what it comes to, the modes, the numbers of solutions.
+pub fn to_text(report: &LimitsReport, style: Style) -> String {
+    let mut out = String::new();
+    if let Some(title) = &report.title {
+        line(&mut out, &style.heading(title));
+    }
+    let vary = &report.vary;
+    line(
+        &mut out,
+        &format!(
+            "{} from {} to {} (in the model {})",
+            vary.name,
+            precise(vary.from),
+            precise(vary.to),
+            precise(vary.value)
+        ),
+    );
+    line(&mut out, "");
+    for sentence in &report.conclusion {
+        line(&mut out, &style.heading(sentence));
+    }
+    line(&mut out, &report.guarantee);
+    direction(&mut out, style, "", (&report.modes, &report.counts, &report.without_mode_problem));
+    if let Some(reversed) = &report.reversed {
+        let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
+        direction(&mut out, style, ", moving the other way", parts);
+    }
+    out
+}
+
+fn direction(
+    out: &mut String,
+    style: Style,
+    which: &str,
+    (modes, counts, gaps): (&[ModeLimits], &[CountLimits], &[[f64; 2]]),
+) {
+    line(out, "");
+    line(out, &style.heading(&format!("Contact modes{which}")));
+    let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
+    out.push_str(&table(&["signs", "from", "to", "begins with", "ends with", "contact mode"], &rows, 1));
+    line(out, "");
+    line(out, &style.heading(&format!("Number of solutions{which}")));
+    let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
+    out.push_str(&table(&["from", "to", "solutions", "preload gaps"], &rows, 0));
+    for [from, to] in gaps {
+        line(
+            out,
+            &format!(
+                "  From {} to {} the mechanism cannot be assembled or solved.",
+                precise(*from),
+                precise(*to)
+            ),
+        );
+    }
+}
+
+fn mode_row(mode: &ModeLimits) -> Vec<String> {
+    let words: Vec<String> =
+        mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
+    vec![
+        spaced(&mode.pattern),
+        mode.from.map_or("infinity".to_owned(), precise),
+        mode.to.map_or("infinity".to_owned(), precise),
+        cause(mode.from_is, &mode.from_at, mode.reactions.iter().map(|r| (&*r.contact, r.from_grows))),
+        cause(mode.to_is, &mode.to_at, mode.reactions.iter().map(|r| (&*r.contact, r.to_grows))),
+        words.join("; "),
+    ]
+}
+
+/// Why a mode begins or ends, in words.
+fn cause<'r>(is: &str, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>) -> String {
+    let at = at.join(", ");
+    match is {
+        "range" => "the range".to_owned(),
+        "locking" => {
+            let growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
+            match growing.as_slice() {
+                [] => "locking".to_owned(),
+                list => format!("locking: {} without bound", list.join(", ")),
+            }
+        }
+        "side_change" => format!("{at} changes side"),
+        "gap_closes" => format!("the gap of {at} closes"),
+        "tipping" => format!("{at} tips"),
+        "greatest_reaction" => format!("{at} at the greatest reaction"),
+        _ => "no position".to_owned(),
+    }
+}
+
+fn count_row(count: &CountLimits) -> Vec<String> {
+    let gaps =
+        if count.preload_gap_states == 0 { String::new() } else { count.preload_gap_states.to_string() };
+    vec![precise(count.from), precise(count.to), number(count.solutions as f64), gaps]
+}
+
+fn line(out: &mut String, text: &str) {
+    // Writing to a text cannot fail.
+    let _ = writeln!(out, "{text}");
+}
+
+/// "+-+" as "+ - +".
+fn spaced(pattern: &str) -> String {
+    let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();
+    signs.join(" ")
+}
