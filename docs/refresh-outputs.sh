@@ -48,6 +48,9 @@ show klepp-jam.txt 1 solve models/klepp-2002.toml --set F_20=0 --set direction=-
 show klepp-boundary.txt 0 solve models/klepp-2002.toml --set F_20=0 --set direction=-1 --set "mu_1=1/tan(alpha)"
 show klepp-gap.txt 0 solve models/klepp-2002.toml --set F_20=0 --set "F_30=0.5*m*g" --set mu_1=0.24
 show klepp-range.txt 0 solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.4..0.6
+show limits-klepp.txt 0 limits models/klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions
+show limits-klepp-preload.txt 0 limits models/klepp-2002.toml --vary mu_1=0..0.8
+show limits-drawer-length.txt 0 limits models/drawer.toml --set mu=0.6 --vary "L=0.2 m..0.5 m"
 raw klepp-two.json solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format json
 raw klepp-two.csv solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format csv
 
@@ -71,6 +74,7 @@ show telescopic-boom.txt 0 solve models/telescopic-boom.toml
 # The command line.
 show help.txt 0 --help
 show help-solve.txt 0 solve --help
+show help-limits.txt 0 limits --help
 show help-modes.txt 0 modes --help
 show check-klepp.txt 0 check models/klepp-2002.toml
 show check-bracket.txt 2 check models/bracket-on-pole.toml

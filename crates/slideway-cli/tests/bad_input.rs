@@ -75,6 +75,17 @@ refused! {
 }
 
 #[test]
+fn limits_of_what_makes_no_sense() {
+    let vary = |vary: &str| {
+        let run = slideway(&["limits", "models/klepp-2002.toml", "--vary", vary]);
+        assert_eq!(run.code, 2, "{vary}");
+        run.stderr
+    };
+    let all: Vec<String> = ["mu_4", "mu_1=0.8..0.1", "mu_1=0.3..0.3", "alpha", "mu_1=0.3"].map(vary).into();
+    insta::assert_snapshot!(all.join("\n"));
+}
+
+#[test]
 fn settings_and_model_together() {
     let run = slideway(&["solve", "crates/slideway-cli/tests/bad/zero-mass.toml", "--set", "mu"]);
     assert_eq!(run.code, 2);

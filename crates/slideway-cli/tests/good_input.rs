@@ -29,6 +29,10 @@ golden! {
     preload_gap: 0 ["solve", KLEPP, "--set", "mu_1=0.24", "--set", "F_30=0.5*m*g", "--set", "F_20=0"];
     driven_drawer: 0 ["solve", "models/drawer.toml"];
     csv: 0 ["solve", "models/drawer.toml", "--format", "csv"];
+    range_of_friction: 0 ["solve", KLEPP, "--set", "F_20=0", "--set", "mu_1=0.4..0.6"];
+    limits_klepp: 0 ["limits", KLEPP, "--vary", "mu_1=0..0.8", "--set", "F_20=0", "--both-directions"];
+    limits_length: 0 ["limits", "models/drawer.toml", "--vary", "L=0.2 m..0.5 m", "--set", "mu=0.6"];
+    help_of_limits: 0 ["limits", "-h"];
     check_drawer: 0 ["check", "models/drawer.toml"];
     check_bracket: 2 ["check", "models/bracket-on-pole.toml"];
     check_bracket_json: 2 ["check", "models/bracket-on-pole.toml", "--format", "json"];
@@ -45,6 +49,19 @@ golden! {
 fn json(arguments: &[&str]) -> (i32, Value) {
     let run = slideway(arguments);
     (run.code, serde_json::from_str(&run.stdout).unwrap())
+}
+
+#[test]
+fn json_of_limits_has_the_fields_that_are_promised() {
+    let (code, report) = json(&["limits", KLEPP, "--vary", "mu_1=0..0.8", "--format", "json"]);
+    assert_eq!((code, &report["schema"]), (0, &Value::from("slideway/limits/1")));
+    let modes = report["modes"].as_array().unwrap();
+    assert!(
+        modes.iter().all(|mode| mode["signs"].is_array() && mode["from"].is_f64() && mode["to"].is_f64())
+    );
+    let counts = report["counts"].as_array().unwrap();
+    let solutions: Vec<u64> = counts.iter().map(|count| count["solutions"].as_u64().unwrap()).collect();
+    assert_eq!(solutions, [1, 2, 3]);
 }
 
 #[test]
