@@ -122,6 +122,25 @@ fn up_to_infinity() -> Result<(), Box<dyn Error>> {
     assert!(first.to.normal_force.as_deref().ok_or("limits")?.iter().all(finite));
     assert!((second.from.at - 0.452_653_96).abs() < 1e-8);
     assert_eq!(second.from.cause, EndCause::Locking);
+    let counts: Vec<(f64, usize)> = counts(&line, &existence, [0.1, f64::INFINITY])
+        .iter()
+        .map(|interval| (interval.to, interval.solutions))
+        .collect();
+    assert_eq!(counts.iter().map(|count| count.1).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(counts[1].0, f64::INFINITY);
+    Ok(())
+}
+
+#[test]
+fn nothing_is_left_up_to_infinity_beyond_locking() -> Result<(), Box<dyn Error>> {
+    let line = paper([0.0; 3], -1.0)?;
+    let existence = line.existence(&options(0.3, f64::INFINITY))?;
+    let counts = counts(&line, &existence, [0.3, f64::INFINITY]);
+    assert_eq!(counts.iter().map(|count| count.solutions).collect::<Vec<_>>(), [1, 0]);
+    // Uniqueness for every load is lost at 2 cot(alpha) - 0.1 already.
+    let lost = line.first_locking(ALL)?.ok_or("a determinant vanishes")?.0;
+    let cotangent = reference()?.parameters.alpha_deg.to_radians().tan().recip();
+    assert!((lost - (2.0 * cotangent - 0.1)).abs() < 1e-12);
     Ok(())
 }
 

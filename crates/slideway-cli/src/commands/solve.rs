@@ -15,7 +15,11 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     arguments.model.spare(&arguments.destination)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = SolveOptions { search: arguments.search.options(), most: arguments.search.max_solutions };
+    let options = SolveOptions {
+        search: arguments.search.options(),
+        most: arguments.search.max_solutions,
+        ..SolveOptions::default()
+    };
     let mut watch = Watch::new(arguments.search.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
         .map_err(|faults| input.refused(faults))?;

@@ -16,7 +16,6 @@
 //! ```
 
 mod conclusion;
-mod parts;
 mod report;
 mod scan;
 mod text;
@@ -31,7 +30,7 @@ pub use varied::FRICTION;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes, counts};
-use parts::{Parts, Stages};
+use crate::solve::{Parts, Stages};
 use report::Naming;
 use scan::{STEPS, Scanner};
 use varied::Varied;

@@ -1,13 +1,13 @@
 //! Where modes exist if the mode problem does not depend linearly on what is varied: evenly spaced points, and
 //! bisection of what changes between them.
 
-use super::parts::Parts;
 use super::varied::Varied;
 use crate::modes::ContactState;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine,
     TooManyModes,
 };
+use crate::solve::Parts;
 
 /// Steps of the evenly spaced points.
 pub(super) const STEPS: usize = 500;

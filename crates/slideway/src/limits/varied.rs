@@ -1,9 +1,9 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
-use super::parts::{Parts, Stages};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Setting, SettingKind, Settings};
+use crate::solve::{Parts, Stages};
 
 /// The name under which all coefficients of friction are scaled together.
 pub const FRICTION: &str = "friction";

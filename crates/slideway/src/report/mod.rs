@@ -84,6 +84,9 @@ pub struct Report {
     pub closest_modes: Vec<ClosestMode>,
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
+    /// By which factors all friction may grow; absent if that was not computed, because there are too many modes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margins: Option<Margins>,
     /// What parameters known within bounds leave certain; absent if there are none. Everything else in the report
     /// holds for the middle of their ranges.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -160,6 +163,9 @@ pub struct Solution {
     pub on_boundary: bool,
     /// What is proven of it.
     pub certificate: CertificateKind,
+    /// By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin: Option<ModeMargin>,
     /// Determinant D of the mode's equations, eq. (6).
     pub determinant: f64,
     /// D times the product of the signs; positive without friction (theory, section 5).
@@ -200,6 +206,40 @@ pub struct UndecidedMode {
     /// The contact mode of each sliding joint.
     pub joints: Vec<JointMode>,
     /// The contacts whose normal force may be zero; none if the determinant may.
+    pub contacts: Vec<String>,
+}
+
+/// By which factors all coefficients of friction together may grow before the answer changes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Margins {
+    /// Up to this factor there is the same number of solutions (and of gap states); null if it never changes.
+    pub another_count: Option<f64>,
+    /// From this factor on there is no solution, so that nothing moves; null if there always is one.
+    pub no_solution: Option<f64>,
+    /// Up to this factor every load has exactly one solution (below 1: some other load has none or several already);
+    /// null if that is never lost, or was not computed because preloads jump with the side of contact.
+    pub uniqueness: Option<f64>,
+    /// The contact whose friction alone changes the number of solutions first; null if none does.
+    pub critical_contact: Option<CriticalContact>,
+}
+
+/// The contact whose coefficient of friction matters most.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CriticalContact {
+    /// Its name.
+    pub contact: String,
+    /// The factor by which its friction alone may grow before there is another number of solutions.
+    pub factor: f64,
+}
+
+/// By which factor all friction may grow before a mode ends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModeMargin {
+    /// The factor; null if the mode never ends.
+    pub factor: Option<f64>,
+    /// "nothing", "locking", "side_change", "gap_closes" or "tipping".
+    pub ends_with: &'static str,
+    /// The contacts that end it.
     pub contacts: Vec<String>,
 }
 

@@ -3,8 +3,8 @@
 use super::number::{against, number};
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, JointMode, PatternSummary, Persistence, Report, Solution, Status,
-    UncertainMode,
+    CertificateKind, ClosestMode, Contact, JointMode, ModeMargin, PatternSummary, Persistence, Report,
+    Solution, Status, UncertainMode,
 };
 use anstyle::{AnsiColor, Style as Ansi};
 use std::fmt::Write;
@@ -46,6 +46,7 @@ pub fn to_text(report: &Report, style: Style) -> String {
     let mut text = Text { report, style, out: String::new() };
     text.heading();
     text.verdict();
+    text.margins();
     text.uncertainty();
     for (index, solution) in report.solutions.iter().enumerate() {
         let title = format!("Solution {} of {}", index + 1, report.solutions.len());
@@ -175,6 +176,9 @@ impl Text<'_> {
         let motion = motion_table(self.report, solution);
         self.out.push_str(&motion);
         self.line("");
+        if let Some(margin) = &solution.margin {
+            self.line(&format!("  {}", margin_in_words(margin)));
+        }
         self.line(&format!(
             "  determinant {}, equilibrium of every body to within {}",
             number(solution.determinant),
@@ -186,6 +190,44 @@ impl Text<'_> {
         let width = joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0);
         for joint in joints {
             self.line(&format!("  {:width$}   {}", joint.name, joint.mode));
+        }
+    }
+
+    fn margins(&mut self) {
+        let Some(margins) = &self.report.margins else {
+            self.line("Margins of friction: not computed, there are too many modes.");
+            return;
+        };
+        let mut parts = Vec::new();
+        match (margins.no_solution, margins.another_count) {
+            _ if self.report.status == Status::None => {}
+            (Some(jams), Some(changes)) if jams == changes => {
+                parts.push(format!("there is no solution beyond {} times", number(jams)));
+            }
+            (jams, changes) => {
+                let text =
+                    |factor: f64| format!("another number of solutions beyond {} times", number(factor));
+                parts.extend(changes.map(text));
+                parts.extend(jams.map(|factor| format!("none beyond {} times", number(factor))));
+            }
+        }
+        if parts.is_empty() && self.report.status != Status::None {
+            parts.push("the number of solutions stays however much it grows".to_owned());
+        }
+        if let Some(critical) = &margins.critical_contact {
+            let (contact, factor) = (&critical.contact, number(critical.factor));
+            parts.push(format!("{contact} alone matters most, {factor} times"));
+        }
+        match margins.uniqueness {
+            Some(factor) if factor < 1.0 => parts
+                .push(format!("some other load has none or several already beyond {} times", number(factor))),
+            Some(factor) => {
+                parts.push(format!("every load has exactly one up to {} times", number(factor)));
+            }
+            None => {}
+        }
+        if !parts.is_empty() {
+            self.line(&format!("Margins, if all friction grows: {}.", parts.join("; ")));
         }
     }
 
@@ -319,6 +361,21 @@ fn tried(counts: &PatternSummary) -> String {
         let _ = write!(line, " So were {} patterns with preload gaps.", counts.gap_patterns);
     }
     line
+}
+
+/// "the mode ends at 1.1 times the friction: locking"
+fn margin_in_words(margin: &ModeMargin) -> String {
+    let Some(factor) = margin.factor else {
+        return "the mode lasts however much friction grows".to_owned();
+    };
+    let contacts = margin.contacts.join(", ");
+    let end = match margin.ends_with {
+        "locking" => "locking".to_owned(),
+        "side_change" => format!("{contacts} changes side"),
+        "gap_closes" => format!("the gap of {contacts} closes"),
+        _ => "a guided slider tips".to_owned(),
+    };
+    format!("the mode ends at {} times the friction: {end}", number(factor))
 }
 
 fn uncertain_row(report: &Report, mode: &UncertainMode) -> Vec<String> {

@@ -93,6 +93,7 @@ impl<'a> Answer<'a> {
                 outcomes.closest.iter().map(|mode| self.closest_mode(mode)).collect()
             }),
             jammed_groups: self.jammed_groups(found),
+            margins: None,
             uncertainty: None,
             influence: self.influence_summary(),
             condition: self.equations.condition(),
@@ -233,6 +234,7 @@ impl<'a> Answer<'a> {
             signs: state.signs.clone(),
             on_boundary: state.on_boundary,
             certificate: self.certificate(state),
+            margin: None,
             determinant: state.determinant,
             oriented_determinant: state.determinant * orientation,
             contacts: self.contacts(state, unknowns, &friction),

@@ -22,13 +22,16 @@ mod continuum;
 mod distinct;
 mod equilibrium;
 mod found;
+mod margins;
 mod mode_problem;
+mod parts;
 mod state;
 mod uncertainty;
 mod words;
 
 pub use mode_problem::mode_problem;
 pub(crate) use mode_problem::{check_size, velocity_signs};
+pub(crate) use parts::{Parts, Stages};
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;
@@ -50,12 +53,14 @@ pub struct SolveOptions {
     pub search: SearchOptions,
     /// The most solutions, gap states and continua that are listed, each.
     pub most: usize,
+    /// Whether margins of friction are computed.
+    pub margins: bool,
 }
 
 impl Default for SolveOptions {
-    /// The defaults of the search, 1000 of each kind.
+    /// The defaults of the search, 1000 of each kind, margins.
     fn default() -> Self {
-        Self { search: SearchOptions::default(), most: 1000 }
+        Self { search: SearchOptions::default(), most: 1000, margins: true }
     }
 }
 
@@ -108,6 +113,9 @@ pub fn solve_with(
         rounded: enclosed.as_ref().err(),
         most: options.most,
     })?;
+    if options.margins {
+        margins::add(&mut report, &mechanism, &influence, &velocity_signs);
+    }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
     Ok(report)
 }

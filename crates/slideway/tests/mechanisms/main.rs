@@ -15,6 +15,7 @@ mod guided_slider;
 mod klepp_2002;
 mod limits;
 mod loads;
+mod margins;
 mod preload_gap;
 mod properties;
 mod symmetries;

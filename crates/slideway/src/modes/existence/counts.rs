@@ -49,7 +49,7 @@ fn cells(existence: &Existence, range: [f64; 2]) -> Vec<[f64; 2]> {
     let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
     let mut ends: Vec<f64> = ends.chain(range).collect();
     ends.sort_by(f64::total_cmp);
-    ends.dedup_by(|next, kept| *next - *kept <= SAME_END * next.abs() || *next == *kept);
+    ends.dedup_by(|next, kept| *next == *kept || next.is_finite() && *next - *kept <= SAME_END * next.abs());
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 

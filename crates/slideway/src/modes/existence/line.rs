@@ -115,6 +115,12 @@ impl Line {
         }
     }
 
+    /// Where `det A(t)` vanishes, with base points in a range; empty if it vanishes throughout.
+    pub(super) fn determinant_zeros(&self, range: [f64; 2]) -> Vec<f64> {
+        let zeros = self.reduced(&[], range).and_then(|reduced| reduced.poles());
+        zeros.unwrap_or_default().into_iter().map(|Root(at)| at).collect()
+    }
+
     /// The equations at the base point with the best pivots.
     fn reduced(&self, conditions: &[Condition], range: [f64; 2]) -> Option<Reduced> {
         let mut best: Option<(f64, f64, LU<f64, Dyn, Dyn>)> = None;

@@ -216,6 +216,25 @@ impl ModeProblemLine {
         Ok(existence)
     }
 
+    /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and the pattern;
+    /// none if there is no such parameter. Without jumps every load has exactly one solution up to there, if
+    /// determinants have one orientation at `t = 0` (theory, section 5).
+    ///
+    /// # Errors
+    /// [`TooManyModes`] if there are more patterns than `limit`.
+    pub fn first_locking(&self, limit: u64) -> Result<Option<(f64, Vec<ContactState>)>, TooManyModes> {
+        let mut first: Option<(f64, Vec<ContactState>)> = None;
+        let pressed = |pattern: &Vec<ContactState>| !pattern.contains(&ContactState::Gap);
+        for pattern in self.patterns(limit)?.into_iter().filter(pressed) {
+            let zeros = self.line(&pattern).determinant_zeros([0.0, 1.0]);
+            let least = zeros.into_iter().filter(|&zero| zero > 0.0).fold(f64::INFINITY, f64::min);
+            if least < first.as_ref().map_or(f64::INFINITY, |(known, _)| *known) {
+                first = Some((least, pattern));
+            }
+        }
+        Ok(first)
+    }
+
     /// The patterns that have a solution at one parameter, in the order of enumeration.
     ///
     /// # Errors

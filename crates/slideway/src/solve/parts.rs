@@ -1,5 +1,6 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
+use super::mode_problem::{check_size, mode_problem, velocity_signs};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -9,7 +10,6 @@ use crate::mechanism::{JointKind, Mechanism};
 use crate::model::{Model, PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::{BySide, ModeProblem, Side};
-use crate::solve::{check_size, mode_problem, velocity_signs};
 use nalgebra::{DMatrix, DVector};
 
 /// Numbers that differ by less than this share of the largest are the same.
@@ -17,7 +17,7 @@ const SAME: f64 = 1e-10;
 
 /// Columns, jumps and right-hand side of eq. (6); below them those of the couples of guided sliders.
 #[derive(Debug, Clone)]
-pub(super) struct Parts {
+pub(crate) struct Parts {
     columns: BySide<DMatrix<f64>>,
     jumps: BySide<DMatrix<f64>>,
     right_hand_side: DVector<f64>,
@@ -26,17 +26,17 @@ pub(super) struct Parts {
 }
 
 /// A model in its state, ready for its mode problem.
-pub(super) struct Stages {
-    pub(super) mechanism: Mechanism,
-    pub(super) configuration: Configuration,
-    influence: Influence,
-    velocity_signs: DVector<f64>,
+pub(crate) struct Stages {
+    pub(crate) mechanism: Mechanism,
+    pub(crate) configuration: Configuration,
+    pub(crate) influence: Influence,
+    pub(crate) velocity_signs: DVector<f64>,
 }
 
 impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
-    pub(super) fn new(model: &Model) -> Result<Self, Faults> {
+    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
         let mechanism = Mechanism::new(model)?;
         check_size(&mechanism)?;
         let configuration = Configuration::new(&mechanism)?;
@@ -50,17 +50,30 @@ impl Stages {
     ///
     /// # Errors
     /// A fault if a number is beyond the range of floating point.
-    pub(super) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
-        let mut mechanism = self.mechanism.clone();
-        for contact in &mut mechanism.contacts {
-            contact.mu = contact.mu.map(|mu| mu * friction);
-        }
-        let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
-        Ok(Parts::new(&mechanism, &self.influence, &self.velocity_signs, &problem))
+    pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
+        Parts::scaled(&self.mechanism, &self.influence, &self.velocity_signs, &|_| friction)
     }
 }
 
 impl Parts {
+    /// The mode problem with the coefficients of friction of each contact multiplied by a factor of its own.
+    ///
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point.
+    pub(crate) fn scaled(
+        mechanism: &Mechanism,
+        influence: &Influence,
+        velocity_signs: &DVector<f64>,
+        factor: &dyn Fn(usize) -> f64,
+    ) -> Result<Self, Faults> {
+        let mut mechanism = mechanism.clone();
+        for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
+            contact.mu = contact.mu.map(|mu| mu * factor(k));
+        }
+        let problem = mode_problem(&mechanism, influence, velocity_signs)?;
+        Ok(Self::new(&mechanism, influence, velocity_signs, &problem))
+    }
+
     fn new(
         mechanism: &Mechanism,
         influence: &Influence,
@@ -112,7 +125,7 @@ impl Parts {
     }
 
     /// The line of problems from this one at `t = 0` to another one at `t = 1`.
-    pub(super) fn line_to(&self, end: &Self) -> ModeProblemLine {
+    pub(crate) fn line_to(&self, end: &Self) -> ModeProblemLine {
         let between = |one: &BySide<DMatrix<f64>>, other: &BySide<DMatrix<f64>>| {
             let slope = BySide {
                 positive: without_rounding(&other.positive - &one.positive, &one.positive),
@@ -132,7 +145,7 @@ impl Parts {
     }
 
     /// Whether these numbers are those at `t` on the line from `start` to `end`.
-    pub(super) fn is_between(&self, start: &Self, end: &Self, t: f64) -> bool {
+    pub(crate) fn is_between(&self, start: &Self, end: &Self, t: f64) -> bool {
         let matrix = |part: fn(&Self) -> &DMatrix<f64>| {
             let middle = part(start) * (1.0 - t) + part(end) * t;
             (part(self) - middle).amax() <= SAME * part(start).amax().max(part(end).amax())
@@ -149,7 +162,7 @@ impl Parts {
     }
 
     /// Whether these are the same numbers.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
         self.is_between(other, other, 0.0)
     }
 }

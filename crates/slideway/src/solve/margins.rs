@@ -1,0 +1,132 @@
+//! How far friction may grow before the answer changes.
+
+use super::parts::Parts;
+use crate::fault::Faults;
+use crate::influence::Influence;
+use crate::mechanism::Mechanism;
+use crate::modes::ContactState;
+use crate::modes::existence::{
+    CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
+};
+use crate::report::{self, CriticalContact, Margins, Report};
+use nalgebra::DVector;
+
+/// The most patterns for which margins are computed.
+const PATTERNS: u64 = 256;
+/// From the present friction without end, as a factor.
+const GROWING: [f64; 2] = [1.0, f64::INFINITY];
+/// Ends closer to the present friction than this belong to it: the state is on a boundary.
+const AT_ONCE: f64 = 1e-9;
+
+/// Adds the margins to a report, if there are few enough modes.
+pub(super) fn add(
+    report: &mut Report,
+    mechanism: &Mechanism,
+    influence: &Influence,
+    velocity_signs: &DVector<f64>,
+) {
+    let friction = Friction { mechanism, influence, velocity_signs };
+    let Some(all) = friction.along(&|_| true) else { return };
+    for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {
+        solution.margin = all.end_of(&solution.pattern).map(|mode| mode_margin(mechanism, mode));
+    }
+    report.margins = Some(Margins {
+        another_count: all.another_count(),
+        no_solution: all.no_solution(),
+        uniqueness: friction.uniqueness(),
+        critical_contact: friction.critical_contact(),
+    });
+}
+
+/// A mechanism whose friction grows.
+struct Friction<'a> {
+    mechanism: &'a Mechanism,
+    influence: &'a Influence,
+    velocity_signs: &'a DVector<f64>,
+}
+
+/// The modes as friction grows by a factor.
+struct Growth {
+    existence: Existence,
+    counts: Vec<CountInterval>,
+}
+
+impl Friction<'_> {
+    fn line(&self, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
+        let at = |factor: f64| {
+            let factor = |k: usize| if grows(k) { factor } else { 1.0 };
+            Parts::scaled(self.mechanism, self.influence, self.velocity_signs, &factor)
+        };
+        Ok(at(0.0)?.line_to(&at(1.0)?))
+    }
+
+    /// The modes while the friction of some contacts grows; none past the limit of work.
+    fn along(&self, grows: &dyn Fn(usize) -> bool) -> Option<Growth> {
+        let line = self.line(grows).ok()?;
+        let options = ExistenceOptions { range: GROWING, greatest_normal_force: None, patterns: PATTERNS };
+        let existence = line.existence(&options).ok()?;
+        let counts = counts(&line, &existence, GROWING);
+        Some(Growth { existence, counts })
+    }
+
+    /// The factor up to which every load has exactly one solution; none if there is no such factor, or with jumps.
+    fn uniqueness(&self) -> Option<f64> {
+        let line = self.line(&|_| true).ok()?;
+        if line.has_jump.iter().any(|&jump| jump) {
+            return None;
+        }
+        line.first_locking(PATTERNS).ok()?.map(|(factor, _)| factor)
+    }
+
+    /// The contact whose friction alone changes the number of solutions at the smallest factor.
+    fn critical_contact(&self) -> Option<CriticalContact> {
+        let contacts = self.mechanism.contacts.iter().enumerate();
+        let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2]);
+        let factor = |(k, contact): (usize, &crate::mechanism::Contact)| {
+            let factor = self.along(&|other| other == k)?.another_count()?;
+            Some(CriticalContact { contact: contact.name.to_string(), factor })
+        };
+        rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
+    }
+}
+
+impl Growth {
+    /// The factor at which there is another number of solutions, gap states counted apart.
+    fn another_count(&self) -> Option<f64> {
+        self.counts.get(1).map(|next| next.from)
+    }
+
+    /// The factor from which on there is neither a solution nor a gap state.
+    fn no_solution(&self) -> Option<f64> {
+        let jammed = |count: &&CountInterval| count.solutions + count.gap_states == 0;
+        self.counts.iter().find(jammed).map(|count| count.from)
+    }
+
+    /// The interval of a mode that exists now.
+    fn end_of(&self, pattern: &str) -> Option<&ModeInterval> {
+        let same = |mode: &&ModeInterval| {
+            let signs = mode.pattern.iter().map(|state| match state {
+                ContactState::Positive => '+',
+                ContactState::Negative => '-',
+                ContactState::Gap => '0',
+            });
+            signs.eq(pattern.chars()) && mode.from.at <= 1.0 + AT_ONCE
+        };
+        self.existence.modes.iter().find(same)
+    }
+}
+
+fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval) -> report::ModeMargin {
+    let names = |contacts: &[usize]| -> Vec<String> {
+        contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
+    };
+    let (ends_with, contacts) = match &mode.to.cause {
+        EndCause::Range | EndCause::NoProblem => ("nothing", Vec::new()),
+        EndCause::Locking => ("locking", Vec::new()),
+        EndCause::SideChange(contacts) => ("side_change", names(contacts)),
+        EndCause::GapCloses(contacts) => ("gap_closes", names(contacts)),
+        EndCause::OutputBound(_) => ("tipping", Vec::new()),
+        EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", names(contacts)),
+    };
+    report::ModeMargin { factor: mode.to.at.is_finite().then_some(mode.to.at), ends_with, contacts }
+}
