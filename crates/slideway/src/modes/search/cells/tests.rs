@@ -36,7 +36,7 @@ fn columns(number: &mut impl FnMut(i64) -> f64, left: &DMatrix<f64>) -> [DMatrix
 
 fn candidates(problem: &ModeProblem, load_radius: f64) -> Option<(Candidates, u64)> {
     let scaled = ScaledProblem::new(problem);
-    let load_error = scaled.scaled_load(&DVector::repeat(problem.contacts(), load_radius));
+    let load_error = scaled.scaled_load_radius(&DVector::repeat(problem.contacts(), load_radius));
     let low_rank = LowRank::of(&scaled, &load_error)?;
     let mut progress = |_: &_| ControlFlow::Continue(());
     let covered = cover(&low_rank, &mut Monitor::new(u64::MAX, &mut progress))?;
