@@ -12,8 +12,9 @@ use slideway::modes::{Completeness, ContactState, ModeProblem, SearchOptions, se
 
 /// Zero, or a power of two between 2^-1074 and 2^1023 times a small whole number.
 fn extreme(random: &mut Random, most: i32) -> f64 {
-    let exponent = (random.number() * f64::from(most)) as i32;
-    let [one, other] = [exponent / 2, exponent - exponent / 2].map(f64::from);
+    let exponent = (random.number() * f64::from(most)).trunc();
+    let half = (exponent / 2.0).trunc();
+    let (one, other) = (half, exponent - half);
     if random.below(6) == 0 { 0.0 } else { random.integer(3) * one.exp2() * other.exp2() }
 }
 

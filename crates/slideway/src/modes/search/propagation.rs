@@ -194,6 +194,7 @@ mod tests {
     use super::super::states::all_states;
     use super::super::test_problems::{Numbers, admitted, holds};
     use super::*;
+    use crate::modes::certificate::IntervalModeProblem;
     use crate::modes::problem::ModeProblem;
 
     #[test]
@@ -221,6 +222,21 @@ mod tests {
             }
         }
         assert!(bounded > 100 && decided > 200, "{bounded} {decided}");
+    }
+
+    #[test]
+    fn bounds_of_the_columns_add_to_the_gain() {
+        let coupling = DMatrix::from_element(2, 2, 0.45);
+        let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
+        let problem =
+            ModeProblem::from_absolute_value_equation(&identity, &coupling, load).expect("shapes fit");
+        // The spectral radius is 0.9 in the middle, and 1 where all coefficients are as large as a tenth lets them.
+        for (relative, expected) in [(1e-3, true), (0.1, false)] {
+            let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
+            let scaled = ScaledProblem::within((&bounded).into());
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
+            assert_eq!(propagation.is_contraction(), expected, "{relative}");
+        }
     }
 
     #[test]

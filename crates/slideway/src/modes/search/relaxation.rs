@@ -251,6 +251,8 @@ fn power_of_two_below(size: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::super::states::all_states;
     use super::super::test_problems::{Numbers, admitted, holds};
     use super::*;
@@ -319,5 +321,32 @@ mod tests {
             }
         }
         assert!(verified > 20, "{verified}");
+    }
+
+    /// Whether a vector excludes that both of two contacts are on their positive sides.
+    fn excludes(columns: [f64; 4], load: [f64; 2], weights: [f64; 2]) -> bool {
+        let columns = DMatrix::from_row_slice(2, 2, &columns);
+        let (negative, none) = (DMatrix::from_element(2, 2, -1.0), DMatrix::zeros(2, 2));
+        let load = DVector::from_column_slice(&load);
+        let problem = ModeProblem::new(columns, negative, none.clone(), none, load).expect("shapes fit");
+        let (_, relaxation) = relaxation(&problem, 0.0);
+        let bounds = relaxation.bounds(&[StateSet::only(ContactState::Positive); 2]);
+        relaxation.verified(weights.to_vec(), &bounds, &relaxation.first_basis()).is_some()
+    }
+
+    #[test]
+    fn products_within_rounding_of_zero_exclude_nothing() {
+        // (1 + 2^-30)^2 - (1 + 2^-29) is 2^-60, and 0 when it is rounded.
+        let entry = 1.0 + 2_f64.powi(-30);
+        let columns = [entry, -1.0, 1.0, 1.0];
+        assert!(!excludes(columns, [1.0, 0.0], [entry, -1.0 - 2_f64.powi(-29)]));
+        assert!(excludes(columns, [1.0, 0.0], [entry, -1.0 - 2_f64.powi(-28)]));
+    }
+
+    #[test]
+    fn loads_within_the_margin_of_zero_exclude_nothing() {
+        let columns = [1.0, -1.0, 1.5, 1.0];
+        assert!(!excludes(columns, [1.0, 1.0 - 1e-12], [1.0, -1.0]));
+        assert!(excludes(columns, [1.0, 1.0 - 1e-9], [1.0, -1.0]));
     }
 }
