@@ -235,7 +235,7 @@ fn a_column_lost_to_underflow_is_not_called_zero() {
     for tiny in [f64::MIN_POSITIVE, -f64::MIN_POSITIVE] {
         let columns = (one.clone(), dmatrix![tiny]);
         let problem = ModeProblem::new(columns.0, columns.1, none.clone(), none.clone(), dvector![3.0]);
-        let answer = uniqueness(&problem.unwrap(), &UniquenessLimits::default());
+        let answer = uniqueness(&problem.expect("shapes fit"), &UniquenessLimits::default());
         assert!(matches!(answer, Uniqueness::InDoubt { .. }), "{answer:?}");
     }
 }
