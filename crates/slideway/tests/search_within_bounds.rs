@@ -270,10 +270,10 @@ fn without_uniqueness(low_rank: bool) -> SearchOptions {
 
 #[test]
 fn cells_within_bounds_hold_what_samples_admit() {
-    for seed in 0..6 {
+    for seed in 0..6_usize {
         // Wide bounds: forces of many contacts are in doubt.
-        let relative = [1e-9, 1e-4, 3e-3][seed as usize % 3];
-        let (problem, _) = planted_low_rank(13, 1 + seed as usize % 2, 50 + seed);
+        let relative = [1e-9, 1e-4, 3e-3][seed % 3];
+        let (problem, _) = planted_low_rank(13, 1 + seed % 2, 50 + seed as u64);
         let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
         let (cells, lists) = run(&bounded, &without_uniqueness(true));
         assert!(matches!(cells.groups[0].method, Method::Cells { .. }), "{seed}");
@@ -285,7 +285,7 @@ fn cells_within_bounds_hold_what_samples_admit() {
         };
         let all = patterns(&lists, false);
         assert!(patterns(&tree_lists, true).iter().all(|pattern| all.contains(pattern)), "{seed}");
-        let mut random = Random::new(seed);
+        let mut random = Random::new(seed as u64);
         for at in 0..2 {
             let sample = sample(&problem, relative, at == 0, &mut random);
             let admitted = search(&sample, &without_uniqueness(false), &mut |_| ControlFlow::Continue(()));
