@@ -227,3 +227,15 @@ fn limits_are_kept() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+/// `D` is 2^53 and 2^-1022; the ratio of the two columns is below the range of floating point.
+#[test]
+fn a_column_lost_to_underflow_is_not_called_zero() {
+    let (one, none) = (dmatrix![9_007_199_254_740_992.0], DMatrix::zeros(1, 1));
+    for tiny in [f64::MIN_POSITIVE, -f64::MIN_POSITIVE] {
+        let columns = (one.clone(), dmatrix![tiny]);
+        let problem = ModeProblem::new(columns.0, columns.1, none.clone(), none.clone(), dvector![3.0]);
+        let answer = uniqueness(&problem.expect("shapes fit"), &UniquenessLimits::default());
+        assert!(matches!(answer, Uniqueness::InDoubt { .. }), "{answer:?}");
+    }
+}

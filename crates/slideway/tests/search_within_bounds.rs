@@ -8,8 +8,8 @@ use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use search_support::{Random, patterns};
 use slideway::modes::certificate::{Decision, ExactSet, Interval, IntervalModeProblem, decide};
 use slideway::modes::{
-    Arguments, Certificate, Completeness, ContactState, ModeProblem, SearchOptions, SearchResult, Side,
-    StateLists, search,
+    Arguments, Certificate, Completeness, ContactState, Method, ModeProblem, SearchOptions, SearchResult,
+    Side, StateLists, search,
 };
 
 const ALL: usize = 1_000_000;
@@ -244,5 +244,66 @@ fn large_problems_within_rounding_are_proven() {
         assert_eq!(result.completeness, Completeness::Proven);
         assert_eq!(result.counts(), exact.counts());
         assert!(lists.solutions.iter().all(|state| matches!(state.certificate, Certificate::Proven { .. })));
+    }
+}
+
+/// A diagonal and a coupling of low rank, and a solution planted in it.
+fn planted_low_rank(contacts: usize, rank: usize, seed: u64) -> (ModeProblem, Vec<ContactState>) {
+    let mut random = Random::new(seed);
+    let plain = search_support::low_rank(&mut random, contacts, rank, 3.0);
+    let [positive, negative] = Side::BOTH.map(|side| plain.columns(side).clone());
+    let forces = random.vector(contacts);
+    let columns = DMatrix::from_fn(contacts, contacts, |row, contact| {
+        (if forces[contact] > 0.0 { &positive } else { &negative })[(row, contact)]
+    });
+    let pattern =
+        forces.map(|force| if force > 0.0 { ContactState::Positive } else { ContactState::Negative });
+    let (load, none) = (columns * forces.abs(), DMatrix::zeros(contacts, contacts));
+    let problem = ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit");
+    (problem, pattern.as_slice().to_vec())
+}
+
+fn without_uniqueness(low_rank: bool) -> SearchOptions {
+    let arguments = Arguments { uniqueness: false, low_rank, ..Arguments::default() };
+    SearchOptions { arguments, ..SearchOptions::default() }
+}
+
+#[test]
+fn cells_within_bounds_hold_what_samples_admit() {
+    for seed in 0..6_usize {
+        // Wide bounds: forces of many contacts are in doubt.
+        let relative = [1e-9, 1e-4, 3e-3][seed % 3];
+        let (problem, _) = planted_low_rank(13, 1 + seed % 2, 50 + seed as u64);
+        let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
+        let (cells, lists) = run(&bounded, &without_uniqueness(true));
+        assert!(matches!(cells.groups[0].method, Method::Cells { .. }), "{seed}");
+        let (tree, tree_lists) = run(&bounded, &without_uniqueness(false));
+        assert_eq!(cells.completeness, tree.completeness);
+        let patterns = |lists: &StateLists, proven: bool| -> Vec<Vec<ContactState>> {
+            let kept = listed(lists).into_iter().filter(|(_, bounds)| !proven || bounds.is_some());
+            kept.map(|(pattern, _)| pattern).collect()
+        };
+        let all = patterns(&lists, false);
+        assert!(patterns(&tree_lists, true).iter().all(|pattern| all.contains(pattern)), "{seed}");
+        let mut random = Random::new(seed as u64);
+        for at in 0..2 {
+            let sample = sample(&problem, relative, at == 0, &mut random);
+            let admitted = search(&sample, &without_uniqueness(false), &mut |_| ControlFlow::Continue(()));
+            for state in admitted.expect("finite numbers").product.states() {
+                assert!(all.contains(&state.pattern(13)), "{seed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn many_contacts_of_few_freedoms_within_bounds() {
+    for rank in 1..=3 {
+        let (problem, pattern) = planted_low_rank(100, rank, rank as u64);
+        let bounded = IntervalModeProblem::widened(&problem, 1e-13).expect("a sensible radius");
+        let (result, lists) = run(&bounded, &without_uniqueness(true));
+        assert_eq!(result.groups[0].method, Method::Cells { rank });
+        assert_eq!(result.completeness, Completeness::Proven);
+        assert!(listed(&lists).iter().any(|(other, _)| *other == pattern));
     }
 }

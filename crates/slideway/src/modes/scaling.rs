@@ -6,8 +6,13 @@ use super::certificate::ProblemView;
 use super::problem::{ModeProblem, Side};
 use super::solutions::ContactState;
 
+/// Coefficients of scaled rows below this are not told from zero in proofs: far enough above the least number that
+/// products of them with what multiplies them do not underflow.
+const NEGLIGIBLE: f64 = f64::from_bits((1023 - 500) << 52);
+
 /// A mode problem with rows divided by their largest coefficient and loads divided by the largest
-/// load, both rounded to powers of two so that scaling makes no rounding error.
+/// load, both rounded to powers of two so that scaling makes no rounding error, underflow and overflow apart. What
+/// these do is part of the bounds of errors.
 ///
 /// Unknowns are `y_k` divided by `load_unit`, and `lambda_k` itself for a contact in its gap.
 pub(super) struct ScaledProblem {
@@ -21,6 +26,8 @@ pub(super) struct ScaledProblem {
     row_scale: DVector<f64>,
     pub(super) load_unit: f64,
     pub(super) has_jump: Vec<bool>,
+    /// How far scaling may have changed the sum of all loads of a row.
+    lost_load: DVector<f64>,
     /// How far the columns may be off; none if they are exact.
     column_radius: Option<[DMatrix<f64>; 2]>,
 }
@@ -42,6 +49,12 @@ impl ScaledProblem {
 
         let load_size = right_hand_side.abs() + jumps_positive.abs().sup(&jumps_negative.abs()).column_sum();
         let load_unit = power_of_two_above(load_size.amax());
+        let lost_load = DVector::from_fn(contacts, |row, _| {
+            let jumps = Side::BOTH.map(|side| problem.jumps(side)).into_iter();
+            let loads = jumps.flat_map(|jumps| jumps.row(row).iter().copied().collect::<Vec<f64>>());
+            let loads = loads.chain([problem.right_hand_side()[row]]);
+            loads.map(|load| lost_by_scaling(load, row_scale[row], load_unit)).sum()
+        });
         let has_jump: Vec<bool> = (0..contacts).map(has_jump).collect();
         let mut jump_difference = (&jumps_positive - &jumps_negative) / load_unit;
         for (contact, mut column) in jump_difference.column_iter_mut().enumerate() {
@@ -57,6 +70,7 @@ impl ScaledProblem {
             row_scale,
             load_unit,
             has_jump,
+            lost_load,
             column_radius: None,
         }
     }
@@ -64,17 +78,33 @@ impl ScaledProblem {
     /// The problem in the middle of bounds, with jumps wherever there may be one.
     pub(super) fn within(problem: ProblemView<'_>) -> Self {
         let mut scaled = Self::with_jumps(problem.centre, |contact| problem.has_jump(contact));
-        scaled.column_radius = problem.radii.map(|radii| {
-            let scale = DMatrix::from_diagonal(&scaled.row_scale);
-            Side::BOTH.map(|side| &scale * radii.columns.get(side))
-        });
+        let radii = Side::BOTH.map(|side| scaled.scaled_radius(problem, side));
+        let exact = radii.iter().flatten().all(|&radius| radius == 0.0);
+        scaled.column_radius = (!exact).then_some(radii);
         scaled
+    }
+
+    /// How far the scaled columns may be off. Numbers too small for products with them are not told from zero.
+    fn scaled_radius(&self, problem: ProblemView<'_>, side: Side) -> DMatrix<f64> {
+        let centre = problem.centre.columns(side);
+        DMatrix::from_fn(self.contacts(), self.contacts(), |row, contact| {
+            let scale = self.row_scale[row];
+            let radius = problem.radii.map_or(0.0, |radii| radii.columns.get(side)[(row, contact)]);
+            let centre = centre[(row, contact)];
+            let negligible = centre != 0.0 && (centre * scale).abs() < NEGLIGIBLE;
+            if radius > 0.0 || negligible { (radius * scale).max(NEGLIGIBLE) } else { 0.0 }
+        })
     }
 
     /// How far `A N + B |N|` with `A = (c^+ - c^-) / 2` and `B = (c^+ + c^-) / 2` may be off per unit of each
     /// `|N_k|`; none if the columns are exact.
     pub(super) fn spread_of_columns(&self) -> Option<DMatrix<f64>> {
         self.column_radius.as_ref().map(|[positive, negative]| positive + negative)
+    }
+
+    /// How far the columns of both sides may be off; none if they are exact.
+    pub(super) fn column_radii(&self) -> Option<&[DMatrix<f64>; 2]> {
+        self.column_radius.as_ref()
     }
 
     /// How far the column of a contact may be off, row by row; none if it is exact. For a contact in its
@@ -134,9 +164,14 @@ impl ScaledProblem {
         (matrix, right_hand_side)
     }
 
-    /// Something that adds to the problem's right-hand side, in scaled units.
-    pub(super) fn scaled_load(&self, load: &DVector<f64>) -> DVector<f64> {
-        load.component_mul(&self.row_scale) / self.load_unit
+    /// A bound of the error of the problem's right-hand side in scaled units, with what scaling adds to it.
+    pub(super) fn scaled_load_radius(&self, radius: &DVector<f64>) -> DVector<f64> {
+        DVector::from_fn(self.contacts(), |row, _| {
+            let (radius, scale) = (radius[row], self.row_scale[row]);
+            radius * scale / self.load_unit
+                + lost_by_scaling(radius, scale, self.load_unit)
+                + self.lost_load[row]
+        })
     }
 
     /// A combination of the scaled equations as a combination of the problem's own equations.
@@ -149,6 +184,18 @@ impl ScaledProblem {
     pub(super) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {
         let column_unit = if state == ContactState::Gap { self.load_unit } else { 1.0 };
         column_unit / self.row_scale[contact]
+    }
+}
+
+/// How far `load scale / unit` may be off, with powers of two: nothing, but for underflow and overflow.
+fn lost_by_scaling(load: f64, scale: f64, unit: f64) -> f64 {
+    let (once, twice) = (load * scale, load * scale / unit);
+    if !twice.is_finite() {
+        f64::INFINITY
+    } else if load == 0.0 || once.is_normal() && twice.is_normal() {
+        0.0
+    } else {
+        f64::MIN_POSITIVE + f64::MIN_POSITIVE / unit
     }
 }
 

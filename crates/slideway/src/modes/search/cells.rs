@@ -117,6 +117,10 @@ pub(super) struct Cover<'a> {
 /// Candidates for all solutions; none if there are too many of them, or too many boxes.
 pub(super) fn cover(problem: &LowRank, monitor: &mut Monitor<'_>) -> Option<Covered> {
     let mut cover = Cover::new(problem);
+    // Numbers that overflow decide nothing.
+    if !cover.noise.iter().all(|noise| noise.is_finite()) {
+        return None;
+    }
     while let Some(part) = cover.open.pop() {
         let covered = &mut cover.covered;
         if !monitor.visit(covered.fraction, covered.candidates.len()) {

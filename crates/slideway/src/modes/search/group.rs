@@ -75,7 +75,7 @@ fn search_large_group(
     options: &SearchOptions,
     (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
 ) -> (Method, TreeReport) {
-    let load_radius = scaled.scaled_load(&loaded.right_hand_side_radius());
+    let load_radius = scaled.scaled_load_radius(&loaded.right_hand_side_radius());
     let arguments = options.arguments;
     let solved = if arguments.propagation || arguments.uniqueness {
         Propagation::new(scaled, &load_radius)
@@ -86,7 +86,7 @@ fn search_large_group(
     let proof = solved.as_ref().filter(|_| arguments.uniqueness && continuous);
     let unique = proof.and_then(|solved| by_uniqueness(scaled, solved, leaves, monitor));
     let answered = unique.or_else(|| {
-        let large = scaled.contacts() >= CELLS_FROM && !loaded.has_spread_columns();
+        let large = scaled.contacts() >= CELLS_FROM;
         if arguments.low_rank && large { by_cells(scaled, &load_radius, leaves, monitor) } else { None }
     });
     answered.unwrap_or_else(|| {

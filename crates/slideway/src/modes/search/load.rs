@@ -121,11 +121,6 @@ impl<'p> LoadedProblem<'p> {
         self.whole.radii.is_none()
     }
 
-    /// Whether columns or jumps are known within bounds only.
-    pub(super) fn has_spread_columns(&self) -> bool {
-        self.whole.radii.is_some() && self.radii.is_some()
-    }
-
     /// How far each entry of the right-hand side of any pattern may be off from `N(0) + sum_k d_k`, where
     /// contacts without a jump have `d_k^-`.
     pub(super) fn right_hand_side_radius(&self) -> DVector<f64> {

@@ -20,8 +20,8 @@
 //! ```
 //!
 //! Where the largest row sum of `|E_ik| / min |delta_i|` is at most 2/5, the largest `t y` is at most
-//! 5/3 of what it would be without `E`; this bounds all `t |epsilon_i|`. A bound of errors in the
-//! columns would add to `|E|`, and nothing else would change.
+//! 5/3 of what it would be without `E`; this bounds all `t |epsilon_i|`. Columns that are known within
+//! bounds add these to `|E|`.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -83,7 +83,8 @@ impl LowRank {
         let decided = diagonal[0].iter().zip(&diagonal[1]).all(decides);
         let load = problem.base().clone();
         let mut found = Self { left, right, diagonal, load, error: load_error.clone() };
-        found.error = found.bound_errors(&columns, load_error).filter(|_| holds && decided)?;
+        let remainder = found.remainder(&columns, problem.column_radii());
+        found.error = found.bound_errors(&remainder, load_error).filter(|_| holds && decided)?;
         Some(found)
     }
 
@@ -98,9 +99,8 @@ impl LowRank {
     }
 
     /// Bounds of all `|epsilon_i| / max(1, |z|)`; none if the remainder is too large.
-    fn bound_errors(&self, columns: &[DMatrix<f64>; 2], load_error: &DVector<f64>) -> Option<DVector<f64>> {
+    fn bound_errors(&self, remainder: &DMatrix<f64>, load_error: &DVector<f64>) -> Option<DVector<f64>> {
         let contacts = self.load.len();
-        let remainder = self.remainder(&columns[0], 0).sup(&self.remainder(&columns[1], 1));
         let least = self.diagonal[0].abs().inf(&self.diagonal[1].abs());
         let without = DVector::from_fn(contacts, |i, _| {
             (self.load[i].abs() + self.left.row(i).abs().sum() + load_error[i]) / least[i]
@@ -112,12 +112,16 @@ impl LowRank {
         (gain <= 0.4 && error.iter().all(|value| value.is_finite())).then_some(error)
     }
 
-    /// Bounds of `|E|` for one side.
-    fn remainder(&self, columns: &DMatrix<f64>, side: usize) -> DMatrix<f64> {
-        let diagonal = DMatrix::from_diagonal(&self.diagonal[side]);
-        let left_over = (columns - &diagonal - &self.left * &self.right[side]).abs();
-        let terms = columns.abs() + diagonal.abs() + self.left.abs() * self.right[side].abs();
-        (left_over + terms * ROUNDING).map(|value| value + f64::MIN_POSITIVE)
+    /// Bounds of `|E|` for both sides, where columns may be off by a radius.
+    fn remainder(&self, columns: &[DMatrix<f64>; 2], radii: Option<&[DMatrix<f64>; 2]>) -> DMatrix<f64> {
+        let [positive, negative] = [0, 1].map(|side| {
+            let diagonal = DMatrix::from_diagonal(&self.diagonal[side]);
+            let left_over = (&columns[side] - &diagonal - &self.left * &self.right[side]).abs();
+            let terms = columns[side].abs() + diagonal.abs() + self.left.abs() * self.right[side].abs();
+            let rounded = (left_over + terms * ROUNDING).map(|value| value + f64::MIN_POSITIVE);
+            radii.map_or_else(|| rounded.clone(), |radii| &rounded + &radii[side])
+        });
+        positive.sup(&negative)
     }
 }
 

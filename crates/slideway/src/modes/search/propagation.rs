@@ -20,6 +20,8 @@ use crate::modes::solutions::ContactState;
 
 /// Bounds are widened by this fraction of the sum of their terms' sizes, far above rounding.
 const MARGIN: f64 = 1e-10;
+/// What underflow may take from sums of products, far above the least number. Loads are of size 1.
+const UNDERFLOW: f64 = 1e-290;
 /// What was computed with positive terms only is verified up to this fraction.
 const VERIFIED: f64 = 1e-11;
 /// Sweeps go on while some bound shrinks by this fraction.
@@ -62,12 +64,14 @@ impl Propagation {
         let rounding = (contacts + 4) as f64 * f64::EPSILON;
         let sizes = inverse.abs();
         let mut slip = residual + &sizes * (a.abs() + b.abs()) * (2.0 * rounding);
+        slip.add_scalar_mut(UNDERFLOW);
         if let Some(spread) = problem.spread_of_columns() {
             slip += &sizes * spread * 1.01;
         }
         let frictionless = &inverse * problem.base();
         let jump_difference = -columns(ContactState::Gap);
         let offset_error = &sizes * (problem.load_size() * (4.0 * rounding) + load_radius * 1.01);
+        let offset_error = offset_error.add_scalar(UNDERFLOW);
         if !slip.iter().chain(&frictionless).all(|value| value.is_finite()) {
             return None;
         }
@@ -92,7 +96,7 @@ impl Propagation {
         let contacts = self.frictionless.len();
         let gain = self.coupling.abs() + &self.slip;
         let load = self.frictionless.abs() + self.jumps.abs().column_sum() + &self.offset_error;
-        let load = load.map(|size| size + MARGIN * load.amax().max(f64::MIN_POSITIVE));
+        let load = load.map(|size| size + MARGIN * load.amax().max(UNDERFLOW.sqrt()));
         let widened = &load * (1.0 + MARGIN);
         let bound = (DMatrix::identity(contacts, contacts) - &gain * (1.0 + MARGIN)).lu().solve(&widened)?;
         let needed = &gain * &bound + &load;
@@ -190,6 +194,7 @@ mod tests {
     use super::super::states::all_states;
     use super::super::test_problems::{Numbers, admitted, holds};
     use super::*;
+    use crate::modes::certificate::IntervalModeProblem;
     use crate::modes::problem::ModeProblem;
 
     #[test]
@@ -200,7 +205,7 @@ mod tests {
             let problem = numbers.problem(3, 0.4, seed % 2 == 0);
             let radius = if seed % 3 == 0 { 0.2 } else { 0.0 };
             let scaled = ScaledProblem::new(&problem);
-            let load_radius = scaled.scaled_load(&DVector::repeat(3, radius));
+            let load_radius = scaled.scaled_load_radius(&DVector::repeat(3, radius));
             let Some(propagation) = Propagation::new(&scaled, &load_radius) else { continue };
             bounded += usize::from(propagation.is_contraction());
             let nearby = numbers.with_load_off_by(&problem, radius);
@@ -217,6 +222,21 @@ mod tests {
             }
         }
         assert!(bounded > 100 && decided > 200, "{bounded} {decided}");
+    }
+
+    #[test]
+    fn bounds_of_the_columns_add_to_the_gain() {
+        let coupling = DMatrix::from_element(2, 2, 0.45);
+        let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
+        let problem =
+            ModeProblem::from_absolute_value_equation(&identity, &coupling, load).expect("shapes fit");
+        // The spectral radius is 0.9 in the middle, and 1 where all coefficients are as large as a tenth lets them.
+        for (relative, expected) in [(1e-3, true), (0.1, false)] {
+            let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
+            let scaled = ScaledProblem::within((&bounded).into());
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
+            assert_eq!(propagation.is_contraction(), expected, "{relative}");
+        }
     }
 
     #[test]

@@ -19,6 +19,10 @@ use crate::modes::solutions::ContactState;
 /// A Farkas vector must exclude by this fraction of the size of its terms, which is what solutions
 /// on a boundary are tolerated by.
 const MARGIN: f64 = 1e-11;
+/// Entries of a Farkas vector below this are zero, so that products with coefficients do not underflow.
+const SMALLEST_WEIGHT: f64 = f64::from_bits((1023 - 400) << 52);
+/// What underflow may take from products with loads; loads are of size 1, weights at most about 1.
+const UNDERFLOW: f64 = 1e-290;
 /// How often a Farkas vector is shifted to make its verification strict.
 const SHIFTS: usize = 2;
 /// Relative difference that [`ModeProblem`](crate::modes::ModeProblem) does not take for a jump.
@@ -123,7 +127,8 @@ impl Relaxation {
             let at = self.first[contact];
             for (offset, state) in ContactState::PRESSED.into_iter().enumerate() {
                 if set.contains(state) {
-                    bounds.upper[at + offset] = self.largest[contact] / self.column_scale[at + offset];
+                    let most = self.largest[contact] / self.column_scale[at + offset];
+                    bounds.upper[at + offset] = most.max(f64::MIN_POSITIVE);
                 }
             }
             if self.has_jump[contact] {
@@ -155,6 +160,7 @@ impl Relaxation {
     fn verified(&self, mut farkas: Vec<f64>, bounds: &Bounds, basis: &Basis) -> Option<Vec<f64>> {
         let mut combined = Vec::new();
         for _ in 0..=SHIFTS {
+            farkas = of_size_one(farkas)?;
             self.program.row_combination(&farkas, &mut combined);
             let sizes: Vec<f64> = farkas.iter().map(|entry| entry.abs()).collect();
             let rounding = (self.first.len() + 4) as f64 * f64::EPSILON;
@@ -168,6 +174,9 @@ impl Relaxation {
                 let error = rounding * size_of_terms(self.program.column(variable), &sizes)
                     + 1.01 * size_of_terms(&self.spread[variable], &sizes);
                 let (low, high) = (entry - error, entry + error);
+                if high.is_nan() {
+                    return None;
+                }
                 if high > 0.0 && bounds.upper[variable] == f64::INFINITY {
                     let row = basis.row_of(&self.program, variable)?;
                     super::simplex::add_multiple(&mut shift, -2.0 * high, &row);
@@ -194,8 +203,25 @@ impl Relaxation {
         let terms = size_of_terms(&self.load_size, sizes);
         let error = size_of_terms(&self.load_error, sizes);
         let slack = 2.0 * error + (rounding + MARGIN) * (terms + size + most.abs());
-        load - most > slack
+        load - most > slack + UNDERFLOW
     }
+}
+
+/// A multiple of a vector by a power of two, with entries up to about 1 and none too small for products; none if that
+/// is not possible.
+fn of_size_one(mut vector: Vec<f64>) -> Option<Vec<f64>> {
+    let size = vector.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+    if !vector.iter().all(|entry| entry.is_finite()) || size == 0.0 {
+        return None;
+    }
+    let scale = power_of_two_below(size).recip();
+    for entry in &mut vector {
+        *entry *= scale;
+        if entry.abs() < SMALLEST_WEIGHT {
+            *entry = 0.0;
+        }
+    }
+    Some(vector)
 }
 
 /// `sum |a_i| s_i` with sizes `s_i >= 0`.
@@ -225,6 +251,8 @@ fn power_of_two_below(size: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::super::states::all_states;
     use super::super::test_problems::{Numbers, admitted, holds};
     use super::*;
@@ -232,7 +260,7 @@ mod tests {
 
     fn relaxation(problem: &ModeProblem, load_radius: f64) -> (ScaledProblem, Relaxation) {
         let scaled = ScaledProblem::new(problem);
-        let radius = scaled.scaled_load(&DVector::repeat(problem.contacts(), load_radius));
+        let radius = scaled.scaled_load_radius(&DVector::repeat(problem.contacts(), load_radius));
         let largest = vec![f64::INFINITY; problem.contacts()];
         let relaxation = Relaxation::new(&scaled, &radius, largest);
         (scaled, relaxation)
@@ -293,5 +321,32 @@ mod tests {
             }
         }
         assert!(verified > 20, "{verified}");
+    }
+
+    /// Whether a vector excludes that both of two contacts are on their positive sides.
+    fn excludes(columns: [f64; 4], load: [f64; 2], weights: [f64; 2]) -> bool {
+        let columns = DMatrix::from_row_slice(2, 2, &columns);
+        let (negative, none) = (DMatrix::from_element(2, 2, -1.0), DMatrix::zeros(2, 2));
+        let load = DVector::from_column_slice(&load);
+        let problem = ModeProblem::new(columns, negative, none.clone(), none, load).expect("shapes fit");
+        let (_, relaxation) = relaxation(&problem, 0.0);
+        let bounds = relaxation.bounds(&[StateSet::only(ContactState::Positive); 2]);
+        relaxation.verified(weights.to_vec(), &bounds, &relaxation.first_basis()).is_some()
+    }
+
+    #[test]
+    fn products_within_rounding_of_zero_exclude_nothing() {
+        // (1 + 2^-30)^2 - (1 + 2^-29) is 2^-60, and 0 when it is rounded.
+        let entry = 1.0 + 2_f64.powi(-30);
+        let columns = [entry, -1.0, 1.0, 1.0];
+        assert!(!excludes(columns, [1.0, 0.0], [entry, -1.0 - 2_f64.powi(-29)]));
+        assert!(excludes(columns, [1.0, 0.0], [entry, -1.0 - 2_f64.powi(-28)]));
+    }
+
+    #[test]
+    fn loads_within_the_margin_of_zero_exclude_nothing() {
+        let columns = [1.0, -1.0, 1.5, 1.0];
+        assert!(!excludes(columns, [1.0, 1.0 - 1e-12], [1.0, -1.0]));
+        assert!(excludes(columns, [1.0, 1.0 - 1e-9], [1.0, -1.0]));
     }
 }

@@ -80,6 +80,7 @@ fn pattern_of(normal_force: &DVector<f64>) -> Vec<ContactState> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::modes::certificate::IntervalModeProblem;
     use crate::modes::problem::ModeProblem;
 
     fn proof_of(problem: &ModeProblem) -> Option<Method> {
@@ -120,5 +121,17 @@ mod tests {
         let load = DVector::from_element(1, -1.0);
         let problem = ModeProblem::new(one.clone(), -&one, &one * 2.0, DMatrix::zeros(1, 1), load);
         assert_eq!(proof_of(&problem.expect("shapes fit")), None);
+    }
+
+    #[test]
+    fn bounds_of_the_columns_add_to_singular_values() {
+        // sigma_max = 0.92 in the middle, and 1.02 with a diagonal that is less by a tenth, the other entries being more.
+        let problem = equation(&DMatrix::from_row_slice(2, 2, &[0.65, 0.65, -0.65, 0.65]));
+        for (relative, expected) in [(1e-3, Some(Method::SingularValue)), (0.1, None)] {
+            let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
+            let scaled = ScaledProblem::within((&bounded).into());
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
+            assert_eq!(proof(&scaled, &propagation), expected, "{relative}");
+        }
     }
 }

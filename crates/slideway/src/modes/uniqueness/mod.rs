@@ -141,7 +141,7 @@ struct Search {
 impl Search {
     fn new(problem: &ModeProblem, limits: &UniquenessLimits) -> Self {
         let contacts = problem.contacts();
-        let scaled = ScaledProblem::new(problem);
+        let scaled = ScaledProblem::within(problem.into());
         let columns: Vec<[Vec<f64>; 2]> = (0..contacts)
             .map(|contact| {
                 let column = |state| scaled.column(contact, state).as_slice().to_vec();
@@ -158,7 +158,10 @@ impl Search {
         for (contact, sides) in columns.iter().enumerate() {
             for (side, column) in sides.iter().enumerate() {
                 for (row, &entry) in column.iter().enumerate() {
-                    levels[0].values[2 * (row * contacts + contact) + side] = entry;
+                    let at = 2 * (row * contacts + contact) + side;
+                    levels[0].values[at] = entry;
+                    levels[0].errors[at] =
+                        scaled.column_radii().map_or(0.0, |radii| radii[side][(row, contact)]);
                 }
             }
         }
@@ -170,7 +173,8 @@ impl Search {
             found: [None, None],
             in_doubt: None,
             nodes: limits.nodes,
-            exact: limits.exact,
+            // What scaling may have lost cannot be decided exactly.
+            exact: if scaled.column_radii().is_none() { limits.exact } else { 0 },
         }
     }
 

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector};
 
 use super::*;
-use crate::modes::certificate::{Decision, ExactSet, decide};
-use crate::modes::problem::ModeProblem;
+use crate::modes::certificate::{Decision, ExactSet, IntervalMatrix, IntervalModeProblem, decide};
+use crate::modes::problem::{BySide, ModeProblem};
 use crate::modes::scaling::ScaledProblem;
 use crate::modes::solutions::ContactState;
 
@@ -36,8 +36,12 @@ fn columns(number: &mut impl FnMut(i64) -> f64, left: &DMatrix<f64>) -> [DMatrix
 
 fn candidates(problem: &ModeProblem, load_radius: f64) -> Option<(Candidates, u64)> {
     let scaled = ScaledProblem::new(problem);
-    let load_error = scaled.scaled_load(&DVector::repeat(problem.contacts(), load_radius));
-    let low_rank = LowRank::of(&scaled, &load_error)?;
+    let load_error = scaled.scaled_load_radius(&DVector::repeat(problem.contacts(), load_radius));
+    candidates_of(&scaled, &load_error)
+}
+
+fn candidates_of(scaled: &ScaledProblem, load_error: &DVector<f64>) -> Option<(Candidates, u64)> {
+    let low_rank = LowRank::of(scaled, load_error)?;
     let mut progress = |_: &_| ControlFlow::Continue(());
     let covered = cover(&low_rank, &mut Monitor::new(u64::MAX, &mut progress))?;
     assert!(covered.fraction == 1.0);
@@ -136,6 +140,33 @@ fn bounds_of_the_load_are_bounds_of_the_answer() {
 }
 
 #[test]
+fn bounds_of_the_columns_are_bounds_of_the_answer() {
+    let (mut covered, radius) = (0, 1.0 / 64.0);
+    let none = IntervalMatrix::exact(DMatrix::zeros(6, 6));
+    for seed in 0..120 {
+        let mut number = numbers(6000 + seed);
+        let left = DMatrix::from_fn(6, 2, |_, _| number(1000) / 300.0);
+        let columns = columns(&mut number, &left);
+        let load = DVector::from_fn(6, |_, _| number(4));
+        let around = |centre: &DMatrix<f64>| {
+            IntervalMatrix::around(centre.clone(), DMatrix::from_element(6, 6, radius)).expect("a radius")
+        };
+        let sides = BySide { positive: around(&columns[0]), negative: around(&columns[1]) };
+        let exact_load = IntervalMatrix::exact(DMatrix::from_columns(std::slice::from_ref(&load)));
+        let bounded =
+            IntervalModeProblem::new(&sides, &BySide::same(none.clone()), &exact_load).expect("shapes");
+        let scaled = ScaledProblem::within((&bounded).into());
+        let Some((candidates, _)) = candidates_of(&scaled, &DVector::zeros(6)) else { continue };
+        for _ in 0..4 {
+            let nearby = columns.clone().map(|matrix| matrix.map(|entry| entry + radius * number(1)));
+            assert_covers(&problem(nearby, load.clone()), &candidates);
+        }
+        covered += 1;
+    }
+    assert!(covered > 40, "{covered}");
+}
+
+#[test]
 fn steps_with_inaccurate_inverses_keep_the_solution() {
     // Rows that are parallel up to rounding; the solution is (1/2, -1/2), and every term is exact.
     for seed in 0..200 {
@@ -154,4 +185,29 @@ fn steps_with_inaccurate_inverses_keep_the_solution() {
             assert!((part.centre[axis] - value).abs() <= part.radius[axis], "seed {seed}");
         }
     }
+}
+
+#[test]
+fn steps_with_wrong_inverses_keep_all_solutions() {
+    // Rows that are parallel exactly, with all (t b, -t a) for solutions. Elimination in f64 finds an inverse for many.
+    let mut inverted = 0;
+    for seed in 0..200 {
+        let mut number = numbers(5000 + seed);
+        let mut entry = || 1.5 + number(100_000) / 2_f64.powi(18);
+        let (one, other) = (entry(), entry());
+        let mut gradient = [[0.0; SPACE]; LARGEST_RANK];
+        for (row, factor) in [(0, 1.0), (1, 3.0)] {
+            gradient[row][..3].copy_from_slice(&[0.0, factor * one, factor * other]);
+        }
+        let mut matrix = [[0.0; LARGEST_RANK]; LARGEST_RANK];
+        (0..2).for_each(|row| matrix[row][..2].copy_from_slice(&gradient[row][1..3]));
+        inverted += usize::from(Inverse::new(&matrix, 2).is_some());
+        let equations = Enclosure { gradient, constant: [0.0; LARGEST_RANK], noise: [0.0; LARGEST_RANK] };
+        let mut part = faces(2, 0).swap_remove(0);
+        assert!(equations.narrow(&mut part, 2), "seed {seed}");
+        for (axis, value) in [(1, other / 4.0), (2, -one / 4.0)] {
+            assert!((part.centre[axis] - value).abs() <= part.radius[axis], "seed {seed}");
+        }
+    }
+    assert!(inverted > 10, "{inverted}");
 }
