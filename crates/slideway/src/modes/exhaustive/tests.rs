@@ -7,7 +7,7 @@ use super::upper::bound_below;
 
 const E: f64 = 1.0 / 1024.0;
 /// Powers of two on both sides of the errors.
-const SIZES: [f64; 5] = [0.0, 0.001, 0.125, 1.0, 64.0];
+const SIZES: [f64; 5] = [0.0, 1.0 / 1024.0, 0.125, 1.0, 64.0];
 
 fn all(value: f64) -> Lanes {
     Lanes([value; 8])
@@ -52,14 +52,14 @@ fn pivot(size: f64) -> Pivot {
 fn back_substitution_is_wrong_by_its_bound_at_most() {
     for size in SIZES {
         for (largest, error) in [(0.0, E), (1.0, 0.0), (1.0, 0.125), (100.0, E), (E, 4.0)] {
-            for count in [0.0, 1.0, 5.0, 11.0] {
+            for others in [0_u8, 1, 5, 11] {
+                let count = f64::from(others);
                 let y = size + count * size * largest;
                 let worst = (size + E + count * (size + E) * (largest + error)) / (1.0 - E) - y;
                 let bound = pivot(size).error_of_y(count, all(y), all(largest), all(error));
                 check_attained(bound.0[7], worst);
 
-                let unknowns: Vec<Unknown> =
-                    (0..count as usize).map(|_| Unknown { value: largest, error }).collect();
+                let unknowns: Vec<Unknown> = (0..others).map(|_| Unknown { value: largest, error }).collect();
                 let equation = Equation { load: size, pivot: 1.0, bound: E };
                 let solved = equation.solve(std::iter::repeat(-size), &unknowns);
                 assert_eq!(solved.value, y);
