@@ -8,7 +8,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use slideway::modes::certificate::{Decision, IntervalModeProblem, ProblemView, decide};
-use slideway::modes::exhaustive::{Pattern, Progress, prove, prove_with, screen, screen_with};
+use slideway::modes::exhaustive::{
+    Instructions, Pattern, Progress, Screening, prove, prove_with, screen, screen_by, screen_with,
+};
 use slideway::modes::{ContactState, Limits, ModeProblem, Side, enumerate};
 
 /// The patterns that the simple enumerator finds to have a solution, inside or on the boundary.
@@ -56,6 +58,11 @@ fn check_against_decisions<'a>(
         assert!(screening.remaining.binary_search(pattern).is_ok(), "{pattern:?} was dropped");
     }
     assert_eq!(screening.excluded + screening.remaining.len() as u64, patterns.len() as u64);
+    for instructions in Instructions::available() {
+        let remaining = screen_by(problem, instructions).remaining;
+        let dropped = expected.iter().find(|pattern| remaining.binary_search(pattern).is_err());
+        assert_eq!(dropped, None, "{instructions:?}");
+    }
     let proved: Vec<Pattern> = prove(problem).into_iter().map(|(pattern, _)| pattern).collect();
     assert_eq!(proved, expected);
     screening.remaining.len() - expected.len()
@@ -220,6 +227,56 @@ fn hardly_anything_is_left_in_doubt() {
         let doubtful = check(&random_problem(14, seed));
         assert!(doubtful <= 1, "{doubtful} of 16384 patterns are in doubt");
     }
+}
+
+/// With fused operations the widths of vectors make no difference at all; without, doubts may differ.
+#[test]
+fn all_instructions_leave_the_same() {
+    for seed in 0..6 {
+        let problem = random_problem(15, seed);
+        let screenings: Vec<Screening> =
+            Instructions::available().into_iter().map(|set| screen_by(&problem, set)).collect();
+        assert_eq!(screenings[0], screen(&problem));
+        let (generic, fused) = screenings.split_last().unwrap();
+        assert!(fused.iter().all(|screening| screening == &fused[0]));
+        for pattern in with_solution(&problem) {
+            assert!(generic.remaining.binary_search(&pattern).is_ok());
+        }
+        assert!(generic.remaining.len() <= with_solution(&problem).len() + 1);
+    }
+}
+
+#[test]
+fn doubts_do_not_depend_on_the_units_of_loads() {
+    for load in [1e-7, 1.0, 1e5, 1e12] {
+        let plain = random_problem(14, 3);
+        let [positive, negative] = Side::BOTH.map(|side| plain.columns(side).clone());
+        let zeros = DMatrix::zeros(14, 14);
+        let rhs = plain.right_hand_side() * load;
+        let loaded = ModeProblem::new(positive, negative, zeros.clone(), zeros, rhs).unwrap();
+        assert!(check(&loaded) <= 1);
+    }
+}
+
+/// Two contacts jump, by numbers near 1.
+fn doubts_with_jumps(load: f64) -> usize {
+    let (jumping, jumps) = random_jumps(8, 0b1000_0010, 7);
+    let [positive, negative] = Side::BOTH.map(|side| jumping.columns(side).clone());
+    let [d_positive, d_negative] = Side::BOTH.map(|side| jumping.jumps(side).clone());
+    let rhs = jumping.right_hand_side() * load;
+    let loaded = ModeProblem::new(positive, negative, d_positive, d_negative, rhs).unwrap();
+    check_against_decisions(&loaded, 8, &jumps)
+}
+
+#[test]
+fn doubts_do_not_depend_on_loads_beside_small_jumps() {
+    assert!([1.0, 1e5, 1e8].map(doubts_with_jumps).iter().all(|&doubtful| doubtful <= 1));
+}
+
+#[test]
+#[ignore = "not put right yet: one error bound serves for loads and for jumps, so 37 of 576 patterns are in doubt"]
+fn doubts_do_not_depend_on_loads_beside_tiny_jumps() {
+    assert!(doubts_with_jumps(1e12) <= 1);
 }
 
 #[test]

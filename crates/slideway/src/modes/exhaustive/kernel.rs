@@ -3,49 +3,49 @@
 
 use std::hint::black_box;
 
-use super::lanes::{LANES, Lanes};
+use super::instructions::{Instructions, Set};
+use super::lanes::{LANES, Lanes, Mask};
 use super::layout::Layout;
+use super::leaf::{Bounds, CRAMER, SOLVED, Solved, cross, dot};
 use super::pattern::Pattern;
 use super::upper::{Node, ROUNDED_UP, ResolvedRow, bound_below};
 
 /// Places that the kernel decides, at most.
 pub(super) const LEVELS: usize = 12;
-/// Places that are solved together by Cramer's rule.
-pub(super) const CRAMER: usize = 3;
 /// Entries of a row: right-hand side and two columns for each place.
 const WIDTH: usize = 2 * LEVELS + 1;
 /// Unit roundoff of `f64`.
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 
-type Row = [Lanes; WIDTH];
+pub(super) type Row = [Lanes; WIDTH];
 
 /// The equations of a node, for each lane.
-struct Level {
-    rows: Vec<Row>,
+pub(super) struct Level {
+    pub(super) rows: Vec<Row>,
     /// Bound on the error of every entry; infinite where a pivot was too small.
-    bound: Lanes,
+    pub(super) bound: Lanes,
     /// Bound on the size of every entry.
-    size: Lanes,
+    pub(super) size: Lanes,
 }
 
 /// The equation from which the unknown of a place follows once those below are known.
 #[derive(Clone)]
-struct Pivot {
-    entries: Row,
-    inverse: Lanes,
+pub(super) struct Pivot {
+    pub(super) entries: Row,
+    pub(super) inverse: Lanes,
     /// Bound on the error of every entry and of the pivot `p`; infinite where the pivot is too small.
-    bound: Lanes,
+    pub(super) bound: Lanes,
     /// At least `1 / (|p| - bound)`; infinite where the pivot is too small.
-    guard: Lanes,
+    pub(super) guard: Lanes,
     /// The largest entry.
-    size: Lanes,
+    pub(super) size: Lanes,
 }
 
 impl Pivot {
     /// Bound on the error of the unknown `y` that follows from `count` others, given the largest of these and of
     /// their errors.
     #[inline(always)]
-    fn error_of_y(&self, count: f64, y: Lanes, largest: Lanes, error: Lanes) -> Lanes {
+    pub(super) fn error_of_y(&self, count: f64, y: Lanes, largest: Lanes, error: Lanes) -> Lanes {
         let (bound, size, guard) = (self.bound, self.size, self.guard);
         let mut result = Lanes::ZERO;
         for lane in 0..LANES {
@@ -70,6 +70,7 @@ struct Origin {
 
 /// Workspace of one thread.
 pub(super) struct Kernel {
+    instructions: Instructions,
     /// Places that the kernel decides.
     places: usize,
     levels: Vec<Level>,
@@ -92,6 +93,7 @@ impl Kernel {
         let zero = Lanes::ZERO;
         let pivot = Pivot { entries: row, inverse: zero, bound: zero, guard: zero, size: zero };
         Self {
+            instructions: layout.instructions,
             places,
             levels: (0..=places).map(level).collect(),
             pivots: vec![pivot; places],
@@ -156,7 +158,18 @@ impl Kernel {
         for index in 0..1_usize << (self.places - CRAMER) {
             let anew = if index == 0 { self.places - CRAMER } else { index.trailing_zeros() as usize + 1 };
             for place in (CRAMER..CRAMER + anew).rev() {
-                self.decide::<FUSED>(place, index >> (place - CRAMER) & 1);
+                let side = index >> (place - CRAMER) & 1;
+                match place {
+                    3 => self.decide::<FUSED, 3>(side),
+                    4 => self.decide::<FUSED, 4>(side),
+                    5 => self.decide::<FUSED, 5>(side),
+                    6 => self.decide::<FUSED, 6>(side),
+                    7 => self.decide::<FUSED, 7>(side),
+                    8 => self.decide::<FUSED, 8>(side),
+                    9 => self.decide::<FUSED, 9>(side),
+                    10 => self.decide::<FUSED, 10>(side),
+                    _ => self.decide::<FUSED, 11>(side),
+                }
             }
             self.leaf::<FUSED>();
         }
@@ -164,43 +177,51 @@ impl Kernel {
 
     /// One elimination step: the last undecided place goes to `side`. Each lane has its own pivot row.
     #[inline(always)]
-    fn decide<const FUSED: bool>(&mut self, place: usize, side: usize) {
+    fn decide<const FUSED: bool, const PLACE: usize>(&mut self, side: usize) {
+        let place = PLACE;
         let width = 2 * place + 1;
         let column = width + side;
         let (below, here) = self.levels.split_at_mut(place + 1);
         let (child, node) = (&mut below[place], &here[0]);
         let stored = &mut self.pivots[place];
-        let pivot_row = &mut stored.entries[..width];
-        pivot_row.copy_from_slice(&node.rows[0][..width]);
-        let mut pivot = node.rows[0][column];
-        let mut factors = [Lanes::ZERO; LEVELS];
-        // The larger entry stays with the pivot row, the other row goes to the child.
-        for ((row, target), factor) in node.rows[1..=place].iter().zip(&mut child.rows).zip(&mut factors) {
-            let candidate = row[column];
-            let larger = pivot.is_smaller_than(candidate);
-            for ((entry, kept), target) in row[..width].iter().zip(&mut *pivot_row).zip(target) {
-                // Vectorised lane by lane, not across entries.
-                let target = black_box(target);
-                let old = *kept;
-                *kept = larger.select(*entry, old);
-                *target = larger.select(old, *entry);
-            }
-            *factor = larger.select(pivot, candidate);
-            pivot = larger.select(candidate, pivot);
+        let rows = &node.rows[..=PLACE];
+        // Where the pivot changes places with the first row.
+        let mut pivot = rows[0][column];
+        let mut swapped = [Mask::NONE; LEVELS];
+        for row in 1..=PLACE {
+            let candidate = rows[row][column];
+            swapped[row - 1] = pivot.is_smaller_than(candidate);
+            pivot = swapped[row - 1].select(candidate, pivot);
+        }
+        // Only the last of them holds.
+        let mut later = Mask::NONE;
+        for row in (0..PLACE).rev() {
+            let first = swapped[row].without(later);
+            later = later.or(first);
+            swapped[row] = first;
         }
         let inverse = pivot.map(|pivot| 1.0 / pivot);
         let mut largest_factor = Lanes::ZERO;
-        for (target, factor) in child.rows.iter_mut().zip(&factors).take(place) {
-            let factor = factor.zip(inverse, |entry, inverse| -entry * inverse);
-            largest_factor = largest_factor.larger(factor.abs());
-            for (target, entry) in target.iter_mut().zip(&*pivot_row) {
-                let target = black_box(target);
-                *target = factor.times_plus::<FUSED>(*entry, *target);
-            }
+        let mut factors = [Lanes::ZERO; LEVELS];
+        for row in 0..PLACE {
+            let entry = swapped[row].select(rows[0][column], rows[row + 1][column]);
+            factors[row] = entry.zip(inverse, |entry, inverse| -entry * inverse);
+            largest_factor = largest_factor.larger(factors[row].abs());
         }
         let mut size = Lanes::ZERO;
-        for entry in &*pivot_row {
-            size = size.larger(entry.abs());
+        for j in 0..width {
+            // Vectorised lane by lane, not across entries.
+            let first = black_box(&rows[0])[j];
+            let mut kept = first;
+            for row in 0..PLACE {
+                kept = swapped[row].select(rows[row + 1][j], kept);
+            }
+            size = size.larger(kept.abs());
+            stored.entries[j] = kept;
+            for row in 0..PLACE {
+                let entry = swapped[row].select(first, rows[row + 1][j]);
+                child.rows[row][j] = factors[row].times_plus::<FUSED>(kept, entry);
+            }
         }
         let bound = node.bound;
         let regular = bound.map(|bound| 2.0 * bound).is_smaller_than(pivot);
@@ -226,7 +247,7 @@ impl Kernel {
     fn leaf<const FUSED: bool>(&mut self) {
         let node = &self.levels[CRAMER];
         let column = |j: usize| [node.rows[0][j], node.rows[1][j], node.rows[2][j]];
-        let error = error_of_determinants(node);
+        let bounds = Bounds::new(node, &self.pivots);
         let load = column(0);
         let (zeroth, first, second) =
             ([column(1), column(2)], [column(3), column(4)], [column(5), column(6)]);
@@ -243,30 +264,60 @@ impl Kernel {
                         dot::<FUSED>(zeroth_load[side_0], second[side_2]),
                         last,
                     ];
-                    let excess = excess(determinant, numerators, error);
+                    let sides = [side_0, side_1, side_2];
+                    let solved = self.multiples::<FUSED>(determinant, numerators, sides);
+                    let excess = solved.excess(&bounds);
                     if !excess.all_positive() {
-                        let solved = Solved { determinant, numerators, error, excess };
-                        self.substitute::<FUSED>(&solved, [side_0, side_1, side_2]);
+                        self.substitute::<FUSED>(&solved, &bounds, excess, sides);
                     }
                 }
             }
         }
     }
 
+    /// Back-substitution through the lowest places, without division by the determinant.
+    #[inline(always)]
+    fn multiples<const FUSED: bool>(
+        &self,
+        determinant: Lanes,
+        numerators: [Lanes; CRAMER],
+        sides: [usize; CRAMER],
+    ) -> Solved {
+        let mut multiples = [Lanes::ZERO; SOLVED];
+        multiples[..CRAMER].copy_from_slice(&numerators);
+        for place in CRAMER..SOLVED {
+            let pivot = &self.pivots[place];
+            let mut value = pivot.entries[0].times(determinant);
+            for below in 0..place {
+                let column = if below < CRAMER { 1 + 2 * below + sides[below] } else { self.columns[below] };
+                let negative = pivot.entries[column].map(|c| -c);
+                value = negative.times_plus::<FUSED>(multiples[below], value);
+            }
+            multiples[place] = value.times(pivot.inverse);
+        }
+        Solved { determinant, multiples }
+    }
+
     /// Back-substitution through the kernel's places, until some `y` is certainly negative in every lane.
     #[inline(always)]
-    fn substitute<const FUSED: bool>(&mut self, solved: &Solved, sides: [usize; CRAMER]) {
+    fn substitute<const FUSED: bool>(
+        &mut self,
+        solved: &Solved,
+        bounds: &Bounds,
+        mut excess: Lanes,
+        sides: [usize; CRAMER],
+    ) {
         let inverse = solved.determinant.map(|determinant| 1.0 / determinant);
         let mut largest = Lanes::ZERO;
         for place in 0..CRAMER {
             self.columns[place] = 1 + 2 * place + sides[place];
-            self.y[place] = solved.numerators[place].times(inverse);
+        }
+        for place in 0..SOLVED {
+            self.y[place] = solved.multiples[place].times(inverse);
             largest = largest.larger(self.y[place].abs());
         }
-        let error_of_y = solved.error_of_y(largest);
-        let mut error = error_of_y;
-        let mut excess = solved.excess;
-        for place in CRAMER..self.places {
+        let mut error = solved.error_of_y(bounds, bounds.largest(), largest);
+        for place in SOLVED..self.places {
             let pivot = &self.pivots[place];
             let mut value = pivot.entries[0];
             for below in 0..place {
@@ -283,7 +334,7 @@ impl Kernel {
             error = error.larger(here);
             largest = largest.larger(y.abs());
         }
-        self.keep_lanes(excess, error_of_y);
+        self.keep_lanes(excess, solved.error_of_y(bounds, bounds.determinant, largest));
     }
 
     /// Keeps the patterns of the lanes that are left, unless the places above exclude them.
@@ -303,8 +354,8 @@ impl Kernel {
     /// Back-substitution of one lane from the places of the leaf, whose errors are given: whether some unknown is
     /// certainly outside of its range.
     fn is_excluded(&self, lane: usize, error: f64) -> bool {
-        let mut unknowns: Vec<Unknown> =
-            self.y[..CRAMER].iter().map(|y| Unknown { value: y.0[lane], error }).collect();
+        let mut unknowns = Vec::with_capacity(self.places + self.origins[lane].above.len());
+        unknowns.extend(self.y[..CRAMER].iter().map(|y| Unknown { value: y.0[lane], error }));
         for place in CRAMER..self.places {
             let Pivot { entries, inverse, bound, .. } = &self.pivots[place];
             let coefficients = self.columns[..place].iter().map(|&column| entries[column].0[lane]);
@@ -333,21 +384,21 @@ impl Kernel {
 }
 
 /// A value and a bound on its error.
-struct Unknown {
-    value: f64,
-    error: f64,
+pub(super) struct Unknown {
+    pub(super) value: f64,
+    pub(super) error: f64,
 }
 
 /// One equation of the back-substitution, and a bound on the error of each of its entries.
-struct Equation {
-    load: f64,
-    pivot: f64,
-    bound: f64,
+pub(super) struct Equation {
+    pub(super) load: f64,
+    pub(super) pivot: f64,
+    pub(super) bound: f64,
 }
 
 impl Equation {
     /// The unknown at the pivot.
-    fn solve(&self, coefficients: impl Iterator<Item = f64>, unknowns: &[Unknown]) -> Unknown {
+    pub(super) fn solve(&self, coefficients: impl Iterator<Item = f64>, unknowns: &[Unknown]) -> Unknown {
         let (mut value, mut size) = (self.load, self.load.abs());
         let mut error = self.bound;
         for (coefficient, unknown) in coefficients.zip(unknowns) {
@@ -362,81 +413,6 @@ impl Equation {
     }
 }
 
-/// A pattern of the last places, by Cramer's rule.
-struct Solved {
-    determinant: Lanes,
-    numerators: [Lanes; CRAMER],
-    /// Bound on the error of each determinant.
-    error: Lanes,
-    /// Above zero where the lane is excluded.
-    excess: Lanes,
-}
-
-impl Solved {
-    /// Bound on the error of the quotients, the largest of which is given.
-    #[inline(always)]
-    fn error_of_y(&self, largest: Lanes) -> Lanes {
-        let mut result = Lanes::ZERO;
-        for lane in 0..LANES {
-            let (error, largest) = (self.error.0[lane], largest.0[lane]);
-            let bound = error * (1.0 + largest) / (self.determinant.0[lane].abs() - error);
-            result.0[lane] = (bound + 4.0 * UNIT * largest) * ROUNDED_UP + f64::MIN_POSITIVE;
-        }
-        let regular = self.error.is_smaller_than(self.determinant);
-        regular.select(result, Lanes([f64::INFINITY; LANES]))
-    }
-}
-
-/// `a x b`
-#[inline(always)]
-fn cross<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3]) -> [Lanes; 3] {
-    [minor::<FUSED>(a, b, 1, 2), minor::<FUSED>(a, b, 2, 0), minor::<FUSED>(a, b, 0, 1)]
-}
-
-/// `a_i b_j - a_j b_i`
-#[inline(always)]
-fn minor<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3], i: usize, j: usize) -> Lanes {
-    a[i].times_plus::<FUSED>(b[j], a[j].times(b[i]).map(|product| -product))
-}
-
-/// `a . b`
-#[inline(always)]
-fn dot<const FUSED: bool>(a: [Lanes; 3], b: [Lanes; 3]) -> Lanes {
-    a[0].times_plus::<FUSED>(b[0], a[1].times_plus::<FUSED>(b[1], a[2].times(b[2])))
-}
-
-/// With entries of size `A` at most, each of them wrong by `e` at most, a determinant is wrong by
-/// `6 ((A + e)^3 - A^3) + 32 u A^3`.
-#[inline(always)]
-fn error_of_determinants(node: &Level) -> Lanes {
-    let mut size = Lanes::ZERO;
-    for row in &node.rows[..CRAMER] {
-        for entry in &row[..=2 * CRAMER] {
-            size = size.larger(entry.abs());
-        }
-    }
-    size.zip(node.bound, |a, e| {
-        let exact = 6.0 * e * (3.0 * a * (a + e) + e * e) + 32.0 * UNIT * (a * a * a);
-        exact * ROUNDED_UP + f64::MIN_POSITIVE
-    })
-}
-
-/// Above zero where `|D|` is above its error and some `N_k / D` is certainly negative.
-#[inline(always)]
-fn excess(determinant: Lanes, numerators: [Lanes; CRAMER], error: Lanes) -> Lanes {
-    let mut result = Lanes::ZERO;
-    for lane in 0..LANES {
-        let sign = determinant.0[lane].to_bits() & (1 << 63);
-        let oriented = |k: usize| f64::from_bits(numerators[k].0[lane].to_bits() ^ sign);
-        let lower = if oriented(0) < oriented(1) { oriented(0) } else { oriented(1) };
-        let lowest = if oriented(2) < lower { oriented(2) } else { lower };
-        let size = determinant.0[lane].abs();
-        let smaller = if size < -lowest { size } else { -lowest };
-        result.0[lane] = smaller - error.0[lane];
-    }
-    result
-}
-
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,fma")]
 fn descend_avx512(kernel: &mut Kernel) {
@@ -449,20 +425,17 @@ fn descend_avx2(kernel: &mut Kernel) {
     kernel.descend::<true>();
 }
 
-/// Visits all patterns below the nodes at hand, with the best instructions that this processor has.
+/// Visits all patterns below the nodes at hand.
 fn descend(kernel: &mut Kernel) {
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("fma") {
+    match kernel.instructions.set() {
+        #[cfg(target_arch = "x86_64")]
         #[expect(unsafe_code, reason = "several times as fast as generic x86-64, chosen at run time")]
-        // SAFETY: the processor is asked for the features before each call.
-        unsafe {
-            if std::arch::is_x86_feature_detected!("avx512f") {
-                return descend_avx512(kernel);
-            }
-            if std::arch::is_x86_feature_detected!("avx2") {
-                return descend_avx2(kernel);
-            }
-        }
+        // SAFETY: `Instructions` are only those that the processor has.
+        Set::Avx512 => unsafe { descend_avx512(kernel) },
+        #[cfg(target_arch = "x86_64")]
+        #[expect(unsafe_code, reason = "several times as fast as generic x86-64, chosen at run time")]
+        // SAFETY: as above.
+        Set::Avx2 => unsafe { descend_avx2(kernel) },
+        Set::Generic => kernel.descend::<false>(),
     }
-    kernel.descend::<false>();
 }

@@ -89,6 +89,28 @@ impl Lanes {
 pub(super) struct Mask([u64; LANES]);
 
 impl Mask {
+    pub(super) const NONE: Self = Self([0; LANES]);
+
+    /// Where this is set and `other` is not.
+    #[inline(always)]
+    pub(super) fn without(self, other: Self) -> Self {
+        let mut result = self;
+        for lane in 0..LANES {
+            result.0[lane] &= !other.0[lane];
+        }
+        result
+    }
+
+    /// Where either is set.
+    #[inline(always)]
+    pub(super) fn or(self, other: Self) -> Self {
+        let mut result = self;
+        for lane in 0..LANES {
+            result.0[lane] |= other.0[lane];
+        }
+        result
+    }
+
     /// `one` where the mask is set, else `other`.
     #[inline(always)]
     pub(super) fn select(self, one: Lanes, other: Lanes) -> Lanes {

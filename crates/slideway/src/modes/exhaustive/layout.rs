@@ -1,16 +1,18 @@
 //! The order in which the tree decides contacts, and the scaled equations at its root.
 
 use super::double_double::{DoubleDouble, UNIT};
-use super::kernel::{CRAMER, LEVELS};
+use super::instructions::Instructions;
+use super::kernel::LEVELS;
 use super::lanes::LANES;
+use super::leaf::SOLVED;
 use super::pattern::Pattern;
 use crate::modes::certificate::ProblemView;
 use crate::modes::{ContactState, Side};
 
 /// Places of contacts in the tree; the last place is decided first.
 ///
-/// Places `0..padding` hold contacts with the equation `sigma y = 1`, so that there are three without a jump. Then
-/// follow the contacts without a jump, then those with one.
+/// Places `0..padding` hold contacts with the equation `sigma y = 1`, so that there are as many without a jump as the
+/// leaves need. Then follow the contacts without a jump, then those with one.
 #[derive(Debug)]
 pub(super) struct Layout {
     padding: usize,
@@ -18,16 +20,18 @@ pub(super) struct Layout {
     order: Vec<usize>,
     /// Places of contacts without a jump, padding included.
     pub(super) plain: usize,
+    /// What to compute with.
+    pub(super) instructions: Instructions,
 }
 
 impl Layout {
-    pub(super) fn new(problem: ProblemView<'_>) -> Self {
+    pub(super) fn new(problem: ProblemView<'_>, instructions: Instructions) -> Self {
         let contacts = 0..problem.contacts();
         let (jumping, mut order): (Vec<usize>, Vec<usize>) = contacts.partition(|&k| problem.may_jump(k));
-        let padding = CRAMER.saturating_sub(order.len());
+        let padding = SOLVED.saturating_sub(order.len());
         let plain = order.len() + padding;
         order.extend(jumping);
-        Self { padding, order, plain }
+        Self { padding, order, plain, instructions }
     }
 
     pub(super) fn places(&self) -> usize {
@@ -37,7 +41,7 @@ impl Layout {
     /// Places that are left to the kernel: few enough that there are nodes for all of its lanes.
     pub(super) fn kernel_places(&self) -> usize {
         let levels = LANES.ilog2() as usize;
-        self.plain.min(self.places().saturating_sub(levels)).clamp(CRAMER, LEVELS)
+        self.plain.min(self.places().saturating_sub(levels)).clamp(SOLVED, LEVELS)
     }
 
     pub(super) fn states(&self, place: usize) -> &'static [ContactState] {

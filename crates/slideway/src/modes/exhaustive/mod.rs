@@ -12,44 +12,69 @@
 //! The elimination tree of theory, section 4. Contacts with a jump are decided first. Near the root, where nodes
 //! are few, elimination runs in double-double arithmetic. The last twelve levels run in `f64`, eight sibling nodes
 //! side by side in the lanes of vector instructions, each with its own pivot rows. The last three contacts are
-//! solved together by Cramer's rule; back-substitution goes on while some lane may still be a solution.
+//! solved together by Cramer's rule, for `D` and `x_k = D y_k`; three more `x_k` follow without a division by `D` and
+//! without a branch. Back-substitution goes on while some lane may still be a solution.
 //!
 //! # Error bound
 //! Every node has a bound `e` on the error of all of its entries. At the root that is the largest radius of the
-//! data. If every entry of a node is within `e` of the exact one, a pivot `p` is regular when `|p| > 2 e`.
-//! Otherwise all patterns below are kept. With row pivoting `|l| <= L <= 1`, and the entries `a - l r` of the child
-//! are within
+//! data. Rows and right-hand sides are scaled by powers of two there, so units do not matter. Below, numbers with a
+//! hat are the computed ones, `A` and `R` bound the entries of a node and of its pivot row, `u` is the unit roundoff.
+//! A pivot is regular when `|p^| > 2 e`. Otherwise all patterns below are kept.
+//!
+//! *Elimination*, `a' = a - l r` with `l = c / p`. Row pivoting gives `|l^| <= L <= 1`. As
+//! `l - c^/p^ = (c - c^) / p + (c^/p^) (p^ - p) / p`, and two roundings follow, `l^` is wrong by
+//! `(1 + L) e / (|p^| - e) + 2 u` at most. `a` contributes `e`; `l r - l^ r^ = (l - l^) r + l^ (r - r^)`, with
+//! `|r| <= R + e`, the rest:
 //!
 //! ```text
-//! e' = (1 + L) e + (R + e) ((1 + L) e / (|p| - e) + 2 u) + 8 u (A + R)
+//! e' = (1 + L) e + (R + e) ((1 + L) e / (|p^| - e) + 2 u) + 8 u (A + R)
 //! ```
 //!
-//! of theirs, where `R` bounds the pivot row, `A` the node, and `u` is the unit roundoff: `a` contributes `e`, `l r`
-//! contributes `L e` by its `r` and `R + e` times the error of `l`, which is `(|a_c| e + |p| e) / (|p| (|p| - e))`
-//! at most besides two roundings; the last term is more than the roundings of product and difference. Determinants
-//! of the last three contacts are wrong by
-//! `6 ((A + e)^3 - A^3) + 32 u A^3` at most. In the back-substitution `p y = b - sum_i c_i y_i` over `k` contacts
-//! with errors `d` of the `y_i <= Y` the right-hand side is wrong by
+//! The last term is more than the roundings of product and difference, `2 u L R + u A`, and products of small terms.
+//!
+//! *Determinants* of the last three contacts: six products of three entries, `6 ((A + e)^3 - A^3)`; each entry takes
+//! part in at most five roundings, which are within `32 u A^3`.
+//!
+//! *Multiples of the determinant*, `p x = b D - sum_i c_i x_i`: `t` terms, whose second factors are at most `X` and
+//! wrong by `d` at most. Each term is wrong by `R d + e (X + d)` and passes `t + 1` roundings. `V^/p^ - V/p` is
+//! `((V^ - V) + (V^/p^) (p - p^)) / p`, so that with `X' = t R X / (|p^| - e)`, the next `X`, `x` is wrong by
+//!
+//! ```text
+//! (t (R d + e (X + d)) + t (t + 2) u R X + e X') / (|p^| - e) + 4 u X'
+//! ```
+//!
+//! *Back-substitution*, `p y = b - sum_i c_i y_i` over `k` contacts with errors `d` of the `y_i <= Y`. The right-hand
+//! side is wrong by
 //!
 //! ```text
 //! e + k (R d + e (Y + d)) + (k + 4) u R (1 + k Y)
 //! ```
 //!
-//! at most, or by the same sum with the size and error of each term where few patterns are left. A pattern is dropped only when some `y_k` is below minus its error, or a share of a gap beyond 0 to 1
-//! by more than that. So the patterns that are left hold every solution, whatever rounding did. Bounds are rounded
-//! up, and the least normal number is added to each against underflow.
+//! at most, or by the same sum with the size and error of each term where few patterns are left. The quotient follows
+//! as above.
+//!
+//! A pattern is dropped only when `|D|` is above its error and some `y_k` or `x_k / D` is below minus its error, or a
+//! share of a gap beyond 0 to 1 by more than that. So the patterns that are left hold every solution, whatever
+//! rounding did. Bounds are rounded up, and the least normal number is added to each against underflow. Tests let
+//! the entries take the worst values within `e`, where the parts with `e` and `d` are attained.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled without the chosen instructions")]
 #![expect(clippy::needless_range_loop, reason = "loops over lanes run through several arrays at once")]
 
 mod double_double;
+mod instructions;
 mod kernel;
 mod lanes;
 mod layout;
+mod leaf;
 mod pattern;
 mod run;
+#[cfg(test)]
+mod tests;
 mod upper;
 
+#[doc(hidden)]
+pub use instructions::Instructions;
 pub use pattern::Pattern;
 
 use std::ops::ControlFlow;
@@ -95,12 +120,20 @@ pub struct Tally {
 /// # Panics
 /// If the problem has more than 60 contacts, or more patterns than a `u64` can count.
 pub fn screen<'a>(problem: impl Into<ProblemView<'a>>) -> Screening {
+    screen_by(problem, Instructions::best())
+}
+
+/// As [`screen`], with instructions of choice.
+#[doc(hidden)]
+pub fn screen_by<'a>(problem: impl Into<ProblemView<'a>>, instructions: Instructions) -> Screening {
+    let problem = problem.into();
     let mut remaining = Vec::new();
-    let visit = |pattern| {
+    let mut visit = |pattern| {
         remaining.push(pattern);
         ControlFlow::Continue(())
     };
-    let tally = screen_with(problem, visit, |_| ControlFlow::Continue(()));
+    let run = Run::new(problem, instructions, &|remaining| remaining, &|_| ControlFlow::Continue(()));
+    let tally = run.visit_all(problem, &mut visit);
     remaining.sort_unstable();
     Screening { remaining, excluded: tally.excluded }
 }
@@ -121,7 +154,7 @@ pub fn screen_with<'a>(
     progress: impl Fn(&Progress) -> ControlFlow<()> + Sync,
 ) -> Tally {
     let problem = problem.into();
-    Run::new(problem, &|remaining| remaining, &progress).visit_all(problem, &mut visit)
+    Run::new(problem, Instructions::best(), &|remaining| remaining, &progress).visit_all(problem, &mut visit)
 }
 
 /// Every pattern that has a solution or is singular, decided by proof; all others are proved to have none.
@@ -169,6 +202,10 @@ pub fn prove_with<'a>(
             remaining.into_iter().map(|pattern| (pattern, decide(problem, &pattern.states(contacts))));
         decided.filter(|(_, verdict)| !matches!(verdict.decision, Decision::NoSolution { .. })).collect()
     };
-    Run::new(problem, &examine, &progress)
-        .visit_all(problem, &mut |(pattern, verdict)| visit(pattern, verdict))
+    Run::new(problem, Instructions::best(), &examine, &progress).visit_all(problem, &mut |(
+        pattern,
+        verdict,
+    )| {
+        visit(pattern, verdict)
+    })
 }

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
+use super::instructions::Instructions;
 use super::kernel::Kernel;
 use super::lanes::LANES;
 use super::layout::{Layout, Root};
@@ -32,11 +33,12 @@ pub(super) struct Run<'a, T> {
 impl<'a, T: Send> Run<'a, T> {
     pub(super) fn new(
         problem: ProblemView<'_>,
+        instructions: Instructions,
         examine: Examine<'a, T>,
         progress: &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync),
     ) -> Self {
         assert!(problem.contacts() <= 60, "patterns are held in the bits of a u64");
-        let layout = Layout::new(problem);
+        let layout = Layout::new(problem, instructions);
         let total = layout.patterns_below(layout.places());
         assert!(total.is_some(), "patterns are counted in a u64");
         let total = total.unwrap_or_default();

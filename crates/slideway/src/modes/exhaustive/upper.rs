@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::double_double::{DoubleDouble, UNIT};
+use super::instructions::{Instructions, Set};
 use super::layout::{Layout, Root};
 use super::pattern::Pattern;
 use crate::modes::ContactState;
@@ -94,7 +95,9 @@ impl Node {
         }
         let column = width + usize::from(state == ContactState::Negative);
         if place < layout.plain {
-            child.eliminate(&self.high, &self.low, column, width, layout.column(self.places));
+            let stride = layout.column(self.places);
+            let step = Step::new(&self.high, &self.low, [column, width, stride]);
+            child.eliminate(&step, layout.instructions);
         } else {
             let (mut high, mut low) = (self.high.clone(), self.low.clone());
             let stride = layout.column(self.places);
@@ -104,24 +107,22 @@ impl Node {
             // A sum of two entries.
             child.bound = 2.0 * self.bound + 4.0 * UNIT * self.size;
             child.size = 2.0 * self.size;
-            child.eliminate(&high, &low, column, width, stride);
+            child.eliminate(&Step::new(&high, &low, [column, width, stride]), layout.instructions);
         }
         child
     }
 
     /// One elimination step on equations within the bounds of this node, which becomes the child.
-    fn eliminate(&mut self, high: &[f64], low: &[f64], column: usize, width: usize, stride: usize) {
-        let rows = high.len() / stride;
-        let size = |row: &usize| high[row * stride + column].abs();
-        let at = (0..rows).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
-        let pivot = size(&at);
+    fn eliminate(&mut self, step: &Step<'_>, instructions: Instructions) {
+        let &Step { high, at, column, width, stride, .. } = step;
+        let pivot = high[at * stride + column].abs();
         if pivot <= 2.0 * self.bound || pivot == 0.0 || !self.size.is_finite() {
             self.irregular = true;
             return;
         }
-        (self.high, self.low) = (vec![0.0; (rows - 1) * width], vec![0.0; (rows - 1) * width]);
-        let step = Step { high, low, at, column, width, stride };
-        step.run(&mut self.high, &mut self.low);
+        let entries = (high.len() / stride - 1) * width;
+        (self.high, self.low) = (vec![0.0; entries], vec![0.0; entries]);
+        step.run(instructions, &mut self.high, &mut self.low);
         let pivot_row = &high[at * stride..at * stride + width];
         let row = largest(pivot_row);
         self.pivots.push(Arc::new(PivotRow {
@@ -188,7 +189,14 @@ struct Step<'a> {
     stride: usize,
 }
 
-impl Step<'_> {
+impl<'a> Step<'a> {
+    /// The pivot is the largest entry of its column.
+    fn new(high: &'a [f64], low: &'a [f64], [column, width, stride]: [usize; 3]) -> Self {
+        let size = |row: &usize| high[row * stride + column].abs();
+        let at = (0..high.len() / stride).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
+        Self { high, low, at, column, width, stride }
+    }
+
     /// All rows but the pivot's, less their multiple of it.
     #[inline(always)]
     fn rows<const FUSED: bool>(&self, high: &mut [f64], low: &mut [f64]) {
@@ -218,14 +226,14 @@ impl Step<'_> {
         self.rows::<true>(high, low);
     }
 
-    fn run(&self, high: &mut [f64], low: &mut [f64]) {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-            // SAFETY: the processor was just found to have both features.
+    fn run(&self, instructions: Instructions, high: &mut [f64], low: &mut [f64]) {
+        match instructions.set() {
+            #[cfg(target_arch = "x86_64")]
             #[expect(unsafe_code, reason = "three times as fast as generic x86-64, chosen at run time")]
-            return unsafe { self.rows_avx2(high, low) };
+            // SAFETY: `Instructions` are only those that the processor has, and AVX-512 is told with AVX2 only.
+            Set::Avx512 | Set::Avx2 => unsafe { self.rows_avx2(high, low) },
+            Set::Generic => self.rows::<false>(high, low),
         }
-        self.rows::<false>(high, low);
     }
 }
 
