@@ -67,7 +67,8 @@ pub(super) fn precise(value: f64) -> String {
     if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
         return number(value);
     }
-    let digits = (7.0 - value.abs().log10().floor()).clamp(0.0, 12.0);
-    let text = format!("{value:.*}", digits as usize);
+    // The first number of digits behind the point that gives eight significant ones.
+    let digits = (2..12).find(|&digits| value.abs() >= 10_f64.powi(7 - digits)).unwrap_or(12);
+    let text = format!("{value:.*}", usize::try_from(digits).unwrap_or(12));
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -144,24 +144,21 @@ fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Fou
         greatest_normal_force: options.max_reaction,
         patterns: PATTERNS,
     };
-    let found = match linear(varied, range)? {
-        Some([start, end]) => {
-            let line = start.line_to(&end);
-            line.existence(&existence_options).map(|mut existence| {
-                let mut counts = counts(&line, &existence, [0.0, 1.0]);
-                stretch(&mut existence, &mut counts, range);
-                Found { existence, counts, gaps: Vec::new(), is_linear: true }
-            })
-        }
-        None => {
-            let scanner = Scanner { varied, options: ExistenceOptions { range, ..existence_options } };
-            scanner.scan().map(|scan| Found {
-                existence: scan.existence,
-                counts: scan.counts,
-                gaps: scan.gaps,
-                is_linear: false,
-            })
-        }
+    let found = if let Some([start, end]) = linear(varied, range)? {
+        let line = start.line_to(&end);
+        line.existence(&existence_options).map(|mut existence| {
+            let mut counts = counts(&line, &existence, [0.0, 1.0]);
+            stretch(&mut existence, &mut counts, range);
+            Found { existence, counts, gaps: Vec::new(), is_linear: true }
+        })
+    } else {
+        let scanner = Scanner { varied, options: ExistenceOptions { range, ..existence_options } };
+        scanner.scan().map(|scan| Found {
+            existence: scan.existence,
+            counts: scan.counts,
+            gaps: scan.gaps,
+            is_linear: false,
+        })
     };
     found.map_err(|TooManyModes { contacts, limit, .. }| fault(FaultKind::TooManyModes { contacts, limit }))
 }

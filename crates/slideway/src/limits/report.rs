@@ -243,9 +243,10 @@ pub(super) fn report(
     };
     let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
     if left_out > 0 {
-        guarantee += &format!(
+        let left_out = format!(
             " {left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
         );
+        guarantee.push_str(&left_out);
     }
     LimitsReport {
         schema: SCHEMA,
