@@ -298,6 +298,17 @@ fn a_load_that_vanishes_or_a_pattern_that_is_always_singular() -> Result<(), Box
 }
 
 #[test]
+fn without_contacts_there_is_one_mode_throughout() -> Result<(), Box<dyn Error>> {
+    let none = DMatrix::zeros(0, 0);
+    let empty = ModeProblem::new(none.clone(), none.clone(), none.clone(), none, DVector::zeros(0))?;
+    let line = ModeProblemLine::between(&empty, &empty);
+    let existence = line.existence(&options(0.0, 1.0))?;
+    assert_eq!((existence.modes.len(), existence.modes[0].to.at), (1, 1.0));
+    assert_eq!(line.first_locking(ALL)?, None);
+    Ok(())
+}
+
+#[test]
 fn too_many_patterns_are_refused() -> Result<(), Box<dyn Error>> {
     let line = paper([0.0, 1.0, 0.0], 1.0)?;
     let error =

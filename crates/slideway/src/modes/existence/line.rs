@@ -108,6 +108,10 @@ impl Line {
     /// eigenvalues (theory, section 6), so nothing is scanned: the range is cut at the zeros of the determinant,
     /// then at those of one condition after the other.
     pub(super) fn extent(&self, conditions: &[Condition], range: [f64; 2]) -> Extent {
+        let end = |at| End { at, cause: Cause::Range };
+        if self.right_hand_side[0].is_empty() {
+            return Extent::Parts(vec![Part { from: end(range[0]), to: end(range[1]) }]);
+        }
         let Some(reduced) = self.reduced(conditions, range) else { return Extent::SingularThroughout };
         match parts(&reduced, range) {
             Some(parts) => Extent::Parts(parts),
@@ -117,6 +121,9 @@ impl Line {
 
     /// Where `det A(t)` vanishes, with base points in a range; empty if it vanishes throughout.
     pub(super) fn determinant_zeros(&self, range: [f64; 2]) -> Vec<f64> {
+        if self.right_hand_side[0].is_empty() {
+            return Vec::new();
+        }
         let zeros = self.reduced(&[], range).and_then(|reduced| reduced.poles());
         zeros.unwrap_or_default().into_iter().map(|Root(at)| at).collect()
     }
@@ -156,6 +163,9 @@ impl Line {
 
     /// The solution at a parameter; none where the equations are singular.
     pub(super) fn solution(&self, at: f64) -> Option<DVector<f64>> {
+        if self.right_hand_side[0].is_empty() {
+            return Some(DVector::zeros(0));
+        }
         self.matrix_at(at).lu().solve(&self.right_hand_side_at(at))
     }
 
