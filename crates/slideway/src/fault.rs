@@ -301,6 +301,14 @@ pub enum FaultKind {
     )]
     ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
 
+    // Standstill.
+    #[error("there is nothing of the load {load} at rest, so no factor changes it")]
+    NoLoadAtRest { load: String },
+    #[error("`{parameter}` is no parameter of static friction alone")]
+    NotOnlyFriction { parameter: String },
+    #[error("the joints and contacts have {states} states at rest; at most {limit} are tried")]
+    TooManyStates { states: u64, limit: u64 },
+
     // Enumeration of the modes.
     #[error("{contacts} contacts with friction have 2^{contacts} contact modes; at most 2^{limit} are tried")]
     TooManyContacts { contacts: usize, limit: usize },
@@ -410,6 +418,13 @@ impl FaultKind {
             }
             Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
+            Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
+            Self::NotOnlyFriction { .. } => Some(
+                "friction coefficients must grow in proportion to it, or by a constant more, and nothing else may depend on it",
+            ),
+            Self::TooManyStates { .. } => {
+                Some("a guided slider or a pin in a slot has one contact where a block slider has two")
+            }
             Self::TooManyPatterns { .. } => Some("preload_line = \"centre\" makes no gaps to be tried"),
             Self::TooManyContacts { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
