@@ -422,11 +422,8 @@ impl FaultKind {
             Self::NotOnlyFriction { .. } => Some(
                 "friction coefficients must grow in proportion to it, or by a constant more, and nothing else may depend on it",
             ),
-            Self::TooManyStates { .. } => {
-                Some("a guided slider or a pin in a slot has one contact where a block slider has two")
-            }
             Self::TooManyPatterns { .. } => Some("preload_line = \"centre\" makes no gaps to be tried"),
-            Self::TooManyContacts { .. } => {
+            Self::TooManyContacts { .. } | Self::TooManyStates { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
             }
             _ => None,
@@ -509,7 +506,7 @@ fn opening(joint: &str, loop_joints: &[String]) -> String {
 fn velocity_hint(coordinates: &[String]) -> String {
     let rates: Vec<String> = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1")).collect();
     format!(
-        "give the mechanism a velocity, for instance with `{}`; friction at rest is not analysed",
+        "give the mechanism a velocity, for instance with `{}`; `slideway hold` analyses friction at rest",
         rates.join(" ")
     )
 }

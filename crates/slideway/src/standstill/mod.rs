@@ -93,8 +93,13 @@ pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> 
     } else {
         Over { found: Vec::new(), undecided: 0 }
     };
-    let verdict =
-        verdict(rest.found.is_some(), !release.found.is_empty(), motions_without_inertia.is_empty());
+    let verdict = if motions_without_inertia.is_empty() {
+        verdict(&setup, nominal, rest.found.is_some(), !release.found.is_empty())
+    } else if rest.found.is_some() {
+        Verdict::MayHold
+    } else {
+        Verdict::DoesNotHold
+    };
     let original = Mechanism::new(model)?;
     Ok(HoldReport {
         schema: SCHEMA,
@@ -151,15 +156,23 @@ fn load_report(
     Ok(Some(Over { found: report, undecided }))
 }
 
-fn verdict(holds: bool, moves: bool, with_inertia: bool) -> Verdict {
-    match (holds, moves, with_inertia) {
-        (true, _, false) => Verdict::MayHold,
-        (false, _, false) => Verdict::DoesNotHold,
-        (true, false, true) => Verdict::Holds,
-        (true, true, true) => Verdict::HoldsOrSlips,
-        (false, true, true) => Verdict::Moves,
-        (false, false, true) => Verdict::Neither,
+fn verdict(setup: &Setup, factor: f64, holds: bool, moves: bool) -> Verdict {
+    match (holds, moves) {
+        (true, false) => Verdict::Holds,
+        (true, true) if slips_against_static_friction(setup, factor) => Verdict::HoldsOrSlips,
+        (true, true) => Verdict::HoldsUntilPushed,
+        (false, true) => Verdict::Moves,
+        (false, false) => Verdict::Neither,
     }
+}
+
+/// Whether it begins to slide even where kinetic friction is as great as static friction.
+fn slips_against_static_friction(setup: &Setup, factor: f64) -> bool {
+    let mut rough = setup.clone();
+    for contact in &mut rough.mechanism.contacts {
+        contact.mu = contact.mu_static;
+    }
+    !release::releases(&rough, factor, true).found.is_empty()
 }
 
 fn state(setup: &Setup) -> Vec<CoordinateValue> {

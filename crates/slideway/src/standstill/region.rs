@@ -6,6 +6,8 @@ use microlp::{ComparisonOp, Error, OptimizationDirection, Problem, SolveOptions,
 const NO_COEFFICIENT: f64 = 1e-13;
 /// A finite extent beyond this is one that rounding has cut off: the region is unbounded.
 const UNBOUNDED: f64 = 1e9;
+/// A direction counts as one of recession if it misses no constraint by more than this.
+const RECESSION: f64 = 1e-10;
 /// The solver may miss a constraint by this.
 const FEASIBILITY: f64 = 1e-10;
 
@@ -73,6 +75,9 @@ impl Region {
 
     /// Least and greatest value of a function in the region, which must not be empty; nothing where it is unbounded.
     ///
+    /// It is unbounded where the cone of recession reaches in the direction of the function, which is judged with
+    /// [`RECESSION`], so that a cone which rounding has closed counts as open.
+    ///
     /// # Errors
     /// If a linear program was not solved.
     pub(super) fn extent(&self, function: &Affine) -> Result<[Option<f64>; 2], Undecided> {
@@ -87,6 +92,9 @@ impl Region {
         if function.coefficients.iter().all(|coefficient| coefficient.abs() <= NO_COEFFICIENT) {
             return Ok(Some(constant));
         }
+        if self.recedes(function, sign)? {
+            return Ok(None);
+        }
         let mut problem = Problem::new(OptimizationDirection::Minimize);
         let costs: Vec<f64> = function.coefficients.iter().map(|coefficient| sign * coefficient).collect();
         let unknowns = free_unknowns(&mut problem, &costs);
@@ -97,6 +105,24 @@ impl Region {
             }
         }
         Ok(optimum(&problem)?.map(|least| least + constant).filter(|least| least.abs() < UNBOUNDED))
+    }
+
+    /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function falls:
+    /// the least `t` with `coefficients . d <= t` for all constraints and `sign function . d = -1` is not positive.
+    fn recedes(&self, function: &Affine, sign: f64) -> Result<bool, Undecided> {
+        let mut problem = Problem::new(OptimizationDirection::Minimize);
+        let unknowns = free_unknowns(&mut problem, &vec![0.0; self.dimension]);
+        let margin = problem.add_var(1.0, (-1.0, f64::INFINITY));
+        for constraint in &self.constraints {
+            let mut row = terms(&unknowns, constraint);
+            if !row.is_empty() {
+                row.push((margin, -1.0));
+                problem.add_constraint(&row[..], ComparisonOp::Le, 0.0);
+            }
+        }
+        problem.add_constraint(&terms(&unknowns, function)[..], ComparisonOp::Eq, -sign);
+        let margin = optimum(&problem)?.ok_or(Undecided)?;
+        Ok(margin <= RECESSION)
     }
 }
 

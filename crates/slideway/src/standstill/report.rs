@@ -11,7 +11,9 @@ pub const SCHEMA: &str = "slideway/hold/1";
 pub enum Verdict {
     /// It stays at rest; no state of sliding is possible.
     Holds,
-    /// Friction may hold it, and yet states in which it begins to slide are possible, too.
+    /// It stays at rest, but once pushed it goes on sliding, as kinetic friction is below static friction.
+    HoldsUntilPushed,
+    /// Friction may hold it, and yet it may begin to slide even against static friction (Painleve's paradox at rest).
     HoldsOrSlips,
     /// It cannot stay at rest, and begins to move.
     Moves,
@@ -26,7 +28,7 @@ pub enum Verdict {
 impl Verdict {
     /// Whether some state of rest is possible.
     pub fn holds(self) -> bool {
-        matches!(self, Self::Holds | Self::HoldsOrSlips | Self::MayHold)
+        matches!(self, Self::Holds | Self::HoldsUntilPushed | Self::HoldsOrSlips | Self::MayHold)
     }
 }
 

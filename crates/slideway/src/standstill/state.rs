@@ -262,12 +262,11 @@ impl<'s> State<'s> {
             self.slip(k, &mut matrix, &mut right_hand_side);
         }
         if let Some(load) = &setup.load {
-            match self.question.factor {
-                Some(factor) => right_hand_side += &load.forces * factor,
-                None => {
-                    let unit = self.factor_unit();
-                    matrix.column_mut(self.columns - 1).copy_from(&(&load.forces * -unit));
-                }
+            if let Some(factor) = self.question.factor {
+                right_hand_side += &load.forces * factor;
+            } else {
+                let column = &load.forces * -self.factor_unit();
+                matrix.column_mut(self.columns - 1).copy_from(&column);
             }
         }
         (matrix, right_hand_side)

@@ -5,6 +5,7 @@ use crate::report::number::{against, number};
 use crate::report::table::table;
 use crate::report::{Style, count};
 use anstyle::AnsiColor;
+use std::fmt::Write;
 
 /// The report as text: the verdict first, then load, reactions and release.
 pub fn to_text(report: &HoldReport, style: Style) -> String {
@@ -54,6 +55,12 @@ impl Text<'_> {
         let (colour, words) = match self.report.verdict {
             Verdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
             Verdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
+            Verdict::HoldsUntilPushed => (
+                AnsiColor::Green,
+                format!(
+                    "It holds. Once pushed it goes on sliding, as kinetic friction is below static: {ways}."
+                ),
+            ),
             Verdict::HoldsOrSlips => (
                 AnsiColor::Yellow,
                 format!("It can hold, and it can begin to slide, too: {ways} of sliding besides rest."),
@@ -169,12 +176,12 @@ impl Text<'_> {
         let mut line = format!("All {rest} were tried for rest");
         if report.motions_without_inertia.is_empty() {
             let states = count(report.release_patterns, "state", "states");
-            line.push_str(&format!(", and {states} of joints and sides for sliding"));
+            let _ = write!(line, ", and {states} of joints and sides for sliding");
         }
         line.push('.');
         if report.undecided > 0 {
             let programs = count(report.undecided, "of them was", "of them were");
-            line.push_str(&format!(" {programs} not decided: a linear program was not solved."));
+            let _ = write!(line, " {programs} not decided: a linear program was not solved.");
         }
         self.line(&line);
     }
@@ -236,13 +243,13 @@ fn threshold_in_words(load: &LoadReport) -> Vec<String> {
     };
     let mut found: Vec<String> = coefficients.iter().map(|c| list(c.mu_static)).collect();
     found.dedup();
-    lines.push(match found.as_slice() {
-        [one] => format!("There mu_static is {one}."),
-        _ => {
-            let named = coefficients.iter().map(|c| format!("{}: {}", c.contact, list(c.mu_static)));
-            format!("There mu_static is {}.", named.collect::<Vec<_>>().join(", "))
-        }
-    });
+    let coefficients = if let [one] = found.as_slice() {
+        one.clone()
+    } else {
+        let named = coefficients.iter().map(|c| format!("{}: {}", c.contact, list(c.mu_static)));
+        named.collect::<Vec<_>>().join(", ")
+    };
+    lines.push(format!("There mu_static is {coefficients}."));
     lines
 }
 

@@ -16,6 +16,7 @@ mod klepp_2002;
 mod loads;
 mod preload_gap;
 mod properties;
+mod standstill;
 mod symmetries;
 mod textbook;
 mod words;
