@@ -8,8 +8,12 @@ const NO_COEFFICIENT: f64 = 1e-13;
 const UNBOUNDED: f64 = 1e9;
 /// A direction counts as one of recession if it misses no constraint by more than this.
 const RECESSION: f64 = 1e-10;
-/// The solver may miss a constraint by this.
+/// The solver may miss a constraint by this, the least that it takes.
 const FEASIBILITY: f64 = 1e-10;
+/// Constraints are multiplied by this power of two, so that the solver misses them by no more than about 1e-14.
+const MAGNIFIED: f64 = 8192.0;
+/// Optima below this are rounding errors of terms of order one.
+const NOTHING: f64 = 1e-12;
 
 /// A function `coefficients . z + constant`.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,8 +63,8 @@ impl Region {
         let margin = problem.add_var(1.0, (-1.0, f64::INFINITY));
         for constraint in &self.constraints {
             let mut row = terms(&unknowns, constraint);
-            row.push((margin, -1.0));
-            problem.add_constraint(&row[..], ComparisonOp::Le, -constraint.constant);
+            row.push((margin, -MAGNIFIED));
+            problem.add_constraint(&row[..], ComparisonOp::Le, -MAGNIFIED * constraint.constant);
         }
         optimum(&problem)?.ok_or(Undecided)
     }
@@ -101,10 +105,12 @@ impl Region {
         for constraint in &self.constraints {
             let row = terms(&unknowns, constraint);
             if !row.is_empty() {
-                problem.add_constraint(&row[..], ComparisonOp::Le, -constraint.constant);
+                problem.add_constraint(&row[..], ComparisonOp::Le, -MAGNIFIED * constraint.constant);
             }
         }
-        Ok(optimum(&problem)?.map(|least| least + constant).filter(|least| least.abs() < UNBOUNDED))
+        let without_noise = |value: f64| if value.abs() <= NOTHING { 0.0 } else { value };
+        let least = optimum(&problem)?.map(|least| without_noise(least + constant));
+        Ok(least.filter(|least| least.abs() < UNBOUNDED))
     }
 
     /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function falls:
@@ -116,11 +122,11 @@ impl Region {
         for constraint in &self.constraints {
             let mut row = terms(&unknowns, constraint);
             if !row.is_empty() {
-                row.push((margin, -1.0));
+                row.push((margin, -MAGNIFIED));
                 problem.add_constraint(&row[..], ComparisonOp::Le, 0.0);
             }
         }
-        problem.add_constraint(&terms(&unknowns, function)[..], ComparisonOp::Eq, -sign);
+        problem.add_constraint(&terms(&unknowns, function)[..], ComparisonOp::Eq, -MAGNIFIED * sign);
         let margin = optimum(&problem)?.ok_or(Undecided)?;
         Ok(margin <= RECESSION)
     }
@@ -130,9 +136,11 @@ fn free_unknowns(problem: &mut Problem, costs: &[f64]) -> Vec<Variable> {
     costs.iter().map(|cost| problem.add_var(*cost, (f64::NEG_INFINITY, f64::INFINITY))).collect()
 }
 
+/// The terms of a function, magnified.
 fn terms(unknowns: &[Variable], function: &Affine) -> Vec<(Variable, f64)> {
     let pairs = unknowns.iter().copied().zip(function.coefficients.iter().copied());
-    pairs.filter(|(_, coefficient)| *coefficient != 0.0).collect()
+    let terms = pairs.filter(|(_, coefficient)| *coefficient != 0.0);
+    terms.map(|(unknown, coefficient)| (unknown, MAGNIFIED * coefficient)).collect()
 }
 
 /// The optimum of a problem that has feasible points; nothing where it is unbounded.

@@ -24,6 +24,10 @@ use nalgebra::DVector;
 const ROUNDING: f64 = 1e-13;
 /// The bisection ends at this relative width.
 const WIDTH: f64 = 1e-14;
+/// Distances below the end of the bisection, relative to it, of the points of the last secant.
+const SECANT: [f64; 2] = [1e-6, 1e-8];
+/// The secant changes the end of the bisection by no more than this.
+const NEAR: f64 = 1e-9;
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e9;
 /// Values at which the dependence of the coefficients on a parameter is sampled.
@@ -95,7 +99,7 @@ fn least_value(alone: &Setup, law: &Law) -> Over<Option<f64>> {
         let question = Question { moving: false, factor: Some(0.0) };
         let Some(state) = State::new(alone, &pattern, question) else { continue };
         let best = over.found.unwrap_or(GREATEST);
-        match least_of(best, |value| Ok(state.region(&law.coefficients(value)).margin()? <= ROUNDING)) {
+        match least_of(best, |value| state.region(&law.coefficients(value)).margin()) {
             Ok(least) => over.found = least.or(over.found),
             Err(Undecided) => over.undecided += 1,
         }
@@ -103,16 +107,16 @@ fn least_value(alone: &Setup, law: &Law) -> Over<Option<f64>> {
     over
 }
 
-/// The least value from 0 to `best` for which a monotone question is answered with yes.
+/// The least value from 0 to `best` where a falling function is no more than zero.
 fn least_of(
     best: f64,
-    mut holds: impl FnMut(f64) -> Result<bool, Undecided>,
+    mut margin: impl FnMut(f64) -> Result<f64, Undecided>,
 ) -> Result<Option<f64>, Undecided> {
-    if holds(0.0)? {
+    if margin(0.0)? <= ROUNDING {
         return Ok(Some(0.0));
     }
     let (mut below, mut above) = (0.0, 1.0_f64.min(best));
-    while !holds(above)? {
+    while margin(above)? > ROUNDING {
         if above >= best {
             return Ok(None);
         }
@@ -124,9 +128,18 @@ fn least_of(
         if middle <= below || middle >= above {
             break;
         }
-        if holds(middle)? { above = middle } else { below = middle }
+        if margin(middle)? > ROUNDING { below = middle } else { above = middle }
     }
-    Ok(Some(above))
+    Ok(Some(polished(above, &mut margin)?))
+}
+
+/// The root near `value` from the secant through two points below it, where the margin is well above rounding. The
+/// bisection ends where the margin falls below [`ROUNDING`], not at its root.
+fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Undecided>) -> Result<f64, Undecided> {
+    let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
+    let (at_first, at_second) = (margin(first)?, margin(second)?);
+    let root = second + at_second * (second - first) / (at_first - at_second);
+    Ok(if (root - value).abs() <= NEAR * value { root } else { value })
 }
 
 /// How the static coefficients depend on a parameter, sampled at three values: they must follow straight lines that

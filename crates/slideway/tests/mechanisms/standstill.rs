@@ -41,6 +41,15 @@ fn assert_range(found: Range, least: f64, greatest: f64, tolerance: f64) {
     assert_close(found.greatest.expect("bounded"), greatest, scale, tolerance);
 }
 
+/// Fails unless a range is `unit` times another.
+#[track_caller]
+fn assert_same(found: Range, expected: Range, unit: f64) {
+    for (found, expected) in [(found.least, expected.least), (found.greatest, expected.greatest)] {
+        assert_eq!(found.is_some(), expected.is_some(), "{found:?} {expected:?}");
+        assert_close(found.unwrap_or(0.0), unit * expected.unwrap_or(0.0), unit, 1e-10);
+    }
+}
+
 #[rstest]
 fn a_bracket_holds_every_load_from_half_its_height_over_friction_on(
     #[values("0 mm", "30 mm", "300 mm")] d: &str,
@@ -70,7 +79,8 @@ fn a_wide_bracket_wedges_at_any_distance() {
     assert!(load(&report).self_locking);
     assert_eq!(at_rest(&report, "sleeve.front").normal_force.greatest, None);
     let value = load(&report).threshold.value.expect("there is one");
-    assert_close(value, 152.4 / 700.0 / 0.25, 1.0, 1e-12);
+    // Where it wedges the reactions grow without bound towards the threshold, which costs a digit.
+    assert_close(value, 152.4 / 700.0 / 0.25, 1.0, 1e-11);
 }
 
 #[test]
@@ -243,7 +253,7 @@ fn a_crank_cannot_move_a_piston_whose_rod_lies_within_the_cone_of_friction() {
     assert_close(threshold(&report), 1.0 / beta.tan(), 0.0, 1e-11);
     // Otherwise it wedges from skirt / bore on.
     let report = held("slider-crank", &[], &options("gas"));
-    assert_close(threshold(&report), 0.75, 0.0, 1e-12);
+    assert_close(threshold(&report), 0.75, 0.0, 1e-11);
 }
 
 #[test]
@@ -372,7 +382,7 @@ fn numbers() -> impl FnMut() -> f64 {
 fn held_factors_are_those_of_an_enumeration_of_vertices() {
     const MOST: f64 = 1e4;
     let mut next = numbers();
-    let [mut bounded, mut unbounded, mut none] = [0; 3];
+    let [mut bounded, mut unbounded] = [0; 2];
     for _ in 0..120 {
         let force = |next: &mut dyn FnMut() -> f64| [next(), next(), 10.0 * next(), 10.0 * next()];
         let block = Block {
@@ -387,7 +397,6 @@ fn held_factors_are_those_of_an_enumeration_of_vertices() {
         assert_eq!(report.undecided, 0);
         let Some(expected) = block.extent(MOST) else {
             assert!(found.is_empty(), "{block:?}: {found:?}");
-            none += 1;
             continue;
         };
         // The hull of a union that may have gaps.
@@ -395,12 +404,12 @@ fn held_factors_are_those_of_an_enumeration_of_vertices() {
         for (found, expected) in [(first.least, expected[0]), (last.greatest, expected[1])] {
             match found {
                 Some(found) => assert_close(found, expected, 1.0, 1e-9),
-                None => assert!(expected.abs() > 0.999 * MOST, "{block:?}: {expected}"),
+                None => assert!(expected.abs() > 0.02 * MOST, "{block:?}: {expected}"),
             }
             if found.is_some() { bounded += 1 } else { unbounded += 1 }
         }
     }
-    assert!(bounded > 40 && unbounded > 20 && none > 5, "{bounded} {unbounded} {none}");
+    assert!(bounded > 40 && unbounded > 40, "{bounded} {unbounded}");
 }
 
 #[test]
@@ -411,15 +420,14 @@ fn greater_forces_scale_the_reactions_and_keep_the_factors() {
     let (one, other) = (load(&base), load(&scaled));
     assert_eq!(one.held.len(), other.held.len());
     for (one, other) in one.held.iter().zip(&other.held) {
-        assert_range(*other, one.least.expect("bounded"), one.greatest.expect("bounded"), 1e-10);
+        assert_same(*other, *one, 1.0);
     }
     for name in ["upper", "lower.front", "lower.rear"] {
         let (one, other) = (at_rest(&base, name), at_rest(&scaled, name));
         for (one, other) in
             [(one.normal_force, other.normal_force), (one.friction_force, other.friction_force)]
         {
-            let (least, greatest) = (one.least.expect("bounded"), one.greatest.expect("bounded"));
-            assert_range(other, 1e3 * least, 1e3 * greatest, 1e-10);
+            assert_same(other, one, 1e3);
         }
     }
 }
@@ -442,10 +450,7 @@ fn the_mirror_image_holds_the_opposite_loads() {
             (held_text(&block.text(), &options("l")), held_text(&mirrored.text(), &options("l")));
         assert_eq!(load(&one).held.len(), load(&other).held.len());
         for (one, other) in load(&one).held.iter().zip(&load(&other).held) {
-            for (one, other) in [(one.least, other.least), (one.greatest, other.greatest)] {
-                assert_eq!(one.is_some(), other.is_some());
-                assert_close(one.unwrap_or(0.0), other.unwrap_or(0.0), 1.0, 1e-10);
-            }
+            assert_same(*other, *one, 1.0);
         }
     }
 }
@@ -462,6 +467,42 @@ fn the_order_of_the_joints_does_not_matter() {
     let (first, second) = (&one.releases[0], &other.releases[0]);
     let (a, b) = (first.coordinates[0].acceleration, second.coordinates[0].acceleration);
     assert_range(b, a.least.expect("bounded"), a.greatest.expect("bounded"), 1e-12);
+}
+
+#[test]
+fn the_painleve_klein_apparatus_can_hold_and_slip() {
+    // It slides without rotation, so that `solve` has the same accelerations at any velocity: those in the direction
+    // of the velocity begin a motion from rest.
+    let settings = [("mu", "4"), ("P_1", "12 N")];
+    let report = held("painleve-klein", &settings, &HoldOptions::default());
+    assert_eq!(report.verdict, Verdict::HoldsOrSlips);
+    let mut expected = Vec::new();
+    for direction in ["1", "-1"] {
+        let settings = [&settings[..], &[("direction", direction)]].concat();
+        for solution in crate::answers::report("painleve-klein", &settings).solutions {
+            let acceleration = solution.coordinates[0].acceleration;
+            if acceleration * direction.parse::<f64>().unwrap() > 0.0 {
+                expected.push(acceleration);
+            }
+        }
+    }
+    let mut found: Vec<f64> =
+        report.releases.iter().map(|release| release.coordinates[0].acceleration.least.unwrap()).collect();
+    expected.sort_by(f64::total_cmp);
+    found.sort_by(f64::total_cmp);
+    assert_eq!((found.len(), expected.len()), (2, 2));
+    for (found, expected) in found.into_iter().zip(expected) {
+        assert_close(found, expected, 0.0, 1e-12);
+    }
+}
+
+#[test]
+fn a_guided_slider_that_would_tip_can_do_neither() {
+    let text = include_str!("../../../../docs/src/examples/guided-tips.toml");
+    let report = held_text(text, &HoldOptions::default());
+    assert_eq!((report.verdict, report.holds), (Verdict::Neither, false));
+    let report = held_text(&text.replace("guided_slider", "block_slider"), &HoldOptions::default());
+    assert_eq!(report.verdict, Verdict::Moves);
 }
 
 #[test]
