@@ -206,6 +206,9 @@ fn held_in_words(load: &LoadReport) -> Vec<String> {
         (None, None) => format!("every {what}"),
         (Some(least), None) => format!("every {what} from {}{unit} on", number(least)),
         (None, Some(greatest)) => format!("every {what} up to {}{unit}", number(greatest)),
+        (Some(least), Some(greatest)) if least == greatest => {
+            format!("the {what} {}{unit} only", number(least))
+        }
         (Some(least), Some(greatest)) => {
             format!("{what}s from {} to {}{unit}", number(least), number(greatest))
         }

@@ -29,7 +29,7 @@ const SECANT: [f64; 2] = [1e-6, 1e-8];
 /// The secant changes the end of the bisection by no more than this.
 const NEAR: f64 = 1e-9;
 /// Greater values of what is varied are not tried.
-const GREATEST: f64 = 1e9;
+const GREATEST: f64 = 1e6;
 /// Values at which the dependence of the coefficients on a parameter is sampled.
 const SAMPLES: [&str; 3] = ["2", "3", "4"];
 /// Coefficients must follow a straight line to this accuracy.
