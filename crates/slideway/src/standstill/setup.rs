@@ -80,8 +80,12 @@ impl Setup {
         let mut load = None;
         if let Some(name) = &options.load {
             load = Some(varied(&original, &configuration, name)?);
+            let given = mechanism.loads.len();
             mechanism.loads.retain(|load| *load.name != **name);
-            mechanism.drives.retain(|drive| *drive.name != **name);
+            // A load comes before a drive of the same name.
+            if mechanism.loads.len() == given {
+                mechanism.drives.retain(|drive| *drive.name != **name);
+            }
         }
         let assembled = Assembled::new(&mechanism, &configuration)?;
         let given = forces(&mechanism, &assembled);

@@ -506,6 +506,16 @@ fn a_guided_slider_that_would_tip_can_do_neither() {
 }
 
 #[test]
+fn a_load_comes_before_a_drive_of_the_same_name() {
+    let text = slideway::gallery::find("drawer").expect("in the gallery").text;
+    let text = text.replace("[drives.push]", "[drives.resistance]");
+    let holding = HoldOptions { hold_drives: true, ..options("resistance") };
+    let report = held_text(&text, &holding);
+    assert_eq!((load(&report).unit, report.holds), ("", true));
+    assert_eq!(report.holding_drives, ["resistance"]);
+}
+
+#[test]
 fn sticking_and_slipping_joints_coexist() {
     let report = held("telescopic-boom", &[], &HoldOptions::default());
     assert_eq!(report.verdict, Verdict::Moves);
