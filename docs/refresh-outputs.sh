@@ -88,6 +88,16 @@ show at-rest.txt 2 solve models/drawer.toml --rate x=0
 show guided-tips.txt 1 solve $examples/guided-tips.toml
 show block-tips.txt 0 solve $examples/block-tips.toml
 
+# Standstill.
+show help-hold.txt 0 hold --help
+show hold-bracket.txt 0 hold models/bracket-on-pole.toml --load W --vary mu_static
+show hold-bracket-near.txt 1 hold models/bracket-on-pole.toml --load W --set "x=200 mm"
+show hold-klepp.txt 0 hold models/klepp-2002.toml --set F_20=0 --set mu_1=0.3 --set "P=0.05*m*g"
+show hold-boom.txt 1 hold models/telescopic-boom.toml
+show hold-both.txt 0 hold models/painleve-klein.toml --set mu=4 --set "P_1=12 N"
+show hold-neither.txt 1 hold $examples/guided-tips.toml
+show hold-cam.txt 1 hold models/cam-follower.toml --load cam
+
 # Problems given by matrices.
 show modes-species.txt 0 modes $examples/species.json
 show modes-ave.txt 0 modes $examples/ave.json

@@ -56,6 +56,10 @@ refused! {
     at_rest: ["solve", KLEPP, "--rate", "q=0"];
     dead_centre: ["solve", "models/slider-crank.toml", "--at", "phi=0"];
     rod_too_short: ["solve", "models/slider-crank.toml", "--set", "l=45 mm", "--at", "phi=90 deg"];
+    hold_unknown_load: ["hold", DRAWER, "--load", "pusch"];
+    hold_load_of_nothing: ["hold", KLEPP, "--load", "damper"];
+    hold_vary_without_load: ["hold", DRAWER, "--vary", "mu"];
+    hold_vary_geometry: ["hold", DRAWER, "--load", "push", "--vary", "a"];
     malformed_settings: ["solve", DRAWER, "--set", "mu", "--set", "=1", "--at", "x="];
     unknown_setting: ["solve", KLEPP, "--set", "mu1=0.2"];
     several_settings: [

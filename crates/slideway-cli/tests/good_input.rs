@@ -39,6 +39,13 @@ golden! {
     check_redundant: 2 ["check", "crates/slideway-cli/tests/bad/redundant.toml"];
     check_not_assembled: 2 ["check", "crates/slideway-cli/tests/bad/short-rod.toml"];
     check_at_rest: 2 ["check", KLEPP, "--rate", "q=0"];
+    hold_bracket: 0 ["hold", "models/bracket-on-pole.toml", "--load", "W", "--vary", "mu_static"];
+    hold_bracket_too_near: 1 ["hold", "models/bracket-on-pole.toml", "--load", "W", "--set", "x=200 mm"];
+    hold_klepp: 0 ["hold", KLEPP, "--set", "F_20=0", "--set", "mu_1=0.3", "--set", "P=0.05*m*g"];
+    hold_boom: 1 ["hold", "models/telescopic-boom.toml"];
+    hold_cam: 1 ["hold", "models/cam-follower.toml", "--load", "cam"];
+    hold_drawer_json: 0 ["hold", "models/drawer.toml", "--drives", "hold", "--format", "json"];
+    help_of_hold: 0 ["hold", "--help"];
     list_of_models: 0 ["models"];
     help: 0 ["--help"];
     help_of_solve: 0 ["solve", "--help"];

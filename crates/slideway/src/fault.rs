@@ -313,6 +313,14 @@ pub enum FaultKind {
     )]
     ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
 
+    // Standstill.
+    #[error("there is nothing of the load {load} at rest, so no factor changes it")]
+    NoLoadAtRest { load: String },
+    #[error("`{parameter}` is no parameter of static friction alone")]
+    NotOnlyFriction { parameter: String },
+    #[error("the joints and contacts have {states} states at rest; at most {limit} are tried")]
+    TooManyStates { states: u64, limit: u64 },
+
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
     TooManyContacts { contacts: usize, limit: usize },
@@ -416,7 +424,11 @@ impl FaultKind {
             }
             Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
-            Self::TooManyContacts { .. } => {
+            Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
+            Self::NotOnlyFriction { .. } => Some(
+                "friction coefficients must grow in proportion to it, or by a constant more, and nothing else may depend on it",
+            ),
+            Self::TooManyContacts { .. } | Self::TooManyStates { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")
             }
             _ => None,
@@ -499,7 +511,7 @@ fn opening(joint: &str, loop_joints: &[String]) -> String {
 fn velocity_hint(coordinates: &[String]) -> String {
     let rates: Vec<String> = coordinates.iter().map(|coordinate| format!("--rate {coordinate}=1")).collect();
     format!(
-        "give the mechanism a velocity, for instance with `{}`; friction at rest is not analysed",
+        "give the mechanism a velocity, for instance with `{}`; `slideway hold` analyses friction at rest",
         rates.join(" ")
     )
 }

@@ -14,6 +14,8 @@
 //!
 //! [`check::check`] stands beside it and says what a model consists of and what would keep it from being solved.
 //!
+//! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to move.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 
@@ -34,3 +36,4 @@ pub mod modes;
 pub mod raw_problem;
 pub mod report;
 pub mod solve;
+pub mod standstill;

@@ -1,12 +1,14 @@
 //! The commands: each reads its input, calls the library and writes the answer.
 
 mod check;
+mod hold;
 mod limits;
 mod models;
 mod modes;
 mod solve;
 
 pub(crate) use check::check;
+pub(crate) use hold::hold;
 pub(crate) use limits::limits;
 pub(crate) use models::models;
 pub(crate) use modes::modes;

@@ -195,6 +195,11 @@ impl<T: Real> Assembled<T> {
         let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
         Ok(Self { layout, contacts, applied, matrix, load, friction, coordinate_rows })
     }
+
+    /// The rows that give the accelerations of the chosen coordinates, where every velocity is zero.
+    pub(crate) fn coordinate_rows(&self) -> impl Iterator<Item = &[(usize, T)]> {
+        self.coordinate_rows.iter().map(|row| row.entries.as_slice())
+    }
 }
 
 struct Builder<'a, T = f64> {

@@ -18,6 +18,7 @@ mod loads;
 mod margins;
 mod preload_gap;
 mod properties;
+mod standstill;
 mod symmetries;
 mod textbook;
 mod uncertainty;

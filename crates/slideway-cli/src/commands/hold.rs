@@ -1,0 +1,31 @@
+//! `slideway hold`
+
+use crate::Outcome;
+use crate::arguments::{CheckFormat, Drives, HoldArguments};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use slideway::standstill::{self, HoldOptions};
+
+/// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
+pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let options = HoldOptions {
+        load: arguments.load.clone(),
+        vary: arguments.vary.clone(),
+        hold_drives: arguments.drives == Drives::Hold,
+    };
+    let report = standstill::hold(&model, &options).map_err(|faults| input.refused(faults))?;
+    output.write(&match arguments.format {
+        CheckFormat::Text => standstill::to_text(&report, output.style()),
+        CheckFormat::Json => standstill::to_json(&report),
+    })?;
+    Ok(match (report.holds, report.undecided) {
+        (true, _) => Outcome::Done,
+        (false, 0) => Outcome::NoSolution,
+        (false, _) => Outcome::Unknown,
+    })
+}

@@ -1,0 +1,231 @@
+//! Standstill: whether a mechanism stays at rest under its loads, and how it begins to move.
+//!
+//! At zero sliding velocity friction is not a number but takes what is needed within its limit. Each sliding joint,
+//! the two ends of a block together, sticks or begins to slip one way or the other:
+//!
+//! ```text
+//! sticks   |F_k| <= mu_static_k |N_k| + F_k0        sliding acceleration = 0
+//! slips    F_k = (mu_k |N_k| + F_k0) s_k            s_k = sign of the sliding acceleration
+//! ```
+//!
+//! Together with the side of every contact, and `|C| <= |N| L/2` for guided sliders, each state is a system of linear
+//! equations and inequalities; all states are tried (theory, section 8). Friction at rest is statically
+//! indeterminate, so that "holds" means that some admissible state exists, and reactions are ranges. Each end of a
+//! range is the optimum of a linear program. Programs are solved with an accuracy of about 1e-12 of the greatest force;
+//! a state that misses its inequalities by less than 1e-9 of it counts as possible.
+//!
+//! ```
+//! use slideway::model::{Model, Settings};
+//! use slideway::standstill::{HoldOptions, hold};
+//!
+//! let bracket = Model::parse(slideway::gallery::find("bracket-on-pole").expect("in the gallery").text)?;
+//! let options = HoldOptions { load: Some("W".to_owned()), ..HoldOptions::default() };
+//! let load = |settings: Settings| -> Result<_, slideway::fault::Faults> {
+//!     Ok(hold(&bracket.with(&settings)?, &options)?.load.expect("it is varied"))
+//! };
+//! // Self-locking from the distance B / (2 mu_static) = 304.8 mm on.
+//! assert!(load(Settings::default().parameter("x", "305 mm"))?.self_locking);
+//! assert!(!load(Settings::default().parameter("x", "304 mm"))?.self_locking);
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
+
+mod affine;
+mod reactions;
+mod region;
+mod release;
+mod report;
+mod rest;
+mod setup;
+mod state;
+mod text;
+mod threshold;
+mod words;
+
+pub use report::{
+    AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, HingeRange, HoldReport,
+    JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Verdict,
+};
+pub use text::to_text;
+
+use crate::configuration::{free_motions, motion_in_words, unit};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use nalgebra::{DMatrix, DVector};
+use rest::Over;
+use setup::Setup;
+use state::side_options;
+
+/// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations below
+/// this as none.
+const TOLERANCE: f64 = 1e-9;
+/// More states of joints and contacts are refused.
+const MOST_STATES: u64 = 100_000;
+/// Kinetic energies below this multiple of the greatest count as none.
+const NO_INERTIA: f64 = 1e-12;
+
+/// What is asked of a mechanism at rest.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct HoldOptions {
+    /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m.
+    pub load: Option<String>,
+    /// The parameter of static friction that is varied for the threshold of self-locking; without it all static
+    /// coefficients are multiplied by a factor.
+    pub vary: Option<String>,
+    /// Whether drives hold their coordinates; else they are taken as absent.
+    pub hold_drives: bool,
+}
+
+/// Whether a mechanism stays at rest in its position; the rates of the model are taken as zero.
+///
+/// # Errors
+/// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is zero, a
+/// parameter on which more than friction depends, and more states than are tried.
+pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> {
+    let setup = Setup::new(model, options)?;
+    let [rest_patterns, all_patterns] = check_states(&setup)?;
+    let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
+    let rest = rest::at_rest(&setup, nominal);
+    let load = load_report(model, options, &setup)?;
+    let motions_without_inertia = motions_without_inertia(&setup);
+    let release = if motions_without_inertia.is_empty() {
+        release::releases(&setup, nominal, rest.found.is_some())
+    } else {
+        Over { found: Vec::new(), undecided: 0 }
+    };
+    let verdict = if motions_without_inertia.is_empty() {
+        verdict(&setup, nominal, rest.found.is_some(), !release.found.is_empty())
+    } else if rest.found.is_some() {
+        Verdict::MayHold
+    } else {
+        Verdict::DoesNotHold
+    };
+    let original = Mechanism::new(model)?;
+    Ok(HoldReport {
+        schema: SCHEMA,
+        title: setup.mechanism.title.clone(),
+        verdict,
+        holds: verdict.holds(),
+        state: state(&setup),
+        rates_ignored: original.coordinates.iter().any(|coordinate| coordinate.rate != 0.0),
+        released_drives: drives(&original, options, false),
+        holding_drives: drives(&original, options, true),
+        undecided: rest.undecided + release.undecided + load.as_ref().map_or(0, |load| load.undecided),
+        load: load.map(|load| load.found),
+        at_rest: rest.found,
+        releases: release.found,
+        release_patterns: if motions_without_inertia.is_empty() { all_patterns } else { 0 },
+        motions_without_inertia,
+        rest_patterns,
+    })
+}
+
+/// The report as indented JSON, ending in a line end.
+pub fn to_json(report: &HoldReport) -> String {
+    crate::report::indented_json(report)
+}
+
+/// Patterns of sides, and of states of joints and sides.
+fn check_states(setup: &Setup) -> Result<[usize; 2], Faults> {
+    let product = |counts: &mut dyn Iterator<Item = u64>| counts.fold(1_u64, u64::saturating_mul);
+    let sides = product(&mut side_options(setup).iter().map(|options| options.len() as u64));
+    let states = product(&mut setup.sliders.iter().map(|_| 3)).saturating_mul(sides);
+    match (usize::try_from(sides), usize::try_from(states)) {
+        (Ok(sides), Ok(all)) if states <= MOST_STATES => Ok([sides, all]),
+        _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into()),
+    }
+}
+
+fn load_report(
+    model: &Model,
+    options: &HoldOptions,
+    setup: &Setup,
+) -> Result<Option<Over<LoadReport>>, Faults> {
+    let Some(load) = &setup.load else { return Ok(None) };
+    let Some(threshold) = threshold::threshold(model, options, setup)? else { return Ok(None) };
+    let held = rest::held_factors(setup);
+    let undecided = held.undecided + threshold.undecided;
+    let report = LoadReport {
+        name: load.name.clone(),
+        unit: load.unit,
+        factor: load.nominal,
+        self_locking: held.found.last().is_some_and(|last| last.greatest.is_none()),
+        held: held.found,
+        threshold: threshold.found,
+    };
+    Ok(Some(Over { found: report, undecided }))
+}
+
+fn verdict(setup: &Setup, factor: f64, holds: bool, moves: bool) -> Verdict {
+    match (holds, moves) {
+        (true, false) => Verdict::Holds,
+        (true, true) if slips_against_static_friction(setup, factor) => Verdict::HoldsOrSlips,
+        (true, true) => Verdict::HoldsUntilPushed,
+        (false, true) => Verdict::Moves,
+        (false, false) => Verdict::Neither,
+    }
+}
+
+/// Whether it begins to slide even where kinetic friction is as great as static friction.
+fn slips_against_static_friction(setup: &Setup, factor: f64) -> bool {
+    let mut rough = setup.clone();
+    for contact in &mut rough.mechanism.contacts {
+        contact.mu = contact.mu_static;
+    }
+    !release::releases(&rough, factor, true).found.is_empty()
+}
+
+fn state(setup: &Setup) -> Vec<CoordinateValue> {
+    let values = setup.mechanism.coordinates.iter().zip(&setup.configuration.coordinates);
+    let one = |(coordinate, value): (&crate::mechanism::Coordinate, &f64)| CoordinateValue {
+        name: coordinate.name.to_string(),
+        unit: unit(&coordinate.kind),
+        value: *value,
+    };
+    values.map(one).collect()
+}
+
+/// The drives that hold, or those that are taken as absent; not the one whose effort is the load.
+fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<String> {
+    let is_load = |name: &str| {
+        options.load.as_deref() == Some(name) && mechanism.loads.iter().all(|load| &*load.name != name)
+    };
+    let names = mechanism.drives.iter().map(|drive| drive.name.to_string());
+    names.filter(|name| holding == options.hold_drives && !is_load(name)).collect()
+}
+
+/// Motions that the joints leave and that have no kinetic energy, unless drives hold them.
+fn motions_without_inertia(setup: &Setup) -> Vec<String> {
+    let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
+    let motions = held_motions(setup, free_motions(mechanism, configuration));
+    let mass = DVector::from_iterator(
+        3 * mechanism.bodies.len(),
+        mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]),
+    );
+    let energy = motions.transpose() * DMatrix::from_diagonal(&mass) * &motions;
+    if energy.is_empty() {
+        return Vec::new();
+    }
+    let decomposition = energy.symmetric_eigen();
+    let greatest = decomposition.eigenvalues.amax();
+    let none =
+        decomposition.eigenvalues.iter().enumerate().filter(|(_, value)| **value <= NO_INERTIA * greatest);
+    none.map(|(index, _)| {
+        let motion = &motions * decomposition.eigenvectors.column(index);
+        motion_in_words(mechanism, configuration, &motion)
+    })
+    .collect()
+}
+
+/// The motions that drives leave.
+fn held_motions(setup: &Setup, motions: DMatrix<f64>) -> DMatrix<f64> {
+    let drives = setup.mechanism.drives.len();
+    if drives == 0 || motions.is_empty() {
+        return motions;
+    }
+    let rows = setup.equations_of_motion();
+    let first = setup.assembled.layout.len() - drives;
+    let prescribed = setup.assembled.matrix.view((first, 0), (drives, rows)) * &motions;
+    let left = crate::configuration::null_space(&prescribed);
+    motions * left
+}

@@ -1,0 +1,82 @@
+//! Ranges of the reactions in a state, each end from a linear program.
+
+use super::region::{Region, Undecided};
+use super::report::{ContactRange, DriveRange, HingeRange, Range, Reactions};
+use super::setup::Setup;
+use super::state::{Expression, State};
+use crate::ids::{DriveId, JointId};
+use crate::kinetics::Reaction;
+use crate::mechanism::{Effort, Joint, JointKind};
+
+/// The range of an expression in a region of a state, in this unit.
+pub(super) fn range(
+    state: &State<'_>,
+    region: &Region,
+    expression: &Expression,
+    unit: f64,
+) -> Result<Range, Undecided> {
+    let [least, greatest] = region.extent(&state.function(expression))?;
+    Ok(Range { least, greatest }.times(unit))
+}
+
+/// The ranges of all reactions in a region of a state.
+pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Reactions, Undecided> {
+    let contacts = (0..setup.mechanism.contacts.len()).map(|k| contact(setup, state, region, k));
+    let joints = setup.mechanism.joints.iter().enumerate();
+    let hinges = joints.filter_map(|(index, joint)| hinge(setup, (JointId(index), joint), state, region));
+    let drives = (0..setup.mechanism.drives.len()).map(|index| drive(setup, DriveId(index), state, region));
+    Ok(Reactions {
+        contacts: contacts.collect::<Result<_, _>>()?,
+        hinges: hinges.collect::<Result<_, _>>()?,
+        drives: drives.collect::<Result<_, _>>()?,
+    })
+}
+
+fn contact(setup: &Setup, state: &State<'_>, region: &Region, k: usize) -> Result<ContactRange, Undecided> {
+    let unit = setup.units.force;
+    let slider = setup.sliders.iter().find(|slider| slider.contacts.contains(&k));
+    let couple = match slider.and_then(|slider| slider.couple) {
+        Some((place, _)) => Some(range(state, region, &state.reaction(place), state.force_unit(place))?),
+        None => None,
+    };
+    Ok(ContactRange {
+        name: setup.mechanism.contacts[k].name.to_string(),
+        normal_force: range(state, region, &state.normal_force(k), unit)?,
+        friction_force: range(state, region, &state.friction_force(k), unit)?,
+        couple,
+    })
+}
+
+/// On ground the force is of no interest: it is counted on the body then.
+fn hinge(
+    setup: &Setup,
+    (id, joint): (JointId, &Joint),
+    state: &State<'_>,
+    region: &Region,
+) -> Option<Result<HingeRange, Undecided>> {
+    let JointKind::Hinge(ends) = &joint.kind else { return None };
+    let on_first = ends[0].frame.body().is_some();
+    let component = |axis| {
+        let place = setup.assembled.layout.reaction(Reaction::Hinge(id, axis));
+        let place = place.expect("every hinge has its reactions");
+        let range = range(state, region, &state.reaction(place), setup.units.force)?;
+        Ok(if on_first { range } else { range.negated() })
+    };
+    let on = if on_first { ends[0].frame } else { ends[1].frame };
+    let both = component(0).and_then(|x| Ok([x, component(1)?]));
+    Some(both.map(|force| HingeRange {
+        name: joint.name.to_string(),
+        on: setup.mechanism.frame_name(on).to_owned(),
+        force,
+    }))
+}
+
+fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region) -> Result<DriveRange, Undecided> {
+    let drive = &setup.mechanism.drives[id.index()];
+    let unit = state.force_unit(setup.assembled.layout.effort(id));
+    Ok(DriveRange {
+        name: drive.name.to_string(),
+        unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
+        effort: range(state, region, &state.effort(id), unit)?,
+    })
+}

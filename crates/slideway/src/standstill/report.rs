@@ -1,0 +1,269 @@
+//! What the analysis of standstill tells, as plain data.
+
+use serde::Serialize;
+
+/// Version of the layout of a [`HoldReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/hold/1";
+
+/// Whether a mechanism stays at rest, begins to move, may do both, or neither.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It stays at rest; no state of sliding is possible.
+    Holds,
+    /// It stays at rest, but once pushed it goes on sliding, as kinetic friction is below static friction.
+    HoldsUntilPushed,
+    /// Friction may hold it, and yet it may begin to slide even against static friction (Painleve's paradox at rest).
+    HoldsOrSlips,
+    /// It cannot stay at rest, and begins to move.
+    Moves,
+    /// It can neither stay at rest nor begin to move with finite accelerations.
+    Neither,
+    /// Friction may hold it; motions without inertia keep the states of sliding from being known.
+    MayHold,
+    /// It cannot stay at rest; motions without inertia keep its accelerations from being known.
+    DoesNotHold,
+}
+
+impl Verdict {
+    /// Whether some state of rest is possible.
+    pub fn holds(self) -> bool {
+        matches!(self, Self::Holds | Self::HoldsUntilPushed | Self::HoldsOrSlips | Self::MayHold)
+    }
+}
+
+/// All values from `least` to `greatest`; nothing where there is no bound.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Range {
+    /// The least value.
+    pub least: Option<f64>,
+    /// The greatest value.
+    pub greatest: Option<f64>,
+}
+
+/// Whether a mechanism stays at rest, under which loads, and how it begins to move.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HoldReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// The model's title.
+    pub title: Option<String>,
+    /// The answer.
+    pub verdict: Verdict,
+    /// Whether it can stay at rest: of the verdict.
+    pub holds: bool,
+    /// Values of the chosen coordinates.
+    pub state: Vec<CoordinateValue>,
+    /// Whether the model gives rates that were taken as zero.
+    pub rates_ignored: bool,
+    /// Drives that are taken as absent.
+    pub released_drives: Vec<String>,
+    /// Drives that hold their coordinate.
+    pub holding_drives: Vec<String>,
+    /// The load that is varied, if one is.
+    pub load: Option<LoadReport>,
+    /// The states of rest, if there is one.
+    pub at_rest: Option<AtRest>,
+    /// Every state in which it begins to move; empty also where motions without inertia kept them from being sought.
+    pub releases: Vec<Release>,
+    /// Motions of the joints without inertia; if there are any, `releases` was not sought.
+    pub motions_without_inertia: Vec<String>,
+    /// Patterns of contact sides that were tried for rest.
+    pub rest_patterns: usize,
+    /// States of joints and contact sides that were tried for release.
+    pub release_patterns: usize,
+    /// Patterns of both kinds of which a linear program could not be solved.
+    pub undecided: usize,
+}
+
+/// A coordinate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoordinateValue {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its value.
+    pub value: f64,
+}
+
+/// What is known of a load that is multiplied by a factor.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadReport {
+    /// Its name.
+    pub name: String,
+    /// Unit of the factor: empty for a load, "N" or "N m" for the effort of a drive.
+    pub unit: &'static str,
+    /// The factor at which everything else in the report is told: 1 for a load, 0 for a drive.
+    pub factor: f64,
+    /// The factors with which it can stay at rest, in ascending order.
+    pub held: Vec<Range>,
+    /// Whether it can stay at rest with every factor that is great enough.
+    pub self_locking: bool,
+    /// From which static friction on it is self-locking.
+    pub threshold: Threshold,
+}
+
+/// The static friction from which on the load alone, however great, is held.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Threshold {
+    /// What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter.
+    pub varied: String,
+    /// Its value in the model: 1 for the factor.
+    pub present: f64,
+    /// Where the threshold lies: self-locking from this value on, free below it; 0 if friction is not needed,
+    /// nothing if no friction suffices.
+    pub value: Option<f64>,
+    /// Static coefficients of every contact at the threshold.
+    pub coefficients: Vec<Coefficients>,
+}
+
+/// Static coefficients of a contact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Coefficients {
+    /// Its name.
+    pub contact: String,
+    /// Where the normal force is positive, and where it is negative.
+    pub mu_static: [f64; 2],
+}
+
+/// All states of rest together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AtRest {
+    /// The sign patterns of the normal forces that are possible; 0 for a contact in its gap.
+    pub patterns: Vec<String>,
+    /// Reactions, over all these patterns.
+    pub reactions: Reactions,
+}
+
+/// Ranges of reactions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reactions {
+    /// Of the contacts.
+    pub contacts: Vec<ContactRange>,
+    /// Of the hinges.
+    pub hinges: Vec<HingeRange>,
+    /// Of the drives that hold.
+    pub drives: Vec<DriveRange>,
+}
+
+/// Reactions of a contact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactRange {
+    /// Its name.
+    pub name: String,
+    /// Normal force on the block, along n (N).
+    pub normal_force: Range,
+    /// Friction force on the block, against u (N).
+    pub friction_force: Range,
+    /// Couple of a guided slider (N m).
+    pub couple: Option<Range>,
+}
+
+/// Force of a hinge.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HingeRange {
+    /// Its name.
+    pub name: String,
+    /// The body on which it is counted.
+    pub on: String,
+    /// Its components along x and y (N).
+    pub force: [Range; 2],
+}
+
+/// Effort of a drive that holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DriveRange {
+    /// Its name.
+    pub name: String,
+    /// "N" or "N m".
+    pub unit: &'static str,
+    /// Its effort.
+    pub effort: Range,
+}
+
+/// A state in which the mechanism begins to move.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Release {
+    /// What each sliding joint does.
+    pub joints: Vec<JointRelease>,
+    /// The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap.
+    pub patterns: Vec<String>,
+    /// Accelerations of the chosen coordinates.
+    pub coordinates: Vec<CoordinateRange>,
+    /// Reactions.
+    pub reactions: Reactions,
+}
+
+/// What a sliding joint does on release.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointRelease {
+    /// Its name.
+    pub name: String,
+    /// 0 if it sticks, 1 if the block begins to slide along u, -1 if against it.
+    pub slip: i8,
+    /// The same in words.
+    pub words: String,
+    /// Acceleration of the block against the guide along u (m/s^2).
+    pub acceleration: Range,
+}
+
+/// Acceleration of a coordinate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoordinateRange {
+    /// Its name.
+    pub name: String,
+    /// "m/s^2" or "rad/s^2".
+    pub unit: &'static str,
+    /// Its acceleration.
+    pub acceleration: Range,
+}
+
+impl Range {
+    /// A range in other units.
+    pub(super) fn times(self, unit: f64) -> Self {
+        // Adding zero turns -0 into 0.
+        let one = |end: Option<f64>| end.map(|value| value * unit + 0.0);
+        Self { least: one(self.least), greatest: one(self.greatest) }
+    }
+
+    /// The least range that holds both.
+    pub(super) fn hull(self, other: Self) -> Self {
+        Self {
+            least: self.least.zip(other.least).map(|(a, b)| a.min(b)),
+            greatest: self.greatest.zip(other.greatest).map(|(a, b)| a.max(b)),
+        }
+    }
+
+    /// The opposite values.
+    pub(super) fn negated(self) -> Self {
+        Self { least: self.greatest, greatest: self.least }.times(-1.0)
+    }
+}
+
+impl Reactions {
+    /// The least ranges that hold both.
+    pub(super) fn hull(mut self, other: &Self) -> Self {
+        for (one, other) in self.contacts.iter_mut().zip(&other.contacts) {
+            one.normal_force = one.normal_force.hull(other.normal_force);
+            one.friction_force = one.friction_force.hull(other.friction_force);
+            one.couple = one.couple.zip(other.couple).map(|(a, b)| a.hull(b));
+        }
+        for (one, other) in self.hinges.iter_mut().zip(&other.hinges) {
+            one.force = [one.force[0].hull(other.force[0]), one.force[1].hull(other.force[1])];
+        }
+        for (one, other) in self.drives.iter_mut().zip(&other.drives) {
+            one.effort = one.effort.hull(other.effort);
+        }
+        self
+    }
+
+    /// All ranges.
+    pub(super) fn ranges(&self) -> Vec<Range> {
+        let contacts = self.contacts.iter().flat_map(|contact| {
+            [Some(contact.normal_force), Some(contact.friction_force), contact.couple].into_iter().flatten()
+        });
+        let hinges = self.hinges.iter().flat_map(|hinge| hinge.force);
+        contacts.chain(hinges).chain(self.drives.iter().map(|drive| drive.effort)).collect()
+    }
+}

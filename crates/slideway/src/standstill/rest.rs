@@ -1,0 +1,115 @@
+//! States of rest: statics with friction, one linear program for each pattern of contact sides.
+
+use super::TOLERANCE;
+use super::reactions::{range, reactions};
+use super::region::{Region, Undecided};
+use super::report::{AtRest, Range};
+use super::setup::Setup;
+use super::state::{Pattern, Question, Side, Sliding, State, sides};
+
+/// Ends of intervals that differ by less than this, relative to the greater, are the same.
+const SAME_END: f64 = 1e-9;
+
+/// Something found over all patterns, and how many of them could not be decided.
+pub(super) struct Over<T> {
+    /// What was found.
+    pub(super) found: T,
+    /// Patterns of which a linear program was not solved.
+    pub(super) undecided: usize,
+}
+
+/// Every joint sticks, with these sides.
+pub(super) fn resting(setup: &Setup, sides: Vec<Side>) -> Pattern {
+    Pattern { sliding: vec![Sliding::Stick; setup.sliders.len()], sides }
+}
+
+/// The static coefficients of the contacts.
+pub(super) fn static_coefficients(setup: &Setup) -> Vec<[f64; 2]> {
+    setup.mechanism.contacts.iter().map(|contact| contact.mu_static).collect()
+}
+
+/// The region of a state if it is not empty, relaxed by as little as rounding asks for.
+pub(super) fn possible(region: Region) -> Result<Option<Region>, Undecided> {
+    let margin = region.margin()?;
+    Ok((margin <= TOLERANCE).then(|| region.relaxed(margin.max(0.0))))
+}
+
+/// All states of rest with a factor of the varied load.
+pub(super) fn at_rest(setup: &Setup, factor: f64) -> Over<Option<AtRest>> {
+    let mut over = Over { found: None, undecided: 0 };
+    for sides in sides(setup) {
+        let symbols: String = sides.iter().map(|side| side.symbol()).collect();
+        let pattern = resting(setup, sides);
+        let question = Question { moving: false, factor: Some(factor) };
+        let Some(state) = State::new(setup, &pattern, question) else { continue };
+        let region = state.region(&static_coefficients(setup));
+        let found =
+            possible(region).and_then(|region| region.map(|r| reactions(setup, &state, &r)).transpose());
+        match found {
+            Ok(None) => {}
+            Ok(Some(reactions)) => {
+                let rest = over
+                    .found
+                    .get_or_insert_with(|| AtRest { patterns: Vec::new(), reactions: reactions.clone() });
+                rest.patterns.push(symbols);
+                rest.reactions = rest.reactions.clone().hull(&reactions);
+            }
+            Err(Undecided) => over.undecided += 1,
+        }
+    }
+    over
+}
+
+/// The factors of the varied load that can be held: the union over all patterns.
+pub(super) fn held_factors(setup: &Setup) -> Over<Vec<Range>> {
+    let mut over = Over { found: Vec::new(), undecided: 0 };
+    for sides in sides(setup) {
+        let pattern = resting(setup, sides);
+        let question = Question { moving: false, factor: None };
+        let Some(state) = State::new(setup, &pattern, question) else { continue };
+        let region = state.region(&static_coefficients(setup));
+        let extent = |region: Region| range(&state, &region, &state.factor(), state.factor_unit());
+        match possible(region).and_then(|region| region.map(extent).transpose()) {
+            Ok(found) => over.found.extend(found),
+            Err(Undecided) => over.undecided += 1,
+        }
+    }
+    over.found = merged(over.found);
+    over
+}
+
+/// The union of intervals, in ascending order.
+fn merged(mut intervals: Vec<Range>) -> Vec<Range> {
+    let least = |range: &Range| range.least.unwrap_or(f64::NEG_INFINITY);
+    let greatest = |range: &Range| range.greatest.unwrap_or(f64::INFINITY);
+    intervals.sort_by(|a, b| least(a).total_cmp(&least(b)));
+    let mut union: Vec<Range> = Vec::new();
+    for interval in intervals {
+        let touches = |last: &&mut Range| {
+            let end = greatest(last);
+            least(&interval) <= end + SAME_END * end.abs().min(f64::MAX)
+        };
+        match union.last_mut().filter(touches) {
+            Some(last) => *last = last.hull(interval),
+            None => union.push(interval),
+        }
+    }
+    union
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_that_touch_are_one() {
+        let range = |least, greatest| Range { least, greatest };
+        let found = merged(vec![
+            range(Some(2.0), Some(3.0)),
+            range(None, Some(-1.0)),
+            range(Some(-1.0), Some(0.0)),
+            range(Some(2.5), None),
+        ]);
+        assert_eq!(found, [range(None, Some(0.0)), range(Some(2.0), None)]);
+    }
+}

@@ -1,0 +1,190 @@
+//! A mechanism at rest, as the analysis of standstill sees it: its equations at zero velocity, the load that is
+//! varied apart from all others, and units in which forces, lengths and accelerations are of order one.
+
+use super::HoldOptions;
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults, nearest};
+use crate::ids::{ContactId, DriveId, JointId};
+use crate::kinetics::{Assembled, Reaction};
+use crate::mechanism::{Effort, JointKind, Mechanism, Quantity};
+use crate::model::{Model, SliderKind};
+use nalgebra::{DVector, Vector2};
+
+/// Units of the linear programs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Units {
+    /// N
+    pub(super) force: f64,
+    /// m
+    pub(super) length: f64,
+    /// m/s^2
+    pub(super) acceleration: f64,
+}
+
+/// A sliding joint.
+#[derive(Debug, Clone)]
+pub(super) struct SlidingJoint {
+    /// Which joint it is.
+    pub(super) joint: JointId,
+    /// Its contacts.
+    pub(super) contacts: Vec<usize>,
+    /// Place of its couple among the unknowns, and half the length of the pressed face, if it is a guided slider.
+    pub(super) couple: Option<(usize, f64)>,
+}
+
+/// The load that is varied.
+#[derive(Debug, Clone)]
+pub(super) struct VariedLoad {
+    /// Its name.
+    pub(super) name: String,
+    /// What it puts into the equations of motion at a factor of one.
+    pub(super) forces: DVector<f64>,
+    /// The factor at which the mechanism is released: 1 for a load, 0 for the effort of a drive.
+    pub(super) nominal: f64,
+    /// Unit of the factor: "" for a load, "N" or "N m" for the effort of a drive.
+    pub(super) unit: &'static str,
+}
+
+/// A mechanism at rest.
+#[derive(Debug, Clone)]
+pub(super) struct Setup {
+    /// The mechanism, its rates zero, with the drives that hold.
+    pub(super) mechanism: Mechanism,
+    /// Its positions.
+    pub(super) configuration: Configuration,
+    /// Its equations.
+    pub(super) assembled: Assembled<f64>,
+    /// What weights and loads put into the equations of motion, without the load that is varied.
+    pub(super) given: DVector<f64>,
+    /// The load that is varied.
+    pub(super) load: Option<VariedLoad>,
+    /// The sliding joints.
+    pub(super) sliders: Vec<SlidingJoint>,
+    /// Units.
+    pub(super) units: Units,
+}
+
+impl Setup {
+    /// The mechanism of a model at rest.
+    ///
+    /// # Errors
+    /// What makes no sense in the model or its position, an unknown load, a load that is zero.
+    pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
+        let original = at_rest(Mechanism::new(model)?);
+        crate::solve::check_size(&original)?;
+        let configuration = Configuration::new(&original)?;
+        let mut mechanism = original.clone();
+        if !options.hold_drives {
+            mechanism.drives.clear();
+        }
+        let mut load = None;
+        if let Some(name) = &options.load {
+            load = Some(varied(&original, &configuration, name)?);
+            let given = mechanism.loads.len();
+            mechanism.loads.retain(|load| *load.name != **name);
+            // A load comes before a drive of the same name.
+            if mechanism.loads.len() == given {
+                mechanism.drives.retain(|drive| *drive.name != **name);
+            }
+        }
+        let assembled = Assembled::new(&mechanism, &configuration)?;
+        let given = forces(&mechanism, &assembled);
+        let sliders = sliders(&mechanism, &assembled);
+        let units = units(&mechanism, &given, load.as_ref());
+        Ok(Self { mechanism, configuration, assembled, given, load, sliders, units })
+    }
+
+    /// Number of equations of motion: three for each body.
+    pub(super) fn equations_of_motion(&self) -> usize {
+        3 * self.mechanism.bodies.len()
+    }
+}
+
+/// The mechanism without velocities: the rates of the model count as zero, and drives that hold do not accelerate.
+fn at_rest(mut mechanism: Mechanism) -> Mechanism {
+    for coordinate in &mut mechanism.coordinates {
+        coordinate.rate = 0.0;
+    }
+    for drive in &mut mechanism.drives {
+        drive.acceleration = Quantity::Constant(0.0);
+    }
+    mechanism
+}
+
+fn forces(mechanism: &Mechanism, assembled: &Assembled<f64>) -> DVector<f64> {
+    assembled.load.rows(0, 3 * mechanism.bodies.len()).into_owned()
+}
+
+/// A load, or the effort of a drive, by its name.
+fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> Result<VariedLoad, Faults> {
+    let mut alone = mechanism.clone();
+    alone.gravity = Vector2::zeros();
+    alone.loads.retain(|load| *load.name == *name);
+    alone.drives.retain(|drive| *drive.name == *name);
+    let assembled = Assembled::new(&alone, configuration)?;
+    let (forces, nominal, unit) = if alone.loads.is_empty() {
+        let Some(drive) = alone.drives.first() else { return Err(unknown(mechanism, name)) };
+        let column = assembled.layout.effort(DriveId(0));
+        let forces = -assembled.matrix.view((0, column), (3 * alone.bodies.len(), 1)).column(0).into_owned();
+        let unit = if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" };
+        (forces, 0.0, unit)
+    } else {
+        (forces(&alone, &assembled), 1.0, "")
+    };
+    if forces.iter().all(|force| *force == 0.0) {
+        return Err(Fault::general(FaultKind::NoLoadAtRest { load: name.to_owned() }).into());
+    }
+    Ok(VariedLoad { name: name.to_owned(), forces, nominal, unit })
+}
+
+fn unknown(mechanism: &Mechanism, name: &str) -> Faults {
+    let loads = mechanism.loads.iter().map(|load| &*load.name);
+    let known = loads.chain(mechanism.drives.iter().map(|drive| &*drive.name));
+    let kind = FaultKind::UnknownName {
+        what: "load",
+        name: name.to_owned(),
+        nearest: nearest(name, known.clone()),
+        known: known.map(str::to_owned).collect(),
+    };
+    Fault::general(kind).into()
+}
+
+fn sliders(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Vec<SlidingJoint> {
+    let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
+        let JointKind::Slider(slider) = &joint.kind else { return None };
+        let joint = JointId(index);
+        let couple = assembled.layout.reaction(Reaction::Couple(joint));
+        let couple = couple.filter(|_| slider.kind == SliderKind::Guided);
+        Some(SlidingJoint {
+            joint,
+            contacts: slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect(),
+            couple: couple.map(|place| (place, slider.length / 2.0)),
+        })
+    };
+    mechanism.joints.iter().enumerate().filter_map(one).collect()
+}
+
+/// Greatest force of the state, size of the mechanism, and the force divided by the greatest mass.
+fn units(mechanism: &Mechanism, given: &DVector<f64>, load: Option<&VariedLoad>) -> Units {
+    let length = mechanism.size;
+    let mut force = greatest_force(given, length);
+    if let Some(load) = load {
+        let whole = greatest_force(&load.forces, length);
+        // Of a drive only the direction is known.
+        if load.nominal != 0.0 || force == 0.0 {
+            force = force.max(whole);
+        }
+    }
+    let preloads = mechanism.contacts.iter().flat_map(|contact| contact.preload);
+    let force = preloads.fold(force, f64::max);
+    let force = if force > 0.0 { force } else { 1.0 };
+    let masses = mechanism.bodies.iter().map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
+    let mass = masses.fold(0.0, f64::max);
+    Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }
+}
+
+/// Greatest force among (x, y, moment / length) of every body.
+pub(super) fn greatest_force(forces: &DVector<f64>, length: f64) -> f64 {
+    let in_newtons = |(index, value): (usize, &f64)| if index % 3 == 2 { value / length } else { *value };
+    forces.iter().enumerate().map(in_newtons).map(f64::abs).fold(0.0, f64::max)
+}

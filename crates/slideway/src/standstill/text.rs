@@ -1,0 +1,286 @@
+//! The analysis of standstill as text for people.
+
+use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold, Verdict};
+use crate::report::number::{against, number};
+use crate::report::table::table;
+use crate::report::{Style, count};
+use anstyle::AnsiColor;
+use std::fmt::Write;
+
+/// The report as text: the verdict first, then load, reactions and release.
+pub fn to_text(report: &HoldReport, style: Style) -> String {
+    let mut text = Text { report, style, out: String::new() };
+    text.heading();
+    text.verdict();
+    text.load();
+    text.at_rest();
+    for (index, release) in report.releases.iter().enumerate() {
+        text.release(index, release);
+    }
+    text.tried();
+    text.out
+}
+
+struct Text<'r> {
+    report: &'r HoldReport,
+    style: Style,
+    out: String,
+}
+
+impl Text<'_> {
+    fn line(&mut self, line: &str) {
+        self.out.push_str(line);
+        self.out.push('\n');
+    }
+
+    fn heading(&mut self) {
+        let report = self.report;
+        if let Some(title) = &report.title {
+            self.line(&self.style.heading(title));
+        }
+        let values = report.state.iter().map(|c| format!("{} = {} {}", c.name, number(c.value), c.unit));
+        let rates = if report.rates_ignored { "; the rates of the model are taken as zero" } else { "" };
+        self.line(&format!("At rest at {}{rates}", values.collect::<Vec<_>>().join(", ")));
+        if !report.released_drives.is_empty() {
+            self.line(&format!("Without the drives: {}", report.released_drives.join(", ")));
+        }
+        if !report.holding_drives.is_empty() {
+            self.line(&format!("Held by the drives: {}", report.holding_drives.join(", ")));
+        }
+        self.line("");
+    }
+
+    fn verdict(&mut self) {
+        let ways = count(self.report.releases.len(), "state", "states");
+        let (colour, words) = match self.report.verdict {
+            Verdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
+            Verdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
+            Verdict::HoldsUntilPushed => (
+                AnsiColor::Green,
+                format!(
+                    "It holds. Once pushed it goes on sliding, as kinetic friction is below static: {ways}."
+                ),
+            ),
+            Verdict::HoldsOrSlips => (
+                AnsiColor::Yellow,
+                format!("It can hold, and it can begin to slide, too: {ways} of sliding besides rest."),
+            ),
+            Verdict::Moves => {
+                (AnsiColor::Red, format!("It does not hold: {ways} in which it begins to move."))
+            }
+            Verdict::Neither => (
+                AnsiColor::Red,
+                "It can neither stay at rest nor begin to move with finite accelerations.".to_owned(),
+            ),
+            Verdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
+        };
+        self.line(&self.style.paint(colour.on_default().bold(), &words));
+        if !self.report.motions_without_inertia.is_empty() {
+            self.line("How it begins to move is not known, as these motions have no inertia:");
+            for motion in &self.report.motions_without_inertia {
+                self.line(&format!("  {motion}"));
+            }
+        }
+    }
+
+    fn load(&mut self) {
+        let Some(load) = &self.report.load else { return };
+        self.line("");
+        self.line(&self.style.heading(&load_title(load)));
+        for line in held_in_words(load) {
+            self.line(&format!("  {line}"));
+        }
+        for line in threshold_in_words(load) {
+            self.line(&format!("  {line}"));
+        }
+    }
+
+    fn at_rest(&mut self) {
+        let Some(rest) = &self.report.at_rest else { return };
+        self.line("");
+        let factor = self.report.load.as_ref().map_or(String::new(), at_factor);
+        self.line(&self.style.heading(&format!("Reactions at rest{factor}")));
+        self.line(&format!(
+            "  signs {}",
+            rest.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>().join(" or ")
+        ));
+        self.reactions(&rest.reactions);
+    }
+
+    fn release(&mut self, index: usize, release: &Release) {
+        self.line("");
+        let title = format!("Release {} of {}", index + 1, self.report.releases.len());
+        self.line(&self.style.heading(&title));
+        for joint in &release.joints {
+            self.line(&format!("  {}: {}", joint.name, joint.words));
+        }
+        let signs = release.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>();
+        self.line(&format!("  signs {}", signs.join(" or ")));
+        let scale = release.coordinates.iter().map(|c| greatest(&[c.acceleration])).fold(0.0, f64::max);
+        let sliding = release.joints.iter().filter(|joint| joint.slip != 0);
+        let rows: Vec<Vec<String>> = sliding
+            .map(|joint| {
+                vec![
+                    joint.name.clone(),
+                    "sliding".to_owned(),
+                    words(joint.acceleration, scale),
+                    "m/s^2".to_owned(),
+                ]
+            })
+            .chain(release.coordinates.iter().map(|coordinate| {
+                let value = words(coordinate.acceleration, scale);
+                vec![coordinate.name.clone(), "coordinate".to_owned(), value, coordinate.unit.to_owned()]
+            }))
+            .collect();
+        self.out.push_str(&table(&["", "", "acceleration", "unit"], &rows, 2));
+        self.reactions(&release.reactions);
+    }
+
+    fn reactions(&mut self, reactions: &Reactions) {
+        let scale = greatest(&reactions.ranges());
+        let has_couple = reactions.contacts.iter().any(|contact| contact.couple.is_some());
+        let mut header = vec!["contact", "normal force in N", "friction in N"];
+        header.extend(has_couple.then_some("couple in N m"));
+        let rows = reactions.contacts.iter().map(|contact| {
+            let mut row = vec![
+                contact.name.clone(),
+                words(contact.normal_force, scale),
+                words(contact.friction_force, scale),
+            ];
+            row.extend(
+                has_couple.then(|| contact.couple.map_or(String::new(), |couple| words(couple, scale))),
+            );
+            row
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
+        if !rows.is_empty() {
+            self.out.push_str(&table(&header, &rows, 1));
+        }
+        let hinges = reactions.hinges.iter().map(|hinge| {
+            let what = format!("hinge force on {}", hinge.on);
+            vec![hinge.name.clone(), what, words(hinge.force[0], scale), words(hinge.force[1], scale)]
+        });
+        let rows: Vec<Vec<String>> = hinges.collect();
+        if !rows.is_empty() {
+            self.out.push_str(&table(&["", "", "x in N", "y in N"], &rows, 2));
+        }
+        for drive in &reactions.drives {
+            self.line(&format!("  {}: {} {}", drive.name, words(drive.effort, scale), drive.unit));
+        }
+    }
+
+    fn tried(&mut self) {
+        let report = self.report;
+        self.line("");
+        let rest = count(report.rest_patterns, "pattern of contact sides", "patterns of contact sides");
+        let mut line = format!("All {rest} were tried for rest");
+        if report.motions_without_inertia.is_empty() {
+            let states = count(report.release_patterns, "state", "states");
+            let _ = write!(line, ", and {states} of joints and sides for sliding");
+        }
+        line.push('.');
+        if report.undecided > 0 {
+            let programs = count(report.undecided, "of them was", "of them were");
+            let _ = write!(line, " {programs} not decided: a linear program was not solved.");
+        }
+        self.line(&line);
+    }
+}
+
+fn load_title(load: &LoadReport) -> String {
+    if load.unit.is_empty() {
+        format!("The load {}, multiplied by a factor", load.name)
+    } else {
+        format!("The effort of the drive {} as a load", load.name)
+    }
+}
+
+fn at_factor(load: &LoadReport) -> String {
+    if load.unit.is_empty() { String::new() } else { format!(" without {}", load.name) }
+}
+
+fn held_in_words(load: &LoadReport) -> Vec<String> {
+    let what = if load.unit.is_empty() { "factor" } else { "effort" };
+    let unit = if load.unit.is_empty() { String::new() } else { format!(" {}", load.unit) };
+    let one = |range: &Range| match (range.least, range.greatest) {
+        (None, None) => format!("every {what}"),
+        (Some(least), None) => format!("every {what} from {}{unit} on", number(least)),
+        (None, Some(greatest)) => format!("every {what} up to {}{unit}", number(greatest)),
+        (Some(least), Some(greatest)) if least == greatest => {
+            format!("the {what} {}{unit} only", number(least))
+        }
+        (Some(least), Some(greatest)) => {
+            format!("{what}s from {} to {}{unit}", number(least), number(greatest))
+        }
+    };
+    let mut lines = match load.held.as_slice() {
+        [] => vec![format!("It holds with no {what}.")],
+        held => {
+            vec![format!("It holds with {}.", held.iter().map(one).collect::<Vec<_>>().join(", and with "))]
+        }
+    };
+    lines.push(if load.self_locking {
+        "Self-locking: no load is too great.".to_owned()
+    } else {
+        "Not self-locking: it gives way to a load that is great enough.".to_owned()
+    });
+    lines
+}
+
+fn threshold_in_words(load: &LoadReport) -> Vec<String> {
+    let Threshold { varied, present, value, coefficients } = &load.threshold;
+    let Some(value) = value else {
+        return vec![format!("No {varied} makes it self-locking for {} alone.", load.name)];
+    };
+    if *value == 0.0 {
+        return vec![format!("{} alone is held whatever its magnitude, without friction.", load.name)];
+    }
+    let what = if varied == "static friction" {
+        format!("{} times the static friction of the model", number(*value))
+    } else {
+        format!("{varied} = {} (the model has {})", number(*value), number(*present))
+    };
+    let mut lines = vec![format!("For {} alone: self-locking from {what} on, free below it.", load.name)];
+    let list = |[plus, minus]: [f64; 2]| {
+        if plus == minus { number(plus) } else { format!("{} (+), {} (-)", number(plus), number(minus)) }
+    };
+    let mut found: Vec<String> = coefficients.iter().map(|c| list(c.mu_static)).collect();
+    found.dedup();
+    let coefficients = if let [one] = found.as_slice() {
+        one.clone()
+    } else {
+        let named = coefficients.iter().map(|c| format!("{}: {}", c.contact, list(c.mu_static)));
+        named.collect::<Vec<_>>().join(", ")
+    };
+    lines.push(format!("There mu_static is {coefficients}."));
+    lines
+}
+
+/// Greatest finite magnitude among the ends.
+fn greatest(ranges: &[Range]) -> f64 {
+    let ends = ranges.iter().flat_map(|range| [range.least, range.greatest]).flatten();
+    ends.map(f64::abs).fold(0.0, f64::max)
+}
+
+/// "3", "1 to 3", "from 1 on", "up to 3" or "any".
+fn words(range: Range, scale: f64) -> String {
+    // What is left over by the linear programs is no range.
+    let noise = 1e3 * scale;
+    let number = |value: f64| against(value, noise);
+    match (range.least, range.greatest) {
+        (Some(least), Some(greatest))
+            if number(least) == number(greatest) || greatest - least <= 1e-10 * scale =>
+        {
+            number(f64::midpoint(least, greatest))
+        }
+        (Some(least), Some(greatest)) => format!("{} to {}", number(least), number(greatest)),
+        (Some(least), None) => format!("from {} on", number(least)),
+        (None, Some(greatest)) => format!("up to {}", number(greatest)),
+        (None, None) => "any".to_owned(),
+    }
+}
+
+/// "+-+" as "+ - +".
+fn spaced(pattern: &str) -> String {
+    pattern.chars().map(String::from).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,200 @@
+//! From which static friction on a load alone, however great, is held.
+//!
+//! The load can grow without bound where the cone of recession of the states of rest reaches in its direction:
+//!
+//! ```text
+//! -G^T lambda - B u - sum_k W_k F_k = load     |F_k| <= mu_static_k |N_k|     |C_j| <= |N_j| L_j / 2
+//! ```
+//!
+//! without weights, other loads and preloads, which are negligible beside a load that is great enough. More static
+//! friction only widens this cone, so that there is one threshold, found by bisection of the linear programs'
+//! feasibility: self-locking from there on, free below.
+
+use super::HoldOptions;
+use super::region::Undecided;
+use super::report::{Coefficients, Threshold};
+use super::rest::{Over, resting, static_coefficients};
+use super::setup::Setup;
+use super::state::{Question, State, sides};
+use crate::fault::{Fault, FaultKind, Faults, nearest};
+use crate::model::{Model, Settings};
+use nalgebra::DVector;
+
+/// Feasible within rounding: what the programs leave over at the exact threshold.
+const ROUNDING: f64 = 1e-13;
+/// The bisection ends at this relative width.
+const WIDTH: f64 = 1e-14;
+/// Distances below the end of the bisection, relative to it, of the points of the last secant.
+const SECANT: [f64; 2] = [1e-6, 1e-8];
+/// The secant changes the end of the bisection by no more than this.
+const NEAR: f64 = 1e-9;
+/// Greater values of what is varied are not tried.
+const GREATEST: f64 = 1e6;
+/// Values at which the dependence of the coefficients on a parameter is sampled.
+const SAMPLES: [&str; 3] = ["2", "3", "4"];
+/// Coefficients must follow a straight line to this accuracy.
+const STRAIGHT: f64 = 1e-12;
+
+/// Static coefficients as a function `constant + slope p` of what is varied, for each contact and side.
+struct Law {
+    varied: String,
+    present: f64,
+    lines: Vec<[[f64; 2]; 2]>,
+}
+
+impl Law {
+    fn coefficients(&self, value: f64) -> Vec<[f64; 2]> {
+        let at = |[constant, slope]: [f64; 2]| (constant + slope * value).max(0.0);
+        self.lines.iter().map(|sides| sides.map(at)).collect()
+    }
+}
+
+/// The threshold for the varied load of a setup, or nothing if none is varied.
+///
+/// # Errors
+/// A parameter that is unknown, or on which other things than friction coefficients depend.
+pub(super) fn threshold(
+    model: &Model,
+    options: &HoldOptions,
+    setup: &Setup,
+) -> Result<Option<Over<Threshold>>, Faults> {
+    let Some(load) = &setup.load else { return Ok(None) };
+    let law = match &options.vary {
+        None => Law {
+            varied: "static friction".to_owned(),
+            present: 1.0,
+            lines: static_coefficients(setup).iter().map(|mu| mu.map(|mu| [0.0, mu])).collect(),
+        },
+        Some(name) => parameter_law(model, options, setup, name)?,
+    };
+    let mut alone = setup.clone();
+    alone.given = load.forces.clone();
+    alone.load = None;
+    alone.units.force = super::setup::greatest_force(&alone.given, alone.units.length);
+    for contact in &mut alone.mechanism.contacts {
+        contact.preload = [0.0; 2];
+    }
+    let least = least_value(&alone, &law);
+    Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
+}
+
+fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
+    let coefficients = value.map_or_else(Vec::new, |value| law.coefficients(value));
+    let named = setup.mechanism.contacts.iter().zip(coefficients);
+    Threshold {
+        varied: law.varied.clone(),
+        present: law.present,
+        value,
+        coefficients: named
+            .map(|(contact, mu_static)| Coefficients { contact: contact.name.to_string(), mu_static })
+            .collect(),
+    }
+}
+
+/// The least value for which some pattern holds the load.
+fn least_value(alone: &Setup, law: &Law) -> Over<Option<f64>> {
+    let mut over = Over { found: None, undecided: 0 };
+    for sides in sides(alone) {
+        let pattern = resting(alone, sides);
+        let question = Question { moving: false, factor: Some(0.0) };
+        let Some(state) = State::new(alone, &pattern, question) else { continue };
+        let best = over.found.unwrap_or(GREATEST);
+        match least_of(best, |value| state.region(&law.coefficients(value)).margin()) {
+            Ok(least) => over.found = least.or(over.found),
+            Err(Undecided) => over.undecided += 1,
+        }
+    }
+    over
+}
+
+/// The least value from 0 to `best` where a falling function is no more than zero.
+fn least_of(
+    best: f64,
+    mut margin: impl FnMut(f64) -> Result<f64, Undecided>,
+) -> Result<Option<f64>, Undecided> {
+    if margin(0.0)? <= ROUNDING {
+        return Ok(Some(0.0));
+    }
+    let (mut below, mut above) = (0.0, 1.0_f64.min(best));
+    while margin(above)? > ROUNDING {
+        if above >= best {
+            return Ok(None);
+        }
+        below = above;
+        above = (4.0 * above).min(best);
+    }
+    while above - below > WIDTH * above {
+        let middle = f64::midpoint(below, above);
+        if middle <= below || middle >= above {
+            break;
+        }
+        if margin(middle)? > ROUNDING { below = middle } else { above = middle }
+    }
+    Ok(Some(polished(above, &mut margin)?))
+}
+
+/// The root near `value` from the secant through two points below it, where the margin is well above rounding. The
+/// bisection ends where the margin falls below [`ROUNDING`], not at its root.
+fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Undecided>) -> Result<f64, Undecided> {
+    let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
+    let (at_first, at_second) = (margin(first)?, margin(second)?);
+    let root = second + at_second * (second - first) / (at_first - at_second);
+    Ok(if (root - value).abs() <= NEAR * value { root } else { value })
+}
+
+/// How the static coefficients depend on a parameter, sampled at three values: they must follow straight lines that
+/// do not fall, and nothing else but friction may change.
+fn parameter_law(model: &Model, options: &HoldOptions, setup: &Setup, name: &str) -> Result<Law, Faults> {
+    if !model.parameters.iter().any(|parameter| *parameter.name == *name) {
+        let known = model.parameters.iter().map(|parameter| &*parameter.name);
+        let kind = FaultKind::UnknownName {
+            what: "parameter",
+            name: name.to_owned(),
+            nearest: nearest(name, known.clone()),
+            known: known.map(str::to_owned).collect(),
+        };
+        return Err(Fault::general(kind).into());
+    }
+    let refused = || Faults::from(Fault::general(FaultKind::NotOnlyFriction { parameter: name.to_owned() }));
+    let sample = |value: &str| {
+        let changed = model.with(&Settings::default().parameter(name, value)).map_err(|_| refused())?;
+        Setup::new(&changed, options).map_err(|_| refused())
+    };
+    let [first, second, third] = [sample(SAMPLES[0])?, sample(SAMPLES[1])?, sample(SAMPLES[2])?];
+    if !differ_in_friction_alone(&first, setup) || !differ_in_friction_alone(&first, &second) {
+        return Err(refused());
+    }
+    let samples = [&first, &second, &third].map(static_coefficients);
+    let mut lines = Vec::new();
+    for ((first, second), third) in samples[0].iter().zip(&samples[1]).zip(&samples[2]) {
+        let mut sides = [[0.0; 2]; 2];
+        for (side, line) in sides.iter_mut().enumerate() {
+            let slope = second[side] - first[side];
+            let bend = third[side] - second[side] - slope;
+            if slope < 0.0 || bend.abs() > STRAIGHT * third[side].abs() {
+                return Err(refused());
+            }
+            *line = [first[side] - 2.0 * slope, slope];
+        }
+        lines.push(sides);
+    }
+    let present = present(&lines, &static_coefficients(setup)).ok_or_else(refused)?;
+    Ok(Law { varied: name.to_owned(), present, lines })
+}
+
+/// The parameter's value in the model, from a coefficient that depends on it.
+fn present(lines: &[[[f64; 2]; 2]], coefficients: &[[f64; 2]]) -> Option<f64> {
+    let pairs = lines.iter().flatten().zip(coefficients.iter().flatten());
+    let mut values =
+        pairs.filter(|([_, slope], _)| *slope > 0.0).map(|([constant, slope], mu)| (mu - constant) / slope);
+    values.next()
+}
+
+fn differ_in_friction_alone(one: &Setup, other: &Setup) -> bool {
+    let same = |one: &DVector<f64>, other: &DVector<f64>| one == other;
+    let loads = one.load.iter().zip(&other.load).all(|(one, other)| same(&one.forces, &other.forces));
+    one.assembled.matrix == other.assembled.matrix
+        && one.assembled.friction == other.assembled.friction
+        && same(&one.given, &other.given)
+        && loads
+}
