@@ -49,12 +49,12 @@ pub(super) enum End {
 
 /// The fast motion with damped contacts.
 pub(super) struct FastMotion<'p> {
-    pub(super) problem: &'p ModeProblem,
+    problem: &'p ModeProblem,
     /// Y^-1, with a little inertia where there is none.
-    pub(super) mobility: DMatrix<f64>,
-    pub(super) stiffness: Vec<f64>,
+    mobility: DMatrix<f64>,
+    stiffness: Vec<f64>,
     /// delta (s).
-    pub(super) damping: f64,
+    damping: f64,
     steps: HashMap<Vec<bool>, Steps>,
 }
 
@@ -64,13 +64,14 @@ struct Steps {
 }
 
 impl<'p> FastMotion<'p> {
-    pub(super) fn new(
-        problem: &'p ModeProblem,
-        mobility: DMatrix<f64>,
-        stiffness: Vec<f64>,
-        damping: f64,
-    ) -> Self {
-        Self { problem, mobility, stiffness, damping, steps: HashMap::new() }
+    /// With half of the critical damping of the slowest motion without friction; none if that is not known.
+    pub(super) fn new(problem: &'p ModeProblem, mobility: DMatrix<f64>, stiffness: &[f64]) -> Option<Self> {
+        let frictionless = &mobility * DMatrix::from_diagonal(&DVector::from_column_slice(stiffness));
+        let slowest = eigenvalues(&frictionless)?.iter().map(|value| value.re).fold(f64::INFINITY, f64::min);
+        let damping = 1.0 / slowest.sqrt();
+        let stiffness = stiffness.to_vec();
+        let steps = HashMap::new();
+        damping.is_finite().then_some(Self { problem, mobility, stiffness, damping, steps })
     }
 
     /// Where the motion leads to on both sides of a solution with one unstable motion: started along that motion. None

@@ -61,8 +61,8 @@ pub struct ElasticGuides<'p> {
     /// Of every contact (N/m); 1 if the model does not give all of them.
     stiffness: Vec<f64>,
     given: bool,
-    /// The slowest motion without friction, omega^2; none if that is not stable.
-    slowest: Option<f64>,
+    /// Whether the fast motion is stable without friction; with drives it may not be.
+    stable: bool,
 }
 
 impl<'p> ElasticGuides<'p> {
@@ -75,14 +75,13 @@ impl<'p> ElasticGuides<'p> {
         let stiffness = stiffness.unwrap_or_else(|| vec![1.0; contacts.len()]);
         let few = contacts.len() <= MOST_CONTACTS;
         let inertia = if few { Inertia::new(equations, mechanism.size) } else { None };
-        let slowest = inertia.as_ref().and_then(|inertia| {
+        let stable = inertia.as_ref().is_some_and(|inertia| {
             let frictionless = DMatrix::identity(contacts.len(), contacts.len());
-            let ratios = vec![1.0; inertia.vanishing_masses()];
-            let spectrum = Pencil::new(inertia, frictionless)?.spectrum(&stiffness, &ratios)?;
-            let slowest = spectrum.finite.first().map_or(1.0, |lambda| lambda.re);
-            (spectrum.stability == Stability::Attainable).then_some(slowest)
+            let spectrum = Pencil::new(inertia, frictionless)
+                .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
+            spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
         });
-        Self { problem, inertia, stiffness, given, slowest }
+        Self { problem, inertia, stiffness, given, stable }
     }
 
     /// The attainability of each of these solutions, which are all that the mechanism has and none of them on the
@@ -99,13 +98,13 @@ impl<'p> ElasticGuides<'p> {
             let reason = format!("more than {MOST_CONTACTS} contacts");
             return Attainability::without_eigenvalues(Verdict::NotComputed, &reason);
         }
-        let (Some(inertia), Some(_)) = (&self.inertia, self.slowest) else {
+        let (Some(inertia), true) = (&self.inertia, self.stable) else {
             return Attainability::without_eigenvalues(Verdict::Undecided, REVERSED);
         };
         let mode = mode_matrix(self.problem, sides);
         let oriented = mode.determinant();
         let computed = Pencil::new(inertia, mode).and_then(|pencil| {
-            let spectrum = pencil.spectrum(&self.stiffness, &vec![1.0; inertia.vanishing_masses()])?;
+            let spectrum = pencil.spectrum(&self.stiffness, &equal_masses(inertia))?;
             Some((pencil, spectrum))
         });
         let Some((pencil, spectrum)) = computed else {
@@ -120,7 +119,8 @@ impl<'p> ElasticGuides<'p> {
         if consistent && spectrum.stability != Stability::Unclear {
             // An odd number of negative eigenvalues stays odd.
             attainability.depends_on_stiffness = Some(
-                !is_odd && self.stiffness_ratios().any(|k| varies(pencil.spectrum(&k, &self.equal(inertia)))),
+                !is_odd
+                    && self.stiffness_ratios().any(|k| varies(pencil.spectrum(&k, &equal_masses(inertia)))),
             );
             let masses =
                 if is_odd || inertia.massless_gaps() < 2 { Vec::new() } else { mass_ratios(inertia) };
@@ -152,10 +152,6 @@ impl<'p> ElasticGuides<'p> {
         }
     }
 
-    fn equal(&self, inertia: &Inertia) -> Vec<f64> {
-        vec![1.0; inertia.vanishing_masses()]
-    }
-
     fn stiffness_ratios(&self) -> impl Iterator<Item = Vec<f64>> {
         ratios(self.stiffness.len()).into_iter().map(|ratios| {
             ratios.iter().zip(&self.stiffness).map(|(ratio, stiffness)| ratio * stiffness).collect()
@@ -166,9 +162,7 @@ impl<'p> ElasticGuides<'p> {
     fn fates(&self, candidates: &[Candidate], all: &mut [Attainability]) {
         let few = self.stiffness.len() <= MOST_CONTACTS_OF_FATES && candidates.len() <= MOST_SOLUTIONS;
         let none = all.iter().all(|one| one.verdict != Verdict::Unattainable);
-        let (Some(inertia), Some(slowest), true) = (&self.inertia, self.slowest, few && !none) else {
-            return;
-        };
+        let (Some(inertia), true) = (&self.inertia, few && !none) else { return };
         let Some(mobility) = inertia.inverse(VANISHING_SHARE) else { return };
         let stays = |one: &Attainability| matches!(one.verdict, Verdict::Attainable | Verdict::Flutter);
         let numbers: Vec<usize> = (0..all.len()).filter(|&index| stays(&all[index])).collect();
@@ -177,9 +171,7 @@ impl<'p> ElasticGuides<'p> {
             normal_force: &candidates[index].normal_force,
         };
         let targets: Vec<Rest<'_>> = numbers.iter().map(|&index| rest(index)).collect();
-        // Half of the critical damping of the slowest motion without friction.
-        let damping = 1.0 / slowest.sqrt();
-        let mut motion = FastMotion::new(self.problem, mobility, self.stiffness.clone(), damping);
+        let Some(mut motion) = FastMotion::new(self.problem, mobility, &self.stiffness) else { return };
         for (index, one) in all.iter_mut().enumerate() {
             if one.verdict == Verdict::Unattainable {
                 let ends = motion.ends(&rest(index), &targets);
@@ -195,6 +187,10 @@ fn fate(end: End, numbers: &[usize]) -> Fate {
         End::Beyond => Fate::Jamming,
         End::Open => Fate::NotComputed,
     }
+}
+
+fn equal_masses(inertia: &Inertia) -> Vec<f64> {
+    vec![1.0; inertia.vanishing_masses()]
 }
 
 /// Ratios of the vanishing masses that are tried.

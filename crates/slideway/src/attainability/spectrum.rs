@@ -179,3 +179,33 @@ fn quadratic(matrix: &DMatrix<f64>) -> [Complex<f64>; 2] {
     let near = if far == 0.0 { 0.0 } else { determinant / far };
     [Complex::new(far, 0.0), Complex::new(near, 0.0)]
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
+    use super::{Stability, eigenvalues};
+    use nalgebra::{Complex, DMatrix};
+
+    /// Roots of s^2 + lambda (1 + delta s) = 0 lie on the left above the damping, and not below.
+    #[test]
+    fn flutter_ends_at_the_computed_damping() {
+        for (re, im) in [(1.0, 0.3), (2.0, -5.0), (0.01, 1.0), (300.0, 1.0)] {
+            let lambda = Complex::new(re, im);
+            // A real matrix with this pair of eigenvalues.
+            let values = eigenvalues(&DMatrix::from_row_slice(2, 2, &[re, im, -im, re])).unwrap();
+            assert!(values.iter().all(|value| (value.im.abs() - im.abs()).abs() < 1e-12));
+            let Stability::Flutter(damping) = Stability::of(lambda) else { panic!("{lambda} is complex") };
+            assert!(
+                (damping.ratio - damping.time * lambda.norm().sqrt() / 2.0).abs() < 1e-12 * damping.ratio
+            );
+            for (factor, grows) in [(0.999, true), (1.001, false)] {
+                let damped = lambda * (factor * damping.time);
+                let root = (damped * damped - lambda * 4.0).sqrt();
+                let greatest = ((-damped + root) / 2.0).re.max(((-damped - root) / 2.0).re);
+                assert_eq!(greatest > 0.0, grows, "{lambda} {factor}");
+            }
+        }
+        assert_eq!(Stability::of(Complex::new(-1.0, 2.0)), Stability::Unattainable);
+    }
+}

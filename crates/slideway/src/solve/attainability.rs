@@ -1,5 +1,8 @@
 //! The attainability of the solutions of a report.
 
+#[cfg(test)]
+mod tests;
+
 use super::answer::Answer;
 use super::mode_problem::mode_problem;
 use crate::attainability::{Candidate, ElasticGuides};
