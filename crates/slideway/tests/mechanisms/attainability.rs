@@ -163,7 +163,7 @@ fn boundaries_and_gaps_are_not_examined() {
         assert!(state.attainability.reason.is_some());
     }
     let cot = "1/tan(alpha)";
-    let report = report("klepp-2002", &[("mu_1", cot), ("F_20", "0"), ("direction", "-1")]);
+    let report = crate::answers::report("klepp-2002", &[("mu_1", cot), ("F_20", "0"), ("direction", "-1")]);
     for solution in report.solutions.iter().filter(|solution| solution.on_boundary) {
         assert_eq!(solution.attainability.verdict, Verdict::NotComputed);
     }

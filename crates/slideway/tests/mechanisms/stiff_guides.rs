@@ -28,8 +28,10 @@ const LENGTH: f64 = 1.0;
 const WIDTH: f64 = 0.2;
 const HEIGHT: f64 = 0.1;
 const ALPHA: f64 = 80.0;
-/// The block's mass and moment of inertia; none in the model.
-const BLOCK: [f64; 2] = [1e-3, 2e-4];
+/// The block's moment of inertia; none in the model, but the springs turn the block.
+const BLOCK: f64 = 2e-4;
+/// Sliding velocity at the start: no load or coefficient of the example depends on it or on the place.
+const VELOCITY: f64 = 100.0;
 const STEP: f64 = 4e-7;
 const STEPS: usize = 200_000;
 
@@ -41,7 +43,7 @@ impl StiffGuides {
         // Gaps of the block's ends, and of the upper end of the bar, whose height follows from its angle.
         let (y, tilt) = (f64::midpoint(gaps[1], gaps[2]), (gaps[1] - gaps[2]) / WIDTH);
         let angle = ((LENGTH * alpha.sin() + gaps[0] - y) / LENGTH).asin();
-        let mut state: State = [0.0, y, angle, tilt, 1.0, 0.0, 0.0, 0.0];
+        let mut state: State = [0.0, y, angle, tilt, VELOCITY, 0.0, 0.0, 0.0];
         let mut history = [[0.0; 3]; 2];
         for step in 0..STEPS {
             let forces = self.normal_forces(&state);
@@ -87,20 +89,19 @@ impl StiffGuides {
         let half = LENGTH / 2.0;
         // Forces for x and y of A, moments about A for the bar and for the block.
         let force_x = friction.iter().sum::<f64>() + MASS * half * cos * turning * turning;
-        let force_y =
-            normal.iter().sum::<f64>() - (MASS + BLOCK[0]) * GRAVITY + MASS * half * sin * turning * turning;
+        let force_y = normal.iter().sum::<f64>() - MASS * GRAVITY + MASS * half * sin * turning * turning;
         let on_bar = LENGTH * (cos * normal[0] - sin * friction[0]) - MASS * GRAVITY * half * cos;
         let on_block: f64 = [(1, WIDTH / 2.0), (2, -WIDTH / 2.0)]
             .iter()
             .map(|&(k, x)| x * normal[k] + normal[k].signum() * HEIGHT / 2.0 * friction[k])
             .sum();
-        // (m + m_b) x'' - m l/2 sin a'' = X, (m + m_b) y'' + m l/2 cos a'' = Y,
+        // m x'' - m l/2 sin a'' = X, m y'' + m l/2 cos a'' = Y,
         // m l/2 (cos y'' - sin x'') + m l^2/3 a'' = moment
-        let (mass, coupling) = (MASS + BLOCK[0], MASS * half);
-        let inertia = MASS * LENGTH * LENGTH / 3.0 - coupling * coupling / mass;
-        let turn = (on_bar - coupling / mass * (cos * force_y - sin * force_x)) / inertia;
-        let x = (force_x + coupling * sin * turn) / mass;
-        let y = (force_y - coupling * cos * turn) / mass;
-        [x_rate, y_rate, turning, tilting, x, y, turn, on_block / BLOCK[1]]
+        let coupling = MASS * half;
+        let inertia = MASS * LENGTH * LENGTH / 3.0 - coupling * coupling / MASS;
+        let turn = (on_bar - coupling / MASS * (cos * force_y - sin * force_x)) / inertia;
+        let x = (force_x + coupling * sin * turn) / MASS;
+        let y = (force_y - coupling * cos * turn) / MASS;
+        [x_rate, y_rate, turning, tilting, x, y, turn, on_block / BLOCK]
     }
 }
