@@ -80,7 +80,7 @@ impl<'p> FastMotion<'p> {
         let (lambda, gaps) = self.unstable(from.sides)?;
         // s^2 + lambda (1 + delta s) = 0, lambda < 0
         let damped = self.damping * lambda;
-        let rate = (-damped + (damped * damped - 4.0 * lambda).sqrt()) / 2.0;
+        let rate = f64::midpoint(-damped, (damped * damped - 4.0 * lambda).sqrt());
         let factor = -(1.0 + self.damping * rate);
         let forces = DVector::from_fn(gaps.len(), |k, _| factor * self.stiffness[k] * gaps[k]);
         Some([1.0, -1.0].map(|direction| {

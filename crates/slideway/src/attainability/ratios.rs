@@ -1,29 +1,37 @@
 //! Ratios of unknown quantities that are tried: 1/10, 1 and 10 of each.
 
-/// The most samples, and the work that they may take for matrices of many rows: samples x rows^3.
-const MOST: usize = 72;
+/// The most quantities whose ratios are all tried.
+const MOST_QUANTITIES: usize = 4;
+/// The most samples of more quantities, and the work that they may take for matrices of many rows: samples x rows^3.
+const MOST_SAMPLES: usize = 72;
 const WORK: usize = 40_000;
 
 /// Ratios of `count` quantities: all combinations of 1/10, 1 and 10 that differ by more than a common factor if these
-/// are few, else a deterministic sample of them.
+/// are few, else a deterministic sample of all combinations.
 pub(super) fn ratios(count: usize) -> Vec<Vec<f64>> {
-    let most = MOST.min(WORK / count.max(1).pow(3)).max(2);
-    if count < 2 {
-        return Vec::new();
-    }
-    match u32::try_from(count).ok().and_then(|count| 3_usize.checked_pow(count)) {
-        Some(all) if all <= 3 * most => {
-            let digits = |number: usize| (0..count).map(move |k| number / 3_usize.pow(k as u32) % 3);
-            let distinct =
-                |number: &usize| digits(*number).any(|digit| digit == 0) && digits(*number).any(|d| d > 0);
-            (0..all).filter(distinct).take(most).map(|number| digits(number).map(ratio).collect()).collect()
+    match count {
+        0 | 1 => Vec::new(),
+        2..=MOST_QUANTITIES => {
+            combinations(count).into_iter().filter(|digits| is_distinct(digits)).map(ratio).collect()
         }
-        _ => sample(count, most),
+        _ => sample(count, MOST_SAMPLES.min(WORK / count.pow(3)).max(2)),
     }
 }
 
-fn ratio(digit: usize) -> f64 {
-    [0.1, 1.0, 10.0][digit % 3]
+/// All lists of digits 0, 1, 2.
+fn combinations(count: usize) -> Vec<Vec<usize>> {
+    (0..count).fold(vec![Vec::new()], |lists, _| {
+        lists.iter().flat_map(|list| (0..3).map(|digit| [list.as_slice(), &[digit]].concat())).collect()
+    })
+}
+
+/// Whether no other combination differs by a common factor only, equal ratios included.
+fn is_distinct(digits: &[usize]) -> bool {
+    digits.contains(&0) && digits.iter().any(|digit| *digit > 0)
+}
+
+fn ratio(digits: Vec<usize>) -> Vec<f64> {
+    digits.into_iter().map(|digit| [0.1, 1.0, 10.0][digit % 3]).collect()
 }
 
 /// Digits from the upper bits of a linear congruential generator (Knuth, The Art of Computer Programming, 3.3.4).
@@ -33,7 +41,7 @@ fn sample(count: usize, samples: usize) -> Vec<Vec<f64>> {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % 3
     };
-    (0..samples).map(|_| (0..count).map(|_| ratio(digit())).collect()).collect()
+    (0..samples).map(|_| ratio((0..count).map(|_| digit()).collect())).collect()
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ pub(super) fn is_real(lambda: Complex<f64>) -> bool {
 /// stiffnesses `K`.
 #[derive(Debug, Clone)]
 pub(super) struct Spectrum {
-    /// Those of motions with mass, ascending by real part; 1/lambda where `inverse` is too small to be inverted.
+    /// Those of motions with mass, ascending by real part.
     pub(super) finite: Vec<Complex<f64>>,
     /// Number of negative eigenvalues, those of motions without mass included.
     pub(super) negative: usize,

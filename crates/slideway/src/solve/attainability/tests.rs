@@ -72,11 +72,6 @@ impl Case {
         values
     }
 
-    fn attainability(&self, guides: &ElasticGuides<'_>, sides: &[Side]) -> Attainability {
-        let normal_force = DVector::from_iterator(sides.len(), sides.iter().map(|side| side.sign()));
-        guides.attainability(&[Candidate { sides: sides.to_vec(), normal_force }]).swap_remove(0)
-    }
-
     fn oriented_determinant(&self, sides: &[Side]) -> f64 {
         let columns: Vec<_> = sides
             .iter()
@@ -97,6 +92,11 @@ impl Case {
     }
 }
 
+fn attainability(guides: &ElasticGuides<'_>, sides: &[Side]) -> Attainability {
+    let normal_force = DVector::from_iterator(sides.len(), sides.iter().map(|side| side.sign()));
+    guides.attainability(&[Candidate { sides: sides.to_vec(), normal_force }]).swap_remove(0)
+}
+
 #[test]
 fn eigenvalues_are_those_of_all_bodies_in_every_mode() {
     let cases: [(&str, &[(&str, &str)]); 8] = [
@@ -113,7 +113,7 @@ fn eigenvalues_are_those_of_all_bodies_in_every_mode() {
         let case = Case::new(name, parameters);
         let guides = ElasticGuides::new(&case.mechanism, &case.equations, &case.problem);
         for sides in case.patterns() {
-            let found = case.attainability(&guides, &sides);
+            let found = attainability(&guides, &sides);
             let expected = case.of_all_bodies(&sides);
             let (zero, rest) = expected.split_at(case.freedom());
             let (finite, massless) = rest.split_at(rest.len() - found.massless_motions);
