@@ -38,7 +38,7 @@ impl Inertia {
         if right_gaps.ncols() != left_gaps.ncols() {
             return None;
         }
-        let [right, left] = [&right_gaps, &left_gaps].map(|gaps| null_space(&gaps.transpose()));
+        let [right, left] = [&right_gaps, &left_gaps].map(complement);
         let core = left.transpose() * &matrix * &right;
         // Without drives Y is symmetric, and its root keeps the eigenvalue problem symmetric where friction vanishes.
         let symmetric =
@@ -87,6 +87,15 @@ impl Inertia {
     }
 }
 
+/// The directions at right angles to some gaps.
+fn complement(gaps: &DMatrix<f64>) -> DMatrix<f64> {
+    if gaps.is_empty() {
+        DMatrix::identity(gaps.nrows(), gaps.nrows())
+    } else {
+        null_space(&gaps.transpose())
+    }
+}
+
 /// Orthonormal gaps, and the motions that open them; none if different motions open the same gaps.
 fn orthonormal(massless: MasslessMotions) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
     let MasslessMotions { mut motions, mut gaps } = massless;
@@ -109,4 +118,31 @@ fn orthonormal(massless: MasslessMotions) -> Option<(DMatrix<f64>, DMatrix<f64>)
         motions.column_mut(column).unscale_mut(length);
     }
     Some((gaps, motions))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::spectrum::{Pencil, Stability};
+    use super::Inertia;
+    use nalgebra::DMatrix;
+
+    /// Of two motions without mass that react to each other, with the stiffness [[1, -3], [1, 2]]: equal masses flutter,
+    /// (1 + 2)^2 < 4 x 5, masses of 0.1 and 10 do not, (10 + 0.2)^2 > 4 x 5.
+    #[test]
+    fn ratios_of_vanishing_masses_can_decide() {
+        let both = || [DMatrix::identity(2, 2), DMatrix::identity(2, 2)];
+        let inertia = Inertia {
+            matrix: DMatrix::zeros(2, 2),
+            left: DMatrix::zeros(2, 0),
+            right: DMatrix::zeros(2, 0),
+            massless: both(),
+            motions: both(),
+            lengths: vec![1.0; 2],
+        };
+        let mode = DMatrix::from_row_slice(2, 2, &[1.0, -3.0, 1.0, 2.0]);
+        let pencil = Pencil::new(&inertia, mode).expect("regular");
+        let stability = |ratios: &[f64]| pencil.spectrum(&[1.0; 2], ratios).expect("computed").stability;
+        assert!(matches!(stability(&[1.0, 1.0]), Stability::Flutter(damping) if damping.time == 0.0));
+        assert_eq!(stability(&[0.1, 10.0]), Stability::Attainable);
+    }
 }
