@@ -19,6 +19,7 @@
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 
+pub mod attainability;
 pub mod check;
 pub mod configuration;
 pub mod enclosure;

@@ -19,6 +19,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("modes", &["interval"]),
     ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
     ("report", &[]),
+    ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
     ("raw_problem", &["fault", "modes", "report"]),
     ("gallery", &[]),
 ];

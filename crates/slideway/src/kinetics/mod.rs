@@ -11,10 +11,12 @@
 //! Unknown are the accelerations `a` of the bodies, the reactions `lambda` (hinge forces, normal forces,
 //! couples) and the efforts `u` of the drives; the friction forces `F` are the parameters.
 
+mod elastic;
 mod loads;
 mod rows;
 mod system;
 
+pub(crate) use elastic::MasslessMotions;
 pub use loads::Wrench;
 pub(crate) use loads::unit_effort as effort_forces;
 

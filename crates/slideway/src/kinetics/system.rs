@@ -56,6 +56,11 @@ impl Factorization {
         Err(Singular { null_vector: vector.component_mul(&column_scale), weights: vector, condition })
     }
 
+    /// The matrix that was factored.
+    pub(super) fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
     /// Solution of `matrix` x = `right_hand_side`, with one step of iterative refinement.
     pub(super) fn solve(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
         let first = self.solve_once(right_hand_side);

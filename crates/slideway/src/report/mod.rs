@@ -3,12 +3,14 @@
 //! Last stage of the pipeline. Every face of slideway (command line, library, later Python) gets the same
 //! [`Report`]; its fields are the JSON output, documented in the book under "Output".
 
+mod attainability;
 mod csv;
 mod json;
 pub(crate) mod number;
 pub(crate) mod table;
 mod text;
 
+pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
 pub use csv::to_csv;
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
@@ -170,6 +172,8 @@ pub struct Solution {
     pub determinant: f64,
     /// D times the product of the signs; positive without friction (theory, section 5).
     pub oriented_determinant: f64,
+    /// Whether a mechanism with slightly elastic guides settles on it.
+    pub attainability: Attainability,
     /// The contacts, in the order of the model.
     pub contacts: Vec<Contact>,
     /// The contact mode of each sliding joint.

@@ -169,6 +169,7 @@ impl Text<'_> {
             self.line("  Found within tolerances, not proven.");
         }
         self.modes(&solution.joints);
+        self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
         let contacts = contact_table(&solution.contacts);
         self.out.push_str(&contacts);

@@ -1,5 +1,6 @@
 //! From the solutions of the mode problem back to the mechanism: every force and acceleration of each solution.
 
+use super::attainability::not_computed;
 use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
 use super::found::Found;
@@ -56,7 +57,8 @@ impl<'a> Answer<'a> {
             lists.singular.iter().map(|mode| self.without_tipping(mode)).collect();
         solutions.extend(singular.iter().filter_map(|mode| keep(&point(mode)?)));
         let gaps: Vec<_> = lists.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
-        let solutions = distinct(solutions, &[]);
+        let mut solutions = distinct(solutions, &[]);
+        self.examine(&mut solutions)?;
         let gaps = distinct(gaps, &solutions);
         let continua: Vec<_> = singular.iter().filter_map(|mode| self.continuum(mode)).collect();
         for (mode, _) in lists.singular.iter().zip(&singular).filter(|(mode, cut)| tips_everywhere(mode, cut))
@@ -237,6 +239,7 @@ impl<'a> Answer<'a> {
             margin: None,
             determinant: state.determinant,
             oriented_determinant: state.determinant * orientation,
+            attainability: not_computed("the preload acts between the faces"),
             contacts: self.contacts(state, unknowns, &friction),
             joints: self.joint_modes(&state.signs),
             hinges: self.hinges(unknowns),

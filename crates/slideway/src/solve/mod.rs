@@ -18,6 +18,7 @@
 //! ```
 
 mod answer;
+mod attainability;
 mod continuum;
 mod distinct;
 mod equilibrium;

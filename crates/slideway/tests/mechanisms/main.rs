@@ -6,7 +6,9 @@ mod answers;
 mod brute_force;
 mod drawing;
 mod random_mechanisms;
+mod stiff_guides;
 
+mod attainability;
 mod configuration;
 mod enclosure;
 mod gallery;

@@ -127,8 +127,23 @@ impl Image {
             }
         }
         assert_close(other.oriented_determinant, one.oriented_determinant, 1e-3, 1e-6);
-        Ok(())
+        check_attainability(one, other)
     }
+}
+
+/// The same verdict, and the same eigenvalues in other units.
+fn check_attainability(one: &Solution, other: &Solution) -> Result<(), TestCaseError> {
+    let (one, other) = (&one.attainability, &other.attainability);
+    prop_assert_eq!(one.verdict, other.verdict);
+    prop_assert_eq!(one.massless_motions, other.massless_motions);
+    prop_assert_eq!(one.eigenvalues.len(), other.eigenvalues.len());
+    let greatest =
+        [one, other].map(|one| one.eigenvalues.iter().fold(0.0, |n: f64, [re, im]| n.max(re.hypot(*im))));
+    for ([re, im], [other_re, other_im]) in one.eigenvalues.iter().zip(&other.eigenvalues) {
+        assert_close(re / greatest[0], other_re / greatest[1], 1.0, 1e-6);
+        assert_close(im / greatest[0], other_im / greatest[1], 1.0, 1e-6);
+    }
+    Ok(())
 }
 
 /// "tipped: a, b" is the same as "tipped: b, a".

@@ -1,0 +1,237 @@
+//! What becomes of a mechanism that starts beside an unattainable solution: the fast motion, piecewise linear.
+//!
+//! With the gaps `g` and the damping `delta` of the contacts,
+//!
+//! ```text
+//! N = -K (g + delta g'),    Y g'' = sum_k c_k^sigma |N_k| - N(0) - sum_k d_k^sigma,    sigma = sign N
+//! ```
+//!
+//! is linear as long as no contact changes side. There the motion is exact: powers of one matrix exponential for steps
+//! that are halved until the change of side lies within the last.
+
+use super::spectrum::{eigenvalues, is_real};
+use crate::modes::{ModeProblem, Side};
+use nalgebra::{DMatrix, DVector, LU};
+use std::collections::HashMap;
+
+/// Steps are this fraction of the time in which the fastest motion changes, and halved so many times.
+const STEP: f64 = 0.5;
+const HALVINGS: usize = 12;
+/// Steps without a change of side after which they are doubled, and the greatest doubling.
+const QUIET: usize = 8;
+const DOUBLINGS: usize = 6;
+/// Multiplications in one motion.
+const WORK: usize = 400_000;
+/// A solution counts as reached within this multiple of the distance that was gone.
+const NEAR: f64 = 1e-2;
+/// Reactions this many times those of all solutions have grown beyond all bounds.
+const BEYOND: f64 = 1e4;
+/// How far the motion starts, as a share of the way to the first change of side.
+const START: f64 = 0.5;
+
+/// A state of rest of the fast motion: a solution.
+#[derive(Debug, Clone)]
+pub(super) struct Rest<'s> {
+    pub(super) sides: &'s [Side],
+    pub(super) normal_force: &'s DVector<f64>,
+}
+
+/// How a motion ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// At the target of this index.
+    Target(usize),
+    /// Nowhere: the reactions grow beyond all bounds.
+    Beyond,
+    /// Not within the limit of work.
+    Open,
+}
+
+/// The fast motion with damped contacts.
+pub(super) struct FastMotion<'p> {
+    problem: &'p ModeProblem,
+    /// Y^-1, with a little inertia where there is none.
+    mobility: DMatrix<f64>,
+    stiffness: Vec<f64>,
+    /// delta (s).
+    damping: f64,
+    steps: HashMap<Vec<bool>, Steps>,
+}
+
+/// exp(A h) for steps h, the greatest first: (g, g', 1) to (g, g', 1).
+struct Steps {
+    powers: Vec<DMatrix<f64>>,
+}
+
+impl<'p> FastMotion<'p> {
+    /// With half of the critical damping of the slowest motion without friction; none if that is not known.
+    pub(super) fn new(problem: &'p ModeProblem, mobility: DMatrix<f64>, stiffness: &[f64]) -> Option<Self> {
+        let frictionless = &mobility * DMatrix::from_diagonal(&DVector::from_column_slice(stiffness));
+        let slowest = eigenvalues(&frictionless)?.iter().map(|value| value.re).fold(f64::INFINITY, f64::min);
+        let damping = 1.0 / slowest.sqrt();
+        let stiffness = stiffness.to_vec();
+        let steps = HashMap::new();
+        damping.is_finite().then_some(Self { problem, mobility, stiffness, damping, steps })
+    }
+
+    /// Where the motion leads to on both sides of a solution with one unstable motion: started along that motion. None
+    /// if there is no such motion or several.
+    pub(super) fn ends(&mut self, from: &Rest<'_>, targets: &[Rest<'_>]) -> Option<[End; 2]> {
+        let (lambda, gaps) = self.unstable(from.sides)?;
+        // s^2 + lambda (1 + delta s) = 0, lambda < 0
+        let damped = self.damping * lambda;
+        let rate = f64::midpoint(-damped, (damped * damped - 4.0 * lambda).sqrt());
+        let factor = -(1.0 + self.damping * rate);
+        let forces = DVector::from_fn(gaps.len(), |k, _| factor * self.stiffness[k] * gaps[k]);
+        Some([1.0, -1.0].map(|direction| {
+            // The first contact that changes side on the straight way N + t direction forces.
+            let ways = (0..gaps.len()).map(|k| -from.normal_force[k] / (direction * forces[k]));
+            let way = ways.filter(|way| *way > 0.0).fold(f64::INFINITY, f64::min);
+            if way.is_infinite() {
+                return End::Beyond;
+            }
+            let amount = direction * START * way;
+            let gap = DVector::from_fn(gaps.len(), |k, _| {
+                amount * gaps[k] - from.normal_force[k] / self.stiffness[k]
+            });
+            self.end(&gap, &(&gaps * (amount * rate)), from, targets)
+        }))
+    }
+
+    /// The only unstable motion of a mode: lambda < 0 and the gaps; none if there is none or several.
+    fn unstable(&self, sides: &[Side]) -> Option<(f64, DVector<f64>)> {
+        let matrix = &self.mobility * self.stiff(sides);
+        let mut unstable = eigenvalues(&matrix)?.into_iter().filter(|value| value.re <= 0.0);
+        let (lambda, more) = (unstable.next()?, unstable.next());
+        if more.is_some() || !is_real(lambda) || lambda.re == 0.0 {
+            return None;
+        }
+        // Inverse iteration.
+        let shift = DMatrix::identity(matrix.nrows(), matrix.nrows()) * (lambda.re * (1.0 + 1e-9));
+        let factors = LU::new(&matrix - shift);
+        let mut gaps = DVector::from_fn(matrix.nrows(), |k, _| 1.0 / (1.0 + k as f64));
+        for _ in 0..3 {
+            gaps = factors.solve(&gaps)?;
+            gaps /= gaps.amax();
+        }
+        gaps.iter().all(|gap| gap.is_finite()).then_some((lambda.re, gaps))
+    }
+
+    /// C S K of a mode.
+    fn stiff(&self, sides: &[Side]) -> DMatrix<f64> {
+        let mut matrix = super::mode_matrix(self.problem, sides);
+        for (mut column, stiffness) in matrix.column_iter_mut().zip(&self.stiffness) {
+            column *= *stiffness;
+        }
+        matrix
+    }
+
+    fn end(&mut self, gap: &DVector<f64>, rate: &DVector<f64>, from: &Rest<'_>, targets: &[Rest<'_>]) -> End {
+        let contacts = gap.len();
+        let mut state = DVector::from_element(2 * contacts + 1, 1.0);
+        state.rows_mut(0, contacts).copy_from(gap);
+        state.rows_mut(contacts, contacts).copy_from(rate);
+        let scale =
+            targets.iter().map(|rest| rest.normal_force.amax()).fold(from.normal_force.amax(), f64::max);
+        let (mut level, mut quiet) = (DOUBLINGS, 0);
+        let mut work = 0;
+        while work < WORK {
+            let pressed = self.pressed(&state);
+            if !self.steps.contains_key(&pressed) {
+                let steps = self.steps_of(&pressed);
+                self.steps.insert(pressed.clone(), steps);
+            }
+            let steps = &self.steps[&pressed];
+            let next = &steps.powers[level] * &state;
+            work += state.len() * state.len();
+            if self.pressed(&next) == pressed {
+                state = next;
+                quiet += 1;
+            } else if level + 1 < steps.powers.len() {
+                level += 1;
+                quiet = 0;
+                continue;
+            } else {
+                state = next;
+                level = DOUBLINGS;
+                quiet = 0;
+            }
+            if quiet >= QUIET && level > 0 {
+                level -= 1;
+                quiet = 0;
+            }
+            if let Some(end) = self.has_ended(&state, &pressed, scale, from, targets) {
+                return end;
+            }
+        }
+        End::Open
+    }
+
+    fn has_ended(
+        &self,
+        state: &DVector<f64>,
+        pressed: &[bool],
+        scale: f64,
+        from: &Rest<'_>,
+        targets: &[Rest<'_>],
+    ) -> Option<End> {
+        let greatest = (0..pressed.len()).map(|k| self.force(state, k).abs()).fold(0.0, f64::max);
+        if greatest > BEYOND * scale {
+            return Some(End::Beyond);
+        }
+        let is_near = |target: &Rest<'_>| {
+            let distance = NEAR * (target.normal_force - from.normal_force).amax();
+            (0..pressed.len()).all(|k| {
+                let rate = self.stiffness[k] * self.damping * state[pressed.len() + k];
+                pressed[k] == (target.sides[k] == Side::Positive)
+                    && (self.force(state, k) - target.normal_force[k]).abs() <= distance
+                    && rate.abs() <= distance
+            })
+        };
+        targets.iter().position(is_near).map(End::Target)
+    }
+
+    /// N_k = -kappa (g + delta g')
+    fn force(&self, state: &DVector<f64>, k: usize) -> f64 {
+        -self.stiffness[k] * (state[k] + self.damping * state[self.stiffness.len() + k])
+    }
+
+    fn pressed(&self, state: &DVector<f64>) -> Vec<bool> {
+        (0..self.stiffness.len()).map(|k| self.force(state, k) >= 0.0).collect()
+    }
+
+    fn steps_of(&self, pressed: &[bool]) -> Steps {
+        let contacts = pressed.len();
+        let sides: Vec<Side> =
+            pressed.iter().map(|positive| if *positive { Side::Positive } else { Side::Negative }).collect();
+        let stiff = &self.mobility * self.stiff(&sides);
+        let mut load = self.problem.right_hand_side().clone();
+        for (k, side) in sides.iter().enumerate() {
+            load += self.problem.jumps(*side).column(k);
+        }
+        let mut generator = DMatrix::zeros(2 * contacts + 1, 2 * contacts + 1);
+        generator.view_mut((0, contacts), (contacts, contacts)).fill_with_identity();
+        generator.view_mut((contacts, 0), (contacts, contacts)).copy_from(&-&stiff);
+        generator.view_mut((contacts, contacts), (contacts, contacts)).copy_from(&(&stiff * -self.damping));
+        generator.view_mut((contacts, 2 * contacts), (contacts, 1)).copy_from(&(&self.mobility * -load));
+        let step = STEP / stiff.norm().sqrt();
+        let mut powers = vec![exponential(&(generator * (step / f64::from(1 << HALVINGS))))];
+        for _ in 0..HALVINGS + DOUBLINGS {
+            let last = &powers[powers.len() - 1];
+            powers.push(last * last);
+        }
+        powers.reverse();
+        Steps { powers }
+    }
+}
+
+/// exp of a small matrix by its series.
+fn exponential(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut sum = DMatrix::identity(matrix.nrows(), matrix.ncols());
+    let mut term = sum.clone();
+    for order in 1..=6 {
+        term = &term * matrix / f64::from(order);
+        sum += &term;
+    }
+    sum
+}

@@ -1,0 +1,204 @@
+//! Which of several solutions a mechanism takes whose guides are slightly elastic (theory, section 7).
+//!
+//! Let the normal forces come from small elastic gaps, `N = -K gap`, with a stiffness for every contact. Hinges, the
+//! rotation locks of guided sliders and drives stay rigid. What a unit acceleration of the gaps needs in normal forces,
+//! Y, and the columns `c_k^sigma = sigma e_k - mu_k s_k eta_k^sigma` of eq. (6) come from the same equations, and the
+//! fast motion about a solution with the sides `sigma` is
+//!
+//! ```text
+//! Y gap'' = -C S K gap,     C S = [c_k^sigma_k sigma_k],     lambda Y gap = C S K gap
+//! ```
+//!
+//! These are the eigenvalues other than zero of `M x'' + (G_c^T + W_sigma diag(mu s sigma)) K G_c x = 0` on the motions
+//! that hinges, locks and drives allow, one for each contact. A motion without mass makes Y singular: it reacts
+//! statically, and its stiffness has to be positive.
+//!
+//! Since `det(C S)` is the oriented determinant `p`, the number of negative eigenvalues is odd if and only if `p < 0`,
+//! whatever the stiffness.
+
+mod fate;
+mod inertia;
+mod ratios;
+mod spectrum;
+
+use crate::kinetics::KineticEquations;
+use crate::mechanism::Mechanism;
+use crate::modes::{ModeProblem, Side};
+use crate::report::{Attainability, Fate, FlutterDamping, Verdict};
+use fate::{End, FastMotion, Rest};
+use inertia::Inertia;
+use nalgebra::{DMatrix, DVector};
+use ratios::ratios;
+use spectrum::{Pencil, Spectrum, Stability};
+
+/// The most contacts for which eigenvalues are computed, and for which the fate beside a solution is.
+const MOST_CONTACTS: usize = 24;
+const MOST_CONTACTS_OF_FATES: usize = 10;
+/// The most solutions among which fates are sought.
+const MOST_SOLUTIONS: usize = 32;
+/// Inertia of a motion without mass where its fate is sought, as a share of the greatest other.
+const VANISHING_SHARE: f64 = 1e-3;
+
+const REVERSED: &str =
+    "the line of action of a drive makes the fast motion of elastic guides unstable without friction";
+const ROUNDING: &str = "an eigenvalue of the fast motion is zero within rounding";
+
+/// A solution whose attainability is asked for.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The sides of the contacts.
+    pub sides: Vec<Side>,
+    /// The normal forces (N).
+    pub normal_force: DVector<f64>,
+}
+
+/// A mechanism in its state whose guides are slightly elastic.
+#[derive(Debug, Clone)]
+pub struct ElasticGuides<'p> {
+    problem: &'p ModeProblem,
+    /// None if drives leave no definite motion.
+    inertia: Option<Inertia>,
+    /// Of every contact (N/m); 1 if the model does not give all of them.
+    stiffness: Vec<f64>,
+    given: bool,
+    /// Whether the fast motion is stable without friction; with drives it may not be.
+    stable: bool,
+}
+
+impl<'p> ElasticGuides<'p> {
+    /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of the
+    /// model if it gives them for every contact, else 1 N/m.
+    pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
+        let contacts = &mechanism.contacts;
+        let stiffness: Option<Vec<f64>> = contacts.iter().map(|contact| contact.stiffness).collect();
+        let given = stiffness.is_some() && !contacts.is_empty();
+        let stiffness = stiffness.unwrap_or_else(|| vec![1.0; contacts.len()]);
+        let few = contacts.len() <= MOST_CONTACTS;
+        let inertia = if few { Inertia::new(equations, mechanism.size) } else { None };
+        let stable = inertia.as_ref().is_some_and(|inertia| {
+            let frictionless = DMatrix::identity(contacts.len(), contacts.len());
+            let spectrum = Pencil::new(inertia, frictionless)
+                .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
+            spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
+        });
+        Self { problem, inertia, stiffness, given, stable }
+    }
+
+    /// The attainability of each of these solutions, which are all that the mechanism has and none of them on the
+    /// boundary between modes. Where one is unattainable, its two sides are followed to the others.
+    pub fn attainability(&self, candidates: &[Candidate]) -> Vec<Attainability> {
+        let mut all: Vec<_> = candidates.iter().map(|candidate| self.of(&candidate.sides)).collect();
+        self.fates(candidates, &mut all);
+        all
+    }
+
+    /// The attainability of the mode with these sides, without what an unattainable solution separates.
+    fn of(&self, sides: &[Side]) -> Attainability {
+        if sides.len() > MOST_CONTACTS {
+            let reason = format!("more than {MOST_CONTACTS} contacts");
+            return Attainability::without_eigenvalues(Verdict::NotComputed, &reason);
+        }
+        let (Some(inertia), true) = (&self.inertia, self.stable) else {
+            return Attainability::without_eigenvalues(Verdict::Undecided, REVERSED);
+        };
+        let mode = mode_matrix(self.problem, sides);
+        let oriented = mode.determinant();
+        let computed = Pencil::new(inertia, mode).and_then(|pencil| {
+            let spectrum = pencil.spectrum(&self.stiffness, &equal_masses(inertia))?;
+            Some((pencil, spectrum))
+        });
+        let Some((pencil, spectrum)) = computed else {
+            let reason = "its eigenvalues could not be computed";
+            return Attainability::without_eigenvalues(Verdict::NotComputed, reason);
+        };
+        let is_odd = spectrum.negative % 2 == 1;
+        let consistent = oriented != 0.0 && is_odd == (oriented < 0.0);
+        let mut attainability = self.verdict(&spectrum, consistent);
+        let varies =
+            |other: Option<Spectrum>| other.is_some_and(|other| !other.stability.agrees(&spectrum.stability));
+        if consistent && spectrum.stability != Stability::Unclear {
+            // An odd number of negative eigenvalues stays odd.
+            attainability.depends_on_stiffness = Some(
+                !is_odd
+                    && self.stiffness_ratios().any(|k| varies(pencil.spectrum(&k, &equal_masses(inertia)))),
+            );
+            let masses =
+                if is_odd || inertia.massless_gaps() < 2 { Vec::new() } else { mass_ratios(inertia) };
+            attainability.depends_on_mass_ratios =
+                Some(masses.iter().any(|masses| varies(pencil.spectrum(&self.stiffness, masses))));
+        }
+        attainability.massless_motions = inertia.massless_gaps();
+        attainability
+    }
+
+    fn verdict(&self, spectrum: &Spectrum, consistent: bool) -> Attainability {
+        let (verdict, damping) = match spectrum.stability {
+            _ if !consistent => (Verdict::Undecided, None),
+            Stability::Attainable => (Verdict::Attainable, None),
+            Stability::Unattainable => (Verdict::Unattainable, None),
+            Stability::Unclear => (Verdict::Undecided, None),
+            Stability::Flutter(damping) => (
+                Verdict::Flutter,
+                Some(FlutterDamping { ratio: damping.ratio, time: self.given.then_some(damping.time) }),
+            ),
+        };
+        Attainability {
+            reason: (verdict == Verdict::Undecided).then(|| ROUNDING.to_owned()),
+            // Adding zero turns -0 into 0.
+            eigenvalues: spectrum.finite.iter().map(|lambda| [lambda.re, lambda.im + 0.0]).collect(),
+            eigenvalue_unit: if self.given { "1/s^2" } else { "1/kg" },
+            flutter_damping: damping,
+            ..Attainability::without_eigenvalues(verdict, "")
+        }
+    }
+
+    fn stiffness_ratios(&self) -> impl Iterator<Item = Vec<f64>> {
+        ratios(self.stiffness.len()).into_iter().map(|ratios| {
+            ratios.iter().zip(&self.stiffness).map(|(ratio, stiffness)| ratio * stiffness).collect()
+        })
+    }
+
+    /// What each unattainable solution separates.
+    fn fates(&self, candidates: &[Candidate], all: &mut [Attainability]) {
+        let few = self.stiffness.len() <= MOST_CONTACTS_OF_FATES && candidates.len() <= MOST_SOLUTIONS;
+        let none = all.iter().all(|one| one.verdict != Verdict::Unattainable);
+        let (Some(inertia), true) = (&self.inertia, few && !none) else { return };
+        let Some(mobility) = inertia.inverse(VANISHING_SHARE) else { return };
+        let stays = |one: &Attainability| matches!(one.verdict, Verdict::Attainable | Verdict::Flutter);
+        let numbers: Vec<usize> = (0..all.len()).filter(|&index| stays(&all[index])).collect();
+        let rest = |index: usize| Rest {
+            sides: &candidates[index].sides,
+            normal_force: &candidates[index].normal_force,
+        };
+        let targets: Vec<Rest<'_>> = numbers.iter().map(|&index| rest(index)).collect();
+        let Some(mut motion) = FastMotion::new(self.problem, mobility, &self.stiffness) else { return };
+        for (index, one) in all.iter_mut().enumerate() {
+            if one.verdict == Verdict::Unattainable {
+                let ends = motion.ends(&rest(index), &targets);
+                one.separates = ends.map(|ends| ends.map(|end| fate(end, &numbers)));
+            }
+        }
+    }
+}
+
+fn fate(end: End, numbers: &[usize]) -> Fate {
+    match end {
+        End::Target(target) => Fate::Solution(numbers[target] + 1),
+        End::Beyond => Fate::Jamming,
+        End::Open => Fate::NotComputed,
+    }
+}
+
+fn equal_masses(inertia: &Inertia) -> Vec<f64> {
+    vec![1.0; inertia.vanishing_masses()]
+}
+
+/// Ratios of the vanishing masses that are tried.
+fn mass_ratios(inertia: &Inertia) -> Vec<Vec<f64>> {
+    ratios(inertia.vanishing_masses())
+}
+
+/// C S = [c_k^sigma_k sigma_k]
+fn mode_matrix(problem: &ModeProblem, sides: &[Side]) -> DMatrix<f64> {
+    DMatrix::from_fn(sides.len(), sides.len(), |i, k| problem.columns(sides[k])[(i, k)] * sides[k].sign())
+}

@@ -1,0 +1,78 @@
+//! What the contacts feel when the guides are slightly elastic (theory, section 7).
+
+use super::{KineticEquations, Reaction};
+use crate::configuration::null_space;
+use crate::ids::ContactId;
+use nalgebra::{DMatrix, DVector};
+
+/// Motions of massless bodies that the elastic guides allow and the other joints, too, one in each column.
+#[derive(Debug, Clone)]
+pub(crate) struct MasslessMotions {
+    /// Accelerations without mass that such a motion has: rows are the massless ones among the 3 of each body.
+    pub(crate) motions: DMatrix<f64>,
+    /// The gaps of the contacts that they open.
+    pub(crate) gaps: DMatrix<f64>,
+}
+
+impl KineticEquations {
+    /// Y: the normal forces that unit accelerations of the gaps of the contacts need, `N = Y gap''` (kg). Square; with
+    /// `M` symmetric and positive definite on the motions `G_r x = 0` it is the inverse of `G_c M^-1 G_c^T` there.
+    pub(crate) fn contact_inertia(&self) -> DMatrix<f64> {
+        let rows = self.normal_rows();
+        let columns: Vec<DVector<f64>> = rows
+            .iter()
+            .map(|&row| {
+                let mut unit = DVector::zeros(self.layout.len());
+                unit[row] = 1.0;
+                let unknowns = self.factorization.solve(&unit);
+                DVector::from_iterator(rows.len(), rows.iter().map(|&index| unknowns[index]))
+            })
+            .collect();
+        if columns.is_empty() { DMatrix::zeros(0, 0) } else { DMatrix::from_columns(&columns) }
+    }
+
+    /// The massless accelerations: indices of bodies' accelerations whose mass or moment of inertia is zero.
+    pub(crate) fn massless_accelerations(&self) -> Vec<usize> {
+        let matrix = self.factorization.matrix();
+        (0..3 * self.layout.bodies).filter(|&index| matrix[(index, index)] == 0.0).collect()
+    }
+
+    /// The motions without mass on which the elastic guides act: of `[G_r; C] x = 0`, and of the test motions
+    /// `[G_r; B^T] x = 0`, which are the same without drives.
+    pub(crate) fn massless_motions(&self) -> [MasslessMotions; 2] {
+        let massless = self.massless_accelerations();
+        let matrix = self.factorization.matrix();
+        let normal = self.normal_rows();
+        let first = 3 * self.layout.bodies;
+        let efforts = first + self.layout.reactions.len();
+        let rigid: Vec<usize> = (first..efforts).filter(|row| !normal.contains(row)).collect();
+        [false, true].map(|test| {
+            let entry = |row: usize, column: usize| {
+                if test && row >= efforts { matrix[(column, row)] } else { matrix[(row, column)] }
+            };
+            let rows: Vec<usize> = rigid.iter().copied().chain(efforts..self.layout.len()).collect();
+            let joints = DMatrix::from_fn(rows.len(), massless.len(), |i, j| entry(rows[i], massless[j]));
+            let gaps = DMatrix::from_fn(normal.len(), massless.len(), |i, j| entry(normal[i], massless[j]));
+            let motions = scaled_null_space(&joints);
+            MasslessMotions { gaps: gaps * &motions, motions }
+        })
+    }
+
+    fn normal_rows(&self) -> Vec<usize> {
+        let contacts = (0..self.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
+        contacts.filter_map(|normal| self.layout.reaction(normal)).collect()
+    }
+}
+
+/// The null space of a matrix whose rows and columns have different units.
+fn scaled_null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    if matrix.is_empty() {
+        return DMatrix::identity(matrix.ncols(), matrix.ncols());
+    }
+    let (rows, columns) = super::equilibration(matrix);
+    let mut motions = null_space(&super::scaled(matrix, &rows, &columns));
+    for (index, mut row) in motions.row_iter_mut().enumerate() {
+        row *= columns[index];
+    }
+    motions
+}

@@ -1,0 +1,132 @@
+//! Whether a mechanism with slightly elastic guides settles on a solution, as plain data.
+
+use serde::Serialize;
+
+/// What becomes of a solution when the guides are slightly elastic (theory, section 7).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// All fast motions are stable: the mechanism settles on the solution.
+    Attainable,
+    /// Some fast motion leaves the solution whatever the damping of the contacts.
+    Unattainable,
+    /// A fast oscillation grows unless the contacts are damped enough.
+    Flutter,
+    /// The question has no definite answer; see the reason.
+    Undecided,
+    /// Not computed; see the reason.
+    NotComputed,
+}
+
+/// Attainability of a solution.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Attainability {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Why it is undecided or not computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Finite nonzero eigenvalues lambda of the fast motion `x'' = -lambda x`: real and imaginary parts, ascending. Those
+    /// of `n` rigid motions (`n - d` with drives), which are zero, and of motions without mass are left out.
+    pub eigenvalues: Vec<[f64; 2]>,
+    /// "1/s^2" if the model gives the stiffness of every contact; else "1/kg", for 1 N/m at every contact.
+    pub eigenvalue_unit: &'static str,
+    /// Number of motions without mass that elastic guides allow; their masses tend to zero from above.
+    pub massless_motions: usize,
+    /// Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent if not
+    /// tried.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depends_on_stiffness: Option<bool>,
+    /// Whether the verdict depends on the ratios of the vanishing masses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depends_on_mass_ratios: Option<bool>,
+    /// For flutter: the damping of the contacts that suppresses it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flutter_damping: Option<FlutterDamping>,
+    /// For an unattainable solution: what becomes of the mechanism on either side of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub separates: Option<[Fate; 2]>,
+}
+
+/// The least damping of the contacts, `N = -kappa (gap + delta gap')`, that suppresses flutter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FlutterDamping {
+    /// Damping ratio `zeta = delta sqrt|lambda| / 2` of the fluttering motion.
+    pub ratio: f64,
+    /// The time `delta` (s); absent if the model does not give the stiffness of every contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+}
+
+/// What becomes of a mechanism that starts beside an unattainable solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fate {
+    /// It settles on the solution of this number, counted from 1.
+    Solution(usize),
+    /// The reactions grow beyond all bounds: it jams.
+    Jamming,
+    /// Not computed within the limit of work.
+    NotComputed,
+}
+
+impl Attainability {
+    /// Nothing but a verdict and its reason.
+    pub(crate) fn without_eigenvalues(verdict: Verdict, reason: &str) -> Self {
+        Self {
+            verdict,
+            reason: Some(reason.to_owned()),
+            eigenvalues: Vec::new(),
+            eigenvalue_unit: "1/kg",
+            massless_motions: 0,
+            depends_on_stiffness: None,
+            depends_on_mass_ratios: None,
+            flutter_damping: None,
+            separates: None,
+        }
+    }
+
+    /// The verdict as a sentence.
+    pub(super) fn in_words(&self) -> String {
+        let reason = self.reason.as_deref().unwrap_or("no reason given");
+        let mut words = match self.verdict {
+            Verdict::Attainable => {
+                "Attainable: a mechanism with slightly elastic guides settles on it".to_owned()
+            }
+            Verdict::Unattainable => format!("Not attainable: {}", self.separates_in_words()),
+            Verdict::Flutter => self.flutter_damping.map_or_else(
+                || "Flutter".to_owned(),
+                |damping| {
+                    format!("Flutter unless the damping of the contacts exceeds zeta = {:.2}", damping.ratio)
+                },
+            ),
+            Verdict::Undecided => format!("Attainability undecided: {reason}"),
+            Verdict::NotComputed => format!("Attainability not computed: {reason}"),
+        };
+        if self.depends_on_stiffness == Some(true) {
+            words += "; depends on the stiffness of the guides";
+        }
+        if self.depends_on_mass_ratios == Some(true) {
+            words += "; depends on the ratios of vanishing masses";
+        }
+        words + "."
+    }
+
+    fn separates_in_words(&self) -> String {
+        match self.separates {
+            Some([Fate::Solution(one), Fate::Jamming] | [Fate::Jamming, Fate::Solution(one)]) => {
+                format!("threshold between sliding (solution {one}) and jamming")
+            }
+            Some([Fate::Solution(one), Fate::Solution(other)]) if one != other => {
+                format!("threshold between solutions {} and {}", one.min(other), one.max(other))
+            }
+            Some([Fate::Solution(one), Fate::Solution(_)]) => {
+                format!("a mechanism with slightly elastic guides leaves it for solution {one}")
+            }
+            Some([Fate::Jamming, Fate::Jamming]) => {
+                "a mechanism with slightly elastic guides leaves it and jams".to_owned()
+            }
+            _ => "a mechanism with slightly elastic guides leaves it".to_owned(),
+        }
+    }
+}

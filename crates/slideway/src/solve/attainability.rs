@@ -1,0 +1,60 @@
+//! The attainability of the solutions of a report.
+
+#[cfg(test)]
+mod tests;
+
+use super::answer::Answer;
+use super::mode_problem::mode_problem;
+use crate::attainability::{Candidate, ElasticGuides};
+use crate::fault::Faults;
+use crate::modes::Side;
+use crate::report::{Attainability, Fate, Solution, Verdict};
+use nalgebra::DVector;
+
+/// Of a state that is yet to be examined, or never is.
+pub(super) fn not_computed(reason: &str) -> Attainability {
+    Attainability::without_eigenvalues(Verdict::NotComputed, reason)
+}
+
+impl Answer<'_> {
+    /// Examines all solutions that lie within a mode.
+    pub(super) fn examine(&self, solutions: &mut [Solution]) -> Result<(), Faults> {
+        let inside: Vec<usize> =
+            (0..solutions.len()).filter(|&index| !is_on_boundary(&solutions[index])).collect();
+        for solution in solutions.iter_mut() {
+            solution.attainability = not_computed("a contact is about to change side");
+        }
+        if inside.is_empty() {
+            return Ok(());
+        }
+        let problem = mode_problem(self.mechanism, self.influence, self.velocity_signs)?;
+        let guides = ElasticGuides::new(self.mechanism, self.equations, &problem);
+        let candidates: Vec<Candidate> = inside.iter().map(|&index| candidate(&solutions[index])).collect();
+        for (&index, mut attainability) in inside.iter().zip(guides.attainability(&candidates)) {
+            attainability.separates = attainability.separates.map(|fates| {
+                fates.map(|fate| match fate {
+                    Fate::Solution(number) => Fate::Solution(inside[number - 1] + 1),
+                    other => other,
+                })
+            });
+            solutions[index].attainability = attainability;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a solution belongs to several modes, or to a singular one.
+fn is_on_boundary(solution: &Solution) -> bool {
+    solution.on_boundary || solution.determinant == 0.0 || solution.signs.contains(&0)
+}
+
+fn candidate(solution: &Solution) -> Candidate {
+    let side = |sign: &i8| if *sign > 0 { Side::Positive } else { Side::Negative };
+    Candidate {
+        sides: solution.signs.iter().map(side).collect(),
+        normal_force: DVector::from_iterator(
+            solution.contacts.len(),
+            solution.contacts.iter().map(|contact| contact.normal_force),
+        ),
+    }
+}
