@@ -8,7 +8,8 @@
 //!
 //! without weights, other loads and preloads, which are negligible beside a load that is great enough. More static
 //! friction only widens this cone, so that there is one threshold, found by bisection of the linear programs'
-//! feasibility: self-locking from there on, free below.
+//! feasibility and polished by a secant: self-locking from there on, free below. The accuracy is about 1e-12, and 1e-11
+//! where a block wedges in its guide, as the reactions grow without bound there.
 
 use super::HoldOptions;
 use super::region::Undecided;
