@@ -7,6 +7,8 @@ use nalgebra::{Complex, DMatrix, LU, Schur};
 const REAL: f64 = 1e-7;
 /// Inverse eigenvalues below this multiple of the greatest are zero within rounding.
 const ZERO: f64 = 1e-13;
+/// Sizes of eigenvalues with which everything that follows stays within the range of floating point.
+const USUAL: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 /// Steps of the QR algorithm.
 const STEPS: usize = 1000;
 
@@ -118,6 +120,9 @@ impl<'i> Pencil<'i> {
             .map(|value| value.inv())
             .collect();
         finite.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+        if !finite.iter().all(|value| USUAL.contains(&value.norm())) {
+            return None;
+        }
         let massless = self.massless(stiffness, ratios)?;
         let mut stability = if clear { Stability::Attainable } else { Stability::Unclear };
         stability = finite.iter().fold(stability, |all, lambda| all.and(Stability::of(*lambda)));
