@@ -216,14 +216,18 @@ pub struct UndecidedMode {
 /// By which factors all coefficients of friction together may grow before the answer changes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Margins {
-    /// Up to this factor there is the same number of solutions (and of gap states); null if it never changes.
+    /// Up to this factor there is the same number of solutions (and of gap states); absent if it never changes.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub another_count: Option<f64>,
-    /// From this factor on there is no solution, so that nothing moves; null if there always is one.
+    /// From this factor on there is no solution, so that nothing moves; absent if there always is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several already);
-    /// null if that is never lost, or was not computed because preloads jump with the side of contact.
+    /// absent if that is never lost, or was not computed because preloads jump with the side of contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
-    /// The contact whose friction alone changes the number of solutions first; null if none does.
+    /// The contact whose friction alone changes the number of solutions first; absent if none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_contact: Option<CriticalContact>,
 }
 
@@ -239,7 +243,8 @@ pub struct CriticalContact {
 /// By which factor all friction may grow before a mode ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModeMargin {
-    /// The factor; null if the mode never ends.
+    /// The factor; absent if the mode never ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
     /// "nothing", "locking", "side_change", "gap_closes" or "tipping".
     pub ends_with: &'static str,
