@@ -30,29 +30,28 @@ pub enum Tipping {
 }
 
 impl EnclosedModeProblem {
-    /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|` (theory, section 1).
+    /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|` (theory, section 1); what stands for a
+    /// contact in its gap does not count.
     ///
     /// # Panics
     /// If `pattern` and `y` do not have one entry for each contact.
     pub fn tipping(&self, pattern: &[ContactState], y: &[Interval]) -> Tipping {
-        let friction: Option<Vec<Interval>> = pattern
-            .iter()
-            .enumerate()
-            .map(|(k, state)| Some(self.friction(k, state.side()?, y[k])))
-            .collect();
-        let worst = self.couples.iter().map(|couple| match &friction {
-            Some(friction) => couple.tipping(friction, y[couple.contact]),
-            None => Tipping::Open,
-        });
+        let friction: Vec<Interval> =
+            pattern.iter().enumerate().map(|(k, state)| self.friction(k, *state, y[k])).collect();
+        let pressure = |k: usize| if pattern[k] == ContactState::Gap { Interval::ZERO } else { y[k] };
+        let worst = self.couples.iter().map(|couple| couple.tipping(&friction, pressure(couple.contact)));
         worst.max().unwrap_or(Tipping::Never)
     }
 
-    /// `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2).
-    fn friction(&self, contact: usize, side: Side, y: Interval) -> Interval {
+    /// `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap something between the preloads of both faces.
+    fn friction(&self, contact: usize, state: ContactState, y: Interval) -> Interval {
         let influence = &self.influence;
-        let (mu, preload) = (influence.mu.get(side), influence.preload.get(side));
-        let sign = Interval::point(influence.velocity_signs[contact]);
-        (mu.entry(contact, 0) * y + preload.entry(contact, 0)) * sign
+        let preload = |side: Side| influence.preload.get(side).entry(contact, 0);
+        let size = match state.side() {
+            Some(side) => influence.mu.get(side).entry(contact, 0) * y + preload(side),
+            None => preload(Side::Positive).hull(preload(Side::Negative)),
+        };
+        size * Interval::point(influence.velocity_signs[contact])
     }
 }
 

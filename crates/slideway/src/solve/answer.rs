@@ -29,6 +29,8 @@ const COUPLE_TOLERANCE: f64 = 1e-9;
 struct Tipped {
     count: u64,
     rejected: Vec<report::Rejection>,
+    /// Guided sliders of which bounds do not prove that they tip.
+    unproven: Vec<String>,
 }
 
 /// A mechanism in its state, with the stages that lead to its mode problem.
@@ -68,7 +70,8 @@ impl<'a> Answer<'a> {
             tipping.rejected.extend(first);
         }
         let [count, gap_state_count] = found.counts(&lists, [solutions.len(), gaps.len()]);
-        let open = found.open();
+        let mut open = found.open();
+        open.extend(tipping.unproven.iter().map(|joint| format!("that {joint} tips is not proven")));
         let undecided = !lists.undecided.is_empty() || found.is_partial();
         let outcomes = found.result.outcomes();
         let report = Report {
@@ -111,10 +114,19 @@ impl<'a> Answer<'a> {
             None => Some(self.solution(state, &unknowns)),
             Some(rejection) => {
                 tipping.count += 1;
+                if !self.certainly_tips(state) {
+                    tipping.unproven.push(rejection.joint.clone());
+                }
                 tipping.rejected.push(rejection);
                 None
             }
         }
+    }
+
+    /// Whether bounds of the exact numbers prove that a guided slider tips; where there are none it is not their fault.
+    fn certainly_tips(&self, state: &State<'_>) -> bool {
+        let bounds = self.enclosed.zip(state.certificate.unknowns());
+        bounds.is_none_or(|(enclosed, unknowns)| enclosed.tipping(state.pattern, unknowns) == Tipping::Always)
     }
 
     /// The groups of contacts that admit nothing, where several groups were searched one by one.
