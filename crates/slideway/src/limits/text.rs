@@ -78,6 +78,7 @@ fn mode_row(mode: &ModeLimits) -> Vec<String> {
 
 /// Why a mode begins or ends, in words.
 fn cause<'r>(is: &str, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>) -> String {
+    let several = at.len() > 1;
     let at = at.join(", ");
     match is {
         "range" => "the range".to_owned(),
@@ -88,8 +89,10 @@ fn cause<'r>(is: &str, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>
                 list => format!("locking: {} without bound", list.join(", ")),
             }
         }
+        "side_change" if several => format!("{at} change side"),
         "side_change" => format!("{at} changes side"),
         "gap_closes" => format!("the gap of {at} closes"),
+        "tipping" if several => format!("{at} tip"),
         "tipping" => format!("{at} tips"),
         "greatest_reaction" => format!("{at} at the greatest reaction"),
         _ => "no position".to_owned(),
