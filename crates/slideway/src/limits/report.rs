@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::existence::{EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{JointMode, indented_json};
-use crate::solve::mode_in_words;
+use crate::solve::{mode_in_words, pattern, signs};
 use serde::Serialize;
 
 /// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
@@ -171,7 +171,7 @@ impl Naming {
     }
 
     fn mode(&self, mode: &ModeInterval) -> ModeLimits {
-        let signs: Vec<i8> = mode.pattern.iter().map(|state| sign(*state)).collect();
+        let signs = signs(&mode.pattern);
         let (from_is, from_at) = self.cause(&mode.from.cause);
         let (to_is, to_at) = self.cause(&mode.to.cause);
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
@@ -179,7 +179,7 @@ impl Naming {
             EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
         };
         ModeLimits {
-            pattern: mode.pattern.iter().map(|state| character(*state)).collect(),
+            pattern: pattern(&mode.pattern),
             preload_gap: mode.pattern.contains(&ContactState::Gap),
             joints: self.joint_modes(&signs),
             signs,
@@ -273,20 +273,4 @@ fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-fn sign(state: ContactState) -> i8 {
-    match state {
-        ContactState::Positive => 1,
-        ContactState::Negative => -1,
-        ContactState::Gap => 0,
-    }
-}
-
-fn character(state: ContactState) -> char {
-    match state {
-        ContactState::Positive => '+',
-        ContactState::Negative => '-',
-        ContactState::Gap => '0',
-    }
 }

@@ -2,9 +2,9 @@
 
 use super::conclusion::precise;
 use super::report::{CountLimits, LimitsReport, ModeLimits};
-use crate::report::Style;
 use crate::report::number::number;
 use crate::report::table::table;
+use crate::report::{Style, spaced};
 use std::fmt::Write;
 
 /// The report as text: what it comes to, the modes, the numbers of solutions.
@@ -108,10 +108,4 @@ fn count_row(count: &CountLimits) -> Vec<String> {
 fn line(out: &mut String, text: &str) {
     // Writing to a text cannot fail.
     let _ = writeln!(out, "{text}");
-}
-
-/// "+-+" as "+ - +".
-fn spaced(pattern: &str) -> String {
-    let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();
-    signs.join(" ")
 }

@@ -14,8 +14,8 @@ pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
 pub use csv::to_csv;
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
-pub(crate) use text::count;
 pub use text::{Style, to_text};
+pub(crate) use text::{count, spaced};
 
 use serde::Serialize;
 

@@ -498,7 +498,7 @@ fn power_of_ten_above(residual: f64) -> String {
 }
 
 /// "+-+" as "+ - +".
-fn spaced(pattern: &str) -> String {
+pub(crate) fn spaced(pattern: &str) -> String {
     let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();
     signs.join(" ")
 }

@@ -1,10 +1,10 @@
 //! How far friction may grow before the answer changes.
 
 use super::parts::Parts;
+use super::state::pattern;
 use crate::fault::Faults;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
-use crate::modes::ContactState;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
 };
@@ -33,7 +33,7 @@ pub(super) fn add(
     report.margins = Some(Margins {
         another_count: all.another_count(),
         no_solution: all.no_solution(),
-        uniqueness: friction.uniqueness(),
+        uniqueness: all.uniqueness(),
         critical_contact: friction.critical_contact(),
     });
 }
@@ -47,6 +47,7 @@ struct Friction<'a> {
 
 /// The modes as friction grows by a factor.
 struct Growth {
+    line: ModeProblemLine,
     existence: Existence,
     counts: Vec<CountInterval>,
 }
@@ -66,16 +67,7 @@ impl Friction<'_> {
         let options = ExistenceOptions { range: GROWING, greatest_normal_force: None, patterns: PATTERNS };
         let existence = line.existence(&options).ok()?;
         let counts = counts(&line, &existence, GROWING);
-        Some(Growth { existence, counts })
-    }
-
-    /// The factor up to which every load has exactly one solution; none if there is no such factor, or with jumps.
-    fn uniqueness(&self) -> Option<f64> {
-        let line = self.line(&|_| true).ok()?;
-        if line.has_jump.iter().any(|&jump| jump) {
-            return None;
-        }
-        line.first_locking(PATTERNS).ok()?.map(|(factor, _)| factor)
+        Some(Growth { line, existence, counts })
     }
 
     /// The contact whose friction alone changes the number of solutions at the smallest factor.
@@ -91,6 +83,14 @@ impl Friction<'_> {
 }
 
 impl Growth {
+    /// The factor up to which every load has exactly one solution; none if there is no such factor, or with jumps.
+    fn uniqueness(&self) -> Option<f64> {
+        if self.line.has_jump.iter().any(|&jump| jump) {
+            return None;
+        }
+        self.line.first_locking(PATTERNS).ok()?.map(|(factor, _)| factor)
+    }
+
     /// The factor at which there is another number of solutions, gap states counted apart.
     fn another_count(&self) -> Option<f64> {
         self.counts.get(1).map(|next| next.from)
@@ -104,14 +104,8 @@ impl Growth {
 
     /// The interval of a mode that exists now.
     fn end_of(&self, pattern: &str) -> Option<&ModeInterval> {
-        let same = |mode: &&ModeInterval| {
-            let signs = mode.pattern.iter().map(|state| match state {
-                ContactState::Positive => '+',
-                ContactState::Negative => '-',
-                ContactState::Gap => '0',
-            });
-            signs.eq(pattern.chars()) && mode.from.at <= 1.0 + AT_ONCE
-        };
+        let same =
+            |mode: &&ModeInterval| self::pattern(&mode.pattern) == pattern && mode.from.at <= 1.0 + AT_ONCE;
         self.existence.modes.iter().find(same)
     }
 }

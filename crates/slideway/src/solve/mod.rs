@@ -33,6 +33,7 @@ mod words;
 pub use mode_problem::mode_problem;
 pub(crate) use mode_problem::{check_size, velocity_signs};
 pub(crate) use parts::{Parts, Stages};
+pub(crate) use state::{pattern, signs};
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;

@@ -77,7 +77,8 @@ pub(super) fn point(mode: &SingularMode) -> Option<State<'_>> {
     })
 }
 
-pub(super) fn signs(pattern: &[ContactState]) -> Vec<i8> {
+/// The sign of every normal force, 0 in a gap.
+pub(crate) fn signs(pattern: &[ContactState]) -> Vec<i8> {
     pattern
         .iter()
         .map(|state| match state {
@@ -88,7 +89,8 @@ pub(super) fn signs(pattern: &[ContactState]) -> Vec<i8> {
         .collect()
 }
 
-pub(super) fn pattern(states: &[ContactState]) -> String {
+/// One character for each contact: "+", "-", or "0" in a gap.
+pub(crate) fn pattern(states: &[ContactState]) -> String {
     let sign = |state: &ContactState| match state {
         ContactState::Positive => '+',
         ContactState::Negative => '-',

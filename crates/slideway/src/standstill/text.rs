@@ -3,7 +3,7 @@
 use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold, Verdict};
 use crate::report::number::{against, number};
 use crate::report::table::table;
-use crate::report::{Style, count};
+use crate::report::{Style, count, spaced};
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
@@ -278,9 +278,4 @@ fn words(range: Range, scale: f64) -> String {
         (None, Some(greatest)) => format!("up to {}", number(greatest)),
         (None, None) => "any".to_owned(),
     }
-}
-
-/// "+-+" as "+ - +".
-fn spaced(pattern: &str) -> String {
-    pattern.chars().map(String::from).collect::<Vec<_>>().join(" ")
 }
