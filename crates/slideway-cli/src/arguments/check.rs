@@ -1,0 +1,28 @@
+//! `slideway check`
+
+use super::{CheckFormat, Destination, ModelArguments};
+use clap::Args;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway check drawer.toml
+  slideway check bracket-on-pole.toml --set mu=0.3
+  slideway check drawer.toml --format json
+
+Exit codes:
+  0  the model is sound: `slideway solve` accepts it
+  2  faulty input, or a finding for which `slideway solve` would refuse it";
+
+/// Arguments of `slideway check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Form of the findings.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}

@@ -1,0 +1,38 @@
+//! Where the answer goes, and in which form.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Where the answer goes.
+#[derive(Debug, Args)]
+pub(crate) struct Destination {
+    /// Write to this file instead of standard output; the file is written whole or not at all.
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Overwrite the output file if it exists.
+    #[arg(long, requires = "output")]
+    pub(crate) force: bool,
+}
+
+/// Form of an answer.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Words and aligned numbers, for people.
+    #[default]
+    Text,
+    /// The whole report, for programs.
+    Json,
+    /// One row for each number, for tables.
+    Csv,
+}
+
+/// Form of the findings of a check.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckFormat {
+    /// Words, for people.
+    #[default]
+    Text,
+    /// The whole report, for programs.
+    Json,
+}

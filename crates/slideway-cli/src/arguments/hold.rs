@@ -1,0 +1,59 @@
+//! `slideway hold`
+
+use super::{CheckFormat, Destination, ModelArguments};
+use clap::{Args, ValueEnum};
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway hold bracket-on-pole.toml
+  slideway hold bracket-on-pole.toml --load W
+  slideway hold bracket-on-pole.toml --load W --vary mu_static
+  slideway hold cam-follower.toml --load cam
+  slideway hold slider-crank.toml --at phi=\"0 deg\" --load gas
+
+The rates of the model are taken as zero. With --load NAME the load is multiplied by a factor, 1 being the load of the
+model; all that is told besides holds for the factor 1. The name of a drive stands for its effort, counted in N or N m,
+and all that is told besides holds without it. A load comes before a drive of the same name.
+
+Exit codes:
+  0  it can stay at rest
+  1  it cannot stay at rest
+  2  faulty input: the model, the settings, the files or the arguments
+  3  unknown: no state of rest was found, but not every state could be decided";
+
+/// Arguments of `slideway hold`.
+#[derive(Debug, Args)]
+pub(crate) struct HoldArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Multiply this load by a factor, and say which factors are held.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) load: Option<String>,
+
+    /// Find the value of this parameter of static friction from which on the load is held however great it is;
+    /// without it, the factor of all static coefficients.
+    #[arg(long, value_name = "NAME", requires = "load")]
+    pub(crate) vary: Option<String>,
+
+    /// What the drives do.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) drives: Drives,
+
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+/// What drives do at rest.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Drives {
+    /// They are absent.
+    #[default]
+    Release,
+    /// They hold their coordinates, with whatever effort it takes.
+    Hold,
+}

@@ -1,0 +1,43 @@
+//! `slideway limits`
+
+use super::values::positive;
+use super::{CheckFormat, Destination, ModelArguments};
+use clap::Args;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway limits klepp-2002.toml --vary mu_1=0..0.8
+  slideway limits klepp-2002.toml --vary mu_1 --set F_20=0 --both-directions
+  slideway limits drawer.toml --vary friction        all coefficients of friction together
+  slideway limits drawer.toml --vary L=\"0.2 m..0.5 m\"
+  slideway limits slider-crank.toml --vary phi=\"-80 deg..80 deg\"
+
+Exit codes:
+  0  done
+  2  faulty input: the model, the settings, the name or the range, the arguments";
+
+/// Arguments of `slideway limits`.
+#[derive(Debug, Args)]
+pub(crate) struct LimitsArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// What to vary: a parameter, a coordinate, or `friction` for the factor of all coefficients of friction.
+    #[arg(long, value_name = "NAME[=FROM..TO]")]
+    pub(crate) vary: String,
+
+    /// Look at motion in the opposite direction, too.
+    #[arg(long)]
+    pub(crate) both_directions: bool,
+
+    /// Modes end where a normal force exceeds this (N).
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub(crate) max_reaction: Option<f64>,
+
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}

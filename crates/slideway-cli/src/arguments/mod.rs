@@ -1,0 +1,119 @@
+//! The arguments of the command line: one file for each command, and what commands share.
+
+mod check;
+mod destination;
+mod hold;
+mod limits;
+mod model;
+mod models;
+mod modes;
+mod search;
+mod solve;
+mod values;
+
+pub(crate) use check::CheckArguments;
+pub(crate) use destination::{CheckFormat, Destination, Format};
+pub(crate) use hold::{Drives, HoldArguments};
+pub(crate) use limits::LimitsArguments;
+pub(crate) use model::ModelArguments;
+pub(crate) use models::ModelsArguments;
+pub(crate) use modes::{ModesArguments, ModesFormat};
+pub(crate) use search::SearchArguments;
+pub(crate) use solve::SolveArguments;
+
+use anstream::ColorChoice;
+use clap::{Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+/// All solutions of planar mechanisms with dry friction in sliding joints.
+///
+/// Friction can lock a sliding mechanism, or leave it several ways to move. slideway tries every contact mode and
+/// lists all solutions: forces, accelerations, and on which side each slider touches its guide.
+#[derive(Debug, Parser)]
+#[command(name = "slideway", version, max_term_width = 100, after_help = AFTER_HELP)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    /// Whether to colour the output; `auto` does so on terminals, and respects NO_COLOR and CLICOLOR_FORCE.
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN", display_order = 900)]
+    pub(crate) color: Color,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  slideway models                               list the models to start from
+  slideway models drawer > drawer.toml          write one of them to a file
+  slideway solve drawer.toml                    all solutions of its kinetic problem
+  slideway solve drawer.toml --set mu=0.7       with more friction
+  slideway limits drawer.toml --vary mu         at which friction it jams
+  slideway hold drawer.toml                     whether it stays at rest
+  slideway modes problem.json                   all solutions of an LCP or the like
+
+Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Find all solutions of a mechanism in its state
+    #[command(after_help = solve::HELP)]
+    Solve(SolveArguments),
+    /// Say for which friction, load or size each contact mode exists, and where it locks
+    #[command(after_help = limits::HELP)]
+    Limits(LimitsArguments),
+    /// Say what a model consists of and whether it is sound
+    #[command(after_help = check::HELP)]
+    Check(CheckArguments),
+    /// Say whether a mechanism stays at rest, and how it begins to move if not
+    #[command(after_help = hold::HELP)]
+    Hold(HoldArguments),
+    /// Find all solutions of an LCP or the like, given by its matrices
+    #[command(after_help = modes::HELP)]
+    Modes(ModesArguments),
+    /// List the gallery of models, or write one of them
+    #[command(after_help = models::HELP)]
+    Models(ModelsArguments),
+    /// Print the JSON Schema of model files, for editors
+    #[command(after_help = SCHEMA_HELP)]
+    Schema,
+    /// Print a completion script for a shell
+    #[command(after_help = COMPLETIONS_HELP)]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+const SCHEMA_HELP: &str = "\
+Example:
+  slideway schema > slideway.schema.json
+and then as the first line of a model file, for editors that understand it:
+  #:schema ./slideway.schema.json";
+
+const COMPLETIONS_HELP: &str = "\
+Examples:
+  slideway completions bash > ~/.local/share/bash-completion/completions/slideway
+  slideway completions zsh > ~/.zfunc/_slideway
+  slideway completions fish > ~/.config/fish/completions/slideway.fish";
+
+/// When to use colours.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Color {
+    /// On terminals.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl From<Color> for ColorChoice {
+    fn from(color: Color) -> Self {
+        match color {
+            Color::Auto => Self::Auto,
+            Color::Always => Self::Always,
+            Color::Never => Self::Never,
+        }
+    }
+}

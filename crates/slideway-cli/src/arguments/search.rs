@@ -1,0 +1,30 @@
+//! What a search may cost.
+
+use super::values::duration;
+use clap::Args;
+use slideway::modes::SearchOptions;
+use std::time::Duration;
+
+/// What a search for solutions may cost, and how much of it is told.
+#[derive(Debug, Args)]
+pub(crate) struct SearchArguments {
+    /// List at most so many solutions; all are counted.
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub(crate) max_solutions: usize,
+
+    /// End the search after so many nodes; the answer is then partial.
+    #[arg(long, value_name = "N")]
+    max_nodes: Option<u64>,
+
+    /// End the search after this time (30s, 500ms, 2min, 1.5h); the answer is then partial.
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time_limit: Option<Duration>,
+}
+
+impl SearchArguments {
+    /// The options of the search.
+    pub(crate) fn options(&self) -> SearchOptions {
+        let defaults = SearchOptions::default();
+        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), ..defaults }
+    }
+}

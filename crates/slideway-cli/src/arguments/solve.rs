@@ -1,0 +1,36 @@
+//! `slideway solve`
+
+use super::{Destination, Format, ModelArguments, SearchArguments};
+use clap::Args;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway solve klepp-2002.toml
+  slideway solve klepp-2002.toml --set F_20=0 --set direction=-1
+  slideway solve klepp-2002.toml --set F_20=\"m*g\" --set alpha=\"75 deg\"
+  slideway solve slider-crank.toml --at phi=\"-75 deg\" --rate phi=\"20 rad/s\"
+  slideway solve drawer.toml --format json --output drawer.json
+  slideway models drawer | slideway solve -
+
+Exit codes:
+  0  solved: one solution, several, infinitely many, or a state with the preload between the faces
+  1  no solution: friction locks the mechanism
+  2  faulty input: the model, the settings, the files or the arguments
+  3  unknown: nothing was found, but not every contact mode could be decided";
+
+/// Arguments of `slideway solve`.
+#[derive(Debug, Args)]
+pub(crate) struct SolveArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+
+    #[command(flatten)]
+    pub(crate) search: SearchArguments,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
