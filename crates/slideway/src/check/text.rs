@@ -2,13 +2,14 @@
 
 use super::{CheckReport, ContactSummary};
 use crate::report::number::number;
+use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Style, count};
 use anstyle::AnsiColor;
 
 /// The report as text: the verdict first, then what the model consists of.
 pub fn to_text(report: &CheckReport, style: Style) -> String {
-    let mut text = Text { report, style, out: String::new() };
+    let mut text = Page::new(report, style);
     text.heading();
     text.verdict();
     text.mobility();
@@ -17,22 +18,13 @@ pub fn to_text(report: &CheckReport, style: Style) -> String {
     text.out
 }
 
-struct Text<'r> {
-    report: &'r CheckReport,
-    style: Style,
-    out: String,
-}
+type Text<'r> = Page<'r, CheckReport>;
 
 impl Text<'_> {
-    fn line(&mut self, line: &str) {
-        self.out.push_str(line);
-        self.out.push('\n');
-    }
-
     fn heading(&mut self) {
         let report = self.report;
         if let Some(title) = &report.title {
-            self.line(&self.style.heading(title));
+            self.headline(title);
         }
         let parts = [
             count(report.bodies.len(), "body", "bodies"),

@@ -3,63 +3,58 @@
 use super::conclusion::precise;
 use super::report::{CountLimits, LimitsReport, ModeLimits};
 use crate::report::number::number;
+use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Style, spaced};
-use std::fmt::Write;
 
 /// The report as text: what it comes to, the modes, the numbers of solutions.
 pub fn to_text(report: &LimitsReport, style: Style) -> String {
-    let mut out = String::new();
-    if let Some(title) = &report.title {
-        line(&mut out, &style.heading(title));
-    }
-    let vary = &report.vary;
-    line(
-        &mut out,
-        &format!(
-            "{} from {} to {} (in the model {})",
-            vary.name,
-            precise(vary.from),
-            precise(vary.to),
-            precise(vary.value)
-        ),
-    );
-    line(&mut out, "");
-    for sentence in &report.conclusion {
-        line(&mut out, &style.heading(sentence));
-    }
-    line(&mut out, &report.guarantee);
-    direction(&mut out, style, "", (&report.modes, &report.counts, &report.without_mode_problem));
+    let mut text = Page::new(report, style);
+    text.heading();
+    text.direction("", (&report.modes, &report.counts, &report.without_mode_problem));
     if let Some(reversed) = &report.reversed {
         let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
-        direction(&mut out, style, ", moving the other way", parts);
+        text.direction(", moving the other way", parts);
     }
-    out
+    text.out
 }
 
-fn direction(
-    out: &mut String,
-    style: Style,
-    which: &str,
-    (modes, counts, gaps): (&[ModeLimits], &[CountLimits], &[[f64; 2]]),
-) {
-    line(out, "");
-    line(out, &style.heading(&format!("Contact modes{which}")));
-    let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
-    out.push_str(&table(&["signs", "from", "to", "begins with", "ends with", "contact mode"], &rows, 1));
-    line(out, "");
-    line(out, &style.heading(&format!("Number of solutions{which}")));
-    let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
-    out.push_str(&table(&["from", "to", "solutions", "preload gaps"], &rows, 0));
-    for [from, to] in gaps {
-        line(
-            out,
-            &format!(
-                "  From {} to {} the mechanism cannot be assembled or solved.",
-                precise(*from),
-                precise(*to)
-            ),
-        );
+impl Page<'_, LimitsReport> {
+    fn heading(&mut self) {
+        let report = self.report;
+        if let Some(title) = &report.title {
+            self.headline(title);
+        }
+        let vary = &report.vary;
+        let [from, to, value] = [vary.from, vary.to, vary.value].map(precise);
+        self.line(&format!("{} from {from} to {to} (in the model {value})", vary.name));
+        self.line("");
+        for sentence in &report.conclusion {
+            self.headline(sentence);
+        }
+        self.line(&report.guarantee);
+    }
+
+    fn direction(
+        &mut self,
+        which: &str,
+        (modes, counts, gaps): (&[ModeLimits], &[CountLimits], &[[f64; 2]]),
+    ) {
+        self.line("");
+        self.headline(&format!("Contact modes{which}"));
+        let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
+        self.out.push_str(&table(
+            &["signs", "from", "to", "begins with", "ends with", "contact mode"],
+            &rows,
+            1,
+        ));
+        self.line("");
+        self.headline(&format!("Number of solutions{which}"));
+        let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
+        self.out.push_str(&table(&["from", "to", "solutions", "preload gaps"], &rows, 0));
+        for [from, to] in gaps.iter().map(|gap| gap.map(precise)) {
+            self.line(&format!("  From {from} to {to} the mechanism cannot be assembled or solved."));
+        }
     }
 }
 
@@ -103,9 +98,4 @@ fn count_row(count: &CountLimits) -> Vec<String> {
     let gaps =
         if count.preload_gap_states == 0 { String::new() } else { count.preload_gap_states.to_string() };
     vec![precise(count.from), precise(count.to), number(count.solutions as f64), gaps]
-}
-
-fn line(out: &mut String, text: &str) {
-    // Writing to a text cannot fail.
-    let _ = writeln!(out, "{text}");
 }

@@ -3,6 +3,7 @@
 use super::RawKind;
 use super::report::{RawReport, RawShares, RawSolution, Unknowns};
 use crate::report::number::{against, number};
+use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Status, Style, count};
 
@@ -13,7 +14,7 @@ const SIGNS: usize = 64;
 
 /// The report as text: the verdict first, then the solutions, then how they were found.
 pub fn to_text(report: &RawReport, style: Style) -> String {
-    let mut text = Text { report, style, out: String::new() };
+    let mut text = Page::new(report, style);
     text.heading();
     text.verdict();
     text.solutions("Solution", &report.count, &report.solutions);
@@ -23,21 +24,12 @@ pub fn to_text(report: &RawReport, style: Style) -> String {
     text.out
 }
 
-struct Text<'r> {
-    report: &'r RawReport,
-    style: Style,
-    out: String,
-}
+type Text<'r> = Page<'r, RawReport>;
 
 impl Text<'_> {
-    fn line(&mut self, line: &str) {
-        self.out.push_str(line);
-        self.out.push('\n');
-    }
-
     fn heading(&mut self) {
         let kind = self.report.kind;
-        self.line(&self.style.heading(kind.title()));
+        self.headline(kind.title());
         self.line(&format!("{},  n = {}", kind.equation(), self.report.size));
         self.line("");
     }

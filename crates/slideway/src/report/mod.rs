@@ -7,6 +7,7 @@ mod attainability;
 mod csv;
 mod json;
 pub(crate) mod number;
+pub(crate) mod page;
 pub(crate) mod table;
 mod text;
 

@@ -1,6 +1,7 @@
 //! The report as text for people: words first, then aligned numbers.
 
 use super::number::{against, number};
+use super::page::Page;
 use super::table::table;
 use super::{
     CertificateKind, ClosestMode, Contact, JointMode, ModeMargin, PatternSummary, Persistence, Report,
@@ -43,7 +44,7 @@ impl Style {
 
 /// The report as text.
 pub fn to_text(report: &Report, style: Style) -> String {
-    let mut text = Text { report, style, out: String::new() };
+    let mut text = Page::new(report, style);
     text.heading();
     text.verdict();
     text.margins();
@@ -64,22 +65,13 @@ pub fn to_text(report: &Report, style: Style) -> String {
     text.out
 }
 
-struct Text<'r> {
-    report: &'r Report,
-    style: Style,
-    out: String,
-}
+type Text<'r> = Page<'r, Report>;
 
 impl Text<'_> {
-    fn line(&mut self, line: &str) {
-        self.out.push_str(line);
-        self.out.push('\n');
-    }
-
     fn heading(&mut self) {
         let model = &self.report.model;
         if let Some(title) = &model.title {
-            self.line(&self.style.heading(title));
+            self.headline(title);
         }
         let mut parts = vec![
             count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
@@ -268,7 +260,7 @@ impl Text<'_> {
         for continuum in &self.report.continua {
             self.line("");
             let title = format!("Continuum   signs {}", spaced(&continuum.pattern));
-            self.line(&self.style.heading(&title));
+            self.headline(&title);
             self.line("  Normal forces at the ends and directions of unbounded growth, contact by contact:");
             for vertex in &continuum.vertices {
                 self.line(&format!("  from {}", vector(vertex, " N")));
@@ -327,7 +319,7 @@ impl Text<'_> {
         self.line("");
         let heading =
             "The modes that come closest to locking (a determinant at zero is where friction locks a mode)";
-        self.line(&self.style.heading(heading));
+        self.headline(heading);
         let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
         self.out.push_str(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
     }

@@ -2,6 +2,7 @@
 
 use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold, Verdict};
 use crate::report::number::{against, number};
+use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Style, count, spaced};
 use anstyle::AnsiColor;
@@ -9,7 +10,7 @@ use std::fmt::Write;
 
 /// The report as text: the verdict first, then load, reactions and release.
 pub fn to_text(report: &HoldReport, style: Style) -> String {
-    let mut text = Text { report, style, out: String::new() };
+    let mut text = Page::new(report, style);
     text.heading();
     text.verdict();
     text.load();
@@ -21,22 +22,13 @@ pub fn to_text(report: &HoldReport, style: Style) -> String {
     text.out
 }
 
-struct Text<'r> {
-    report: &'r HoldReport,
-    style: Style,
-    out: String,
-}
+type Text<'r> = Page<'r, HoldReport>;
 
 impl Text<'_> {
-    fn line(&mut self, line: &str) {
-        self.out.push_str(line);
-        self.out.push('\n');
-    }
-
     fn heading(&mut self) {
         let report = self.report;
         if let Some(title) = &report.title {
-            self.line(&self.style.heading(title));
+            self.headline(title);
         }
         let values = report.state.iter().map(|c| format!("{} = {} {}", c.name, number(c.value), c.unit));
         let rates = if report.rates_ignored { "; the rates of the model are taken as zero" } else { "" };
@@ -86,7 +78,7 @@ impl Text<'_> {
     fn load(&mut self) {
         let Some(load) = &self.report.load else { return };
         self.line("");
-        self.line(&self.style.heading(&load_title(load)));
+        self.headline(&load_title(load));
         for line in held_in_words(load) {
             self.line(&format!("  {line}"));
         }
@@ -99,7 +91,7 @@ impl Text<'_> {
         let Some(rest) = &self.report.at_rest else { return };
         self.line("");
         let factor = self.report.load.as_ref().map_or(String::new(), at_factor);
-        self.line(&self.style.heading(&format!("Reactions at rest{factor}")));
+        self.headline(&format!("Reactions at rest{factor}"));
         self.line(&format!(
             "  signs {}",
             rest.patterns.iter().map(|p| spaced(p)).collect::<Vec<_>>().join(" or ")
@@ -110,7 +102,7 @@ impl Text<'_> {
     fn release(&mut self, index: usize, release: &Release) {
         self.line("");
         let title = format!("Release {} of {}", index + 1, self.report.releases.len());
-        self.line(&self.style.heading(&title));
+        self.headline(&title);
         for joint in &release.joints {
             self.line(&format!("  {}: {}", joint.name, joint.words));
         }
