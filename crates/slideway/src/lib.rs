@@ -34,6 +34,7 @@ pub mod limits;
 pub mod mechanism;
 pub mod model;
 pub mod modes;
+pub mod motion;
 pub mod raw_problem;
 pub mod report;
 pub mod solve;

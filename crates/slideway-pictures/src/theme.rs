@@ -1,0 +1,47 @@
+//! Colours and line styles that all pictures share.
+
+/// Colours of a picture, as CSS colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Theme {
+    /// Behind everything.
+    pub background: &'static str,
+    /// Text, axes, outlines.
+    pub ink: &'static str,
+    /// Grid lines, dimensions, what matters less.
+    pub muted: &'static str,
+    /// The insides of bodies.
+    pub body: &'static str,
+    /// Reactions.
+    pub reaction: &'static str,
+    /// Friction.
+    pub friction: &'static str,
+    /// Branches, modes and areas, in the order in which they are given out.
+    pub series: [&'static str; 8],
+}
+
+/// Dash patterns of SVG lines, one for each branch; the first is a solid line.
+pub const DASHES: [&str; 4] = ["", "7 3", "2 3", "9 3 2 3"];
+
+/// On white. The series are colours of Okabe and Ito, which colour-blind people can tell apart (K. Ichihara,
+/// M. Okabe, K. Iga, Y. Tanaka, K. Musha and K. Ito, Color universal design, 2008); its yellow is left to the end,
+/// as it is faint on white.
+pub const LIGHT: Theme = Theme {
+    background: "#ffffff",
+    ink: "#1b1f24",
+    muted: "#8b949e",
+    body: "#e6edf5",
+    reaction: "#0072b2",
+    friction: "#d55e00",
+    series: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#4d4d4d", "#b8a900"],
+};
+
+/// On a dark background.
+pub const DARK: Theme = Theme {
+    background: "#0d1117",
+    ink: "#e6edf3",
+    muted: "#7d8590",
+    body: "#243447",
+    reaction: "#56b4e9",
+    friction: "#ff9a4d",
+    series: ["#56b4e9", "#ff9a4d", "#2fc79a", "#e79fc6", "#3a8fd0", "#e69f00", "#b0b0b0", "#f0e442"],
+};
