@@ -212,6 +212,8 @@ pub enum FaultKind {
     InvalidName { what: &'static str, name: String, reason: &'static str },
     #[error("`{name}` is the name of a parameter and of a coordinate")]
     SharedName { name: String },
+    #[error("`{name}` is the name of a table and of a parameter or coordinate")]
+    TableSharesName { name: String },
     #[error("the point `{point}` does not belong to {body}")]
     NotOwned { body: String, point: String, owners: Vec<String> },
     #[error("the point `{point}` belongs to several bodies ({})", owners.join(", "))]
@@ -240,6 +242,12 @@ pub enum FaultKind {
     TooManyModes { contacts: usize, limit: u64 },
     #[error("the range of {what} is reversed: it goes from {from} down to {to}")]
     ReversedRange { what: String, from: f64, to: f64 },
+    #[error("the table {name} has {arguments} arguments and {values} values; it needs as many, at least one")]
+    TableLengths { name: String, arguments: usize, values: usize },
+    #[error("the arguments of the table {name} fall at number {row}")]
+    TableFalls { name: String, row: usize },
+    #[error("a table holds constant numbers, none that depend on the time")]
+    TableOfTime,
     #[error("{what} is not a finite number")]
     NotFinite { what: String },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]

@@ -9,7 +9,7 @@ use crate::expression::Values;
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
-use crate::model::{CarriedBy, Formula, Model, PreloadLine, SliderKind};
+use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind};
 use evaluation::Evaluation;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -38,6 +38,8 @@ pub struct Mechanism<T = f64> {
     pub drives: Vec<Drive<T>>,
     /// The chosen coordinates.
     pub coordinates: Vec<Coordinate<T>>,
+    /// What a motion is watched for.
+    pub events: Vec<Event<T>>,
     /// The greatest distance between two of its places (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
     parameters: Vec<T>,
@@ -260,6 +262,21 @@ pub enum Effort<T = f64> {
         /// What the opposite torque acts on.
         reaction: Option<Frame>,
     },
+}
+
+/// Something that happens in a motion when a quantity passes through zero.
+#[derive(Debug, Clone)]
+pub struct Event<T = f64> {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// The quantity.
+    pub zero_of: Quantity<T>,
+    /// In which direction it passes.
+    pub direction: CrossingDirection,
+    /// Whether the motion ends there.
+    pub stops: bool,
 }
 
 /// A chosen coordinate.
