@@ -37,5 +37,6 @@ pub mod modes;
 pub mod motion;
 pub mod raw_problem;
 pub mod report;
+pub mod size;
 pub mod solve;
 pub mod standstill;

@@ -8,6 +8,7 @@ mod model;
 mod models;
 mod modes;
 mod search;
+mod size;
 mod solve;
 mod values;
 
@@ -19,6 +20,7 @@ pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use search::SearchArguments;
+pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
 
 use anstream::ColorChoice;
@@ -47,6 +49,7 @@ Examples:
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
+  slideway size drawer.toml --vary L --margin 2 how long its guide has to be
   slideway hold drawer.toml                     whether it stays at rest
   slideway modes problem.json                   all solutions of an LCP or the like
 
@@ -61,6 +64,9 @@ pub(crate) enum Command {
     /// Say for which friction, load or size each contact mode exists, and where it locks
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
+    /// Find the size at which a wanted margin against locking is just met
+    #[command(after_help = size::HELP)]
+    Size(SizeArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
