@@ -25,6 +25,8 @@ pub const MODELS: &[GalleryModel] = gallery![
     "drawer",
     "cam-follower",
     "bracket-on-pole",
+    "screw",
+    "wedge",
     "slider-crank",
     "scotch-yoke",
     "elliptic-trammel",

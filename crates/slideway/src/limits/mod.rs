@@ -27,6 +27,7 @@ pub use report::{
 pub use text::to_text;
 pub use varied::FRICTION;
 pub(crate) use conclusion::precise;
+pub(crate) use report::guarantee;
 pub(crate) use varied::Varied;
 
 use crate::fault::{Fault, FaultKind, Faults};
@@ -64,10 +65,10 @@ impl LimitsOptions {
 }
 
 /// The modes of one direction of motion.
-struct Found {
-    existence: Existence,
+pub(crate) struct Found {
+    pub(crate) existence: Existence,
     counts: Vec<CountInterval>,
-    gaps: Vec<[f64; 2]>,
+    pub(crate) gaps: Vec<[f64; 2]>,
     is_linear: bool,
 }
 
@@ -145,7 +146,11 @@ pub(crate) fn backwards(model: &Model) -> Result<Model, Faults> {
     model.with(&settings)
 }
 
-fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
+/// Where modes exist in a range.
+///
+/// # Errors
+/// Too many modes; a fault if nothing varies.
+pub(crate) fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
     let existence_options = ExistenceOptions {
         range: [0.0, 1.0],
         greatest_normal_force: options.max_reaction,

@@ -116,9 +116,21 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn parts(&self, value: f64) -> Result<Parts, Faults> {
+        self.at(value, |stages, factor| stages.parts(factor))
+    }
+
+    /// What is asked of the stages at a value, and of the factor of friction.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there, and those of the question.
+    pub(crate) fn at<R>(
+        &self,
+        value: f64,
+        question: impl Fn(&Stages, f64) -> Result<R, Faults>,
+    ) -> Result<R, Faults> {
         match &self.stages {
-            Some(stages) => stages.parts(value),
-            None => Stages::new(&self.with(&format!("{value:e}"))?)?.parts(1.0),
+            Some(stages) => question(stages, value),
+            None => question(&Stages::new(&self.with(&format!("{value:e}"))?)?, 1.0),
         }
     }
 
@@ -127,11 +139,7 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn growing_friction(&self, value: f64) -> Result<ModeProblemLine, Faults> {
-        let line = |stages: &Stages, factor: f64| Ok(stages.parts(0.0)?.line_to(&stages.parts(factor)?));
-        match &self.stages {
-            Some(stages) => line(stages, value),
-            None => line(&Stages::new(&self.with(&format!("{value:e}"))?)?, 1.0),
-        }
+        self.at(value, |stages, factor| Ok(stages.parts(0.0)?.line_to(&stages.parts(factor)?)))
     }
 
     /// Unit of its values; empty where there is none, or none is known.
@@ -145,6 +153,11 @@ impl Varied {
                 same.map(|coordinate| if coordinate.kind.is_angle() { "rad" } else { "m" }).next().unwrap_or("")
             }
         }
+    }
+
+    /// The model in which it is varied.
+    pub(crate) fn model(&self) -> &Model {
+        &self.model
     }
 
     /// Whether it is the value of a coordinate.

@@ -134,7 +134,10 @@ fn present(question: &Question<'_>, value: f64) -> Result<Option<Margin>, Faults
 }
 
 /// A range around the value in the model; coordinates and values of zero need one.
-fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
+///
+/// # Errors
+/// A fault if a range is needed.
+pub(crate) fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
     if varied.is_friction_factor() {
         return Ok([0.0, 2.0 * USUAL_FACTOR]);
     }

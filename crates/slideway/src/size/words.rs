@@ -90,6 +90,10 @@ impl Words<'_> {
         };
         let load = report.load.as_deref().unwrap_or_default();
         match (is, margin) {
+            (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
+                MarginKind::Locking => format!("{model}: it is on the verge of locking."),
+                _ => format!("{model}: {load} is just held however great it is."),
+            },
             (SampleKind::NoPosition, _) => format!("{model}: it cannot be assembled or solved."),
             (_, None) => format!("{model}: {}.", never(report)),
             (_, Some(margin)) => {
