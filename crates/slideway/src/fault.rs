@@ -329,6 +329,18 @@ pub enum FaultKind {
     #[error("the joints and contacts have {states} states at rest; at most {limit} are tried")]
     TooManyStates { states: u64, limit: u64 },
 
+    // Design and drives.
+    #[error("a margin at rest needs the load that it concerns")]
+    LoadNeeded { known: Vec<String> },
+    #[error("the load {load} has no part in a margin against locking")]
+    LoadUnused { load: String },
+    #[error("whether {load} is held could not be decided")]
+    UndecidedAtRest { load: String },
+    #[error("at rest there is no direction of motion to be reversed")]
+    NoDirectionAtRest,
+    #[error("the model has no drives, so no effort is unknown")]
+    NoDrives { coordinate: Option<String> },
+
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
     TooManyContacts { contacts: usize, limit: usize },
@@ -382,6 +394,11 @@ impl FaultKind {
                 Some(format!("on the way from the drawing it can be assembled as far as {reached}"))
             }
             Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
+            Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
+            Self::LoadUnused { load } => Some(format!(
+                "with `--against self-locking` or `--against hold` the load {load} at rest is looked at"
+            )),
+            Self::NoDrives { coordinate } => Some(drive_hint(coordinate.as_deref().unwrap_or("q"))),
             _ => self.fixed_hint().map(str::to_owned),
         }
     }
@@ -420,6 +437,7 @@ impl FaultKind {
                 Some("give the bodies that move a mass, or prescribe the motion with a drive")
             }
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
+            Self::NoDirectionAtRest => Some("leave out --both-directions"),
             Self::ZeroSlidingVelocity { .. } => Some(
                 "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates",
             ),
@@ -521,6 +539,12 @@ fn velocity_hint(coordinates: &[String]) -> String {
     format!(
         "give the mechanism a velocity, for instance with `{}`; `slideway hold` analyses friction at rest",
         rates.join(" ")
+    )
+}
+
+fn drive_hint(coordinate: &str) -> String {
+    format!(
+        "prescribe the motion of a coordinate, for instance [drives.push] with `coordinate = \"{coordinate}\"` and `force = {{ at = \"BODY.POINT\", direction = \"0 deg\" }}` or `torque = {{ body = \"BODY\" }}`"
     )
 }
 

@@ -16,12 +16,16 @@
 //!
 //! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to move.
 //!
+//! [`limits::limits`] finds the values of a parameter at which modes begin and end, [`size::size`] those at which a wanted
+//! margin against locking is just met, and [`drive::drive`] the efforts that drives need against friction.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 
 pub mod attainability;
 pub mod check;
 pub mod configuration;
+pub mod drive;
 pub mod enclosure;
 pub mod expression;
 pub mod fault;
@@ -37,5 +41,6 @@ pub mod modes;
 pub mod motion;
 pub mod raw_problem;
 pub mod report;
+pub mod size;
 pub mod solve;
 pub mod standstill;

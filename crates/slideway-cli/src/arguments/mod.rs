@@ -2,23 +2,27 @@
 
 mod check;
 mod destination;
+mod drive;
 mod hold;
 mod limits;
 mod model;
 mod models;
 mod modes;
 mod search;
+mod size;
 mod solve;
 mod values;
 
 pub(crate) use check::CheckArguments;
 pub(crate) use destination::{CheckFormat, Destination, Format};
+pub(crate) use drive::DriveArguments;
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use search::SearchArguments;
+pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
 
 use anstream::ColorChoice;
@@ -47,6 +51,8 @@ Examples:
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
+  slideway size drawer.toml --vary L --margin 2 how long its guide has to be
+  slideway drive drawer.toml                    which push it needs, with which efficiency
   slideway hold drawer.toml                     whether it stays at rest
   slideway modes problem.json                   all solutions of an LCP or the like
 
@@ -61,6 +67,12 @@ pub(crate) enum Command {
     /// Say for which friction, load or size each contact mode exists, and where it locks
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
+    /// Find the size at which a wanted margin against locking is just met
+    #[command(after_help = size::HELP)]
+    Size(SizeArguments),
+    /// Say which force or torque each drive needs against friction
+    #[command(after_help = drive::HELP)]
+    Drive(DriveArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),

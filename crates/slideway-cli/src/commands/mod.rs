@@ -1,17 +1,21 @@
 //! The commands: each reads its input, calls the library and writes the answer.
 
 mod check;
+mod drive;
 mod hold;
 mod limits;
 mod models;
 mod modes;
+mod size;
 mod solve;
 
 pub(crate) use check::check;
+pub(crate) use drive::drive;
 pub(crate) use hold::hold;
 pub(crate) use limits::limits;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
+pub(crate) use size::size;
 pub(crate) use solve::solve;
 
 use crate::Outcome;

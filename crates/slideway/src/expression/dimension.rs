@@ -122,6 +122,33 @@ impl Dimension {
         })
     }
 
+    /// The SI unit that a person would write, where there is one; empty for an angle or pure number.
+    ///
+    /// ```
+    /// use slideway::expression::Dimension;
+    ///
+    /// assert_eq!(Dimension::TORQUE.unit(), Some("N m"));
+    /// ```
+    pub fn unit(self) -> Option<&'static str> {
+        Some(match self {
+            Self::NONE => "",
+            Self::LENGTH => "m",
+            Self::AREA => "m^2",
+            Self::MASS => "kg",
+            Self::TIME => "s",
+            Self::FREQUENCY => "1/s",
+            Self::ANGULAR_ACCELERATION => "1/s^2",
+            Self::VELOCITY => "m/s",
+            Self::ACCELERATION => "m/s^2",
+            Self::FORCE => "N",
+            Self::TORQUE => "N m",
+            Self::MOMENT_OF_INERTIA => "kg m^2",
+            Self::STIFFNESS => "N/m",
+            Self::DAMPING => "N s/m",
+            _ => return None,
+        })
+    }
+
     fn common_name(self) -> Option<&'static str> {
         Some(match self {
             Self::NONE => "an angle or pure number",

@@ -63,7 +63,7 @@ fn sentences<'v>(name: &str, pieces: impl Iterator<Item = ([f64; 2], &'v str)>) 
 }
 
 /// Eight significant digits, as limits are known to more than other numbers.
-pub(super) fn precise(value: f64) -> String {
+pub(crate) fn precise(value: f64) -> String {
     if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
         return number(value);
     }

@@ -231,6 +231,23 @@ pub(super) fn report(
     let reversed = reversed.map(|found| naming.direction(found));
     let conclusion = conclusion(&varied.name, &forwards, reversed.as_ref());
     let value = varied.present().unwrap_or_default();
+    let guarantee = guarantee(found, range);
+    LimitsReport {
+        schema: SCHEMA,
+        title: naming.mechanism.title.clone(),
+        vary: VariedQuantity { name: varied.name.clone(), from: range[0], to: range[1], value },
+        method: if found.is_linear { "closed form" } else { "bracketing" },
+        guarantee,
+        modes: forwards.modes,
+        counts: forwards.counts,
+        without_mode_problem: forwards.without_mode_problem,
+        reversed,
+        conclusion,
+    }
+}
+
+/// What the method can miss, in words.
+pub(crate) fn guarantee(found: &Found, range: [f64; 2]) -> String {
     let mut guarantee = if found.is_linear {
         "The mode problem depends linearly on it: all ends are zeros of determinants, and none is missed."
             .to_owned()
@@ -248,18 +265,7 @@ pub(super) fn report(
         );
         guarantee.push_str(&left_out);
     }
-    LimitsReport {
-        schema: SCHEMA,
-        title: naming.mechanism.title.clone(),
-        vary: VariedQuantity { name: varied.name.clone(), from: range[0], to: range[1], value },
-        method: if found.is_linear { "closed form" } else { "bracketing" },
-        guarantee,
-        modes: forwards.modes,
-        counts: forwards.counts,
-        without_mode_problem: forwards.without_mode_problem,
-        reversed,
-        conclusion,
-    }
+    guarantee
 }
 
 fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {

@@ -3,6 +3,7 @@
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Setting, SettingKind, Settings};
+use crate::modes::existence::ModeProblemLine;
 use crate::solve::{Parts, Stages};
 
 /// The name under which all coefficients of friction are scaled together.
@@ -20,9 +21,9 @@ enum Kind {
 }
 
 /// A model and what is varied in it.
-pub(super) struct Varied {
+pub(crate) struct Varied {
     model: Model,
-    pub(super) name: String,
+    pub(crate) name: String,
     kind: Kind,
     /// The stages that a factor of friction leaves as they are.
     stages: Option<Stages>,
@@ -31,7 +32,7 @@ pub(super) struct Varied {
 impl Varied {
     /// # Errors
     /// An unknown name; with a factor of friction whatever `solve` refuses.
-    pub(super) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
+    pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
         let parameter = model.parameters.iter().any(|parameter| &*parameter.name == name);
         let coordinate = model.coordinates.iter().any(|coordinate| &*coordinate.name == name);
         let kind = match (parameter, coordinate, name) {
@@ -45,12 +46,12 @@ impl Varied {
     }
 
     /// Whether all coefficients of friction are scaled together.
-    pub(super) fn is_friction_factor(&self) -> bool {
+    pub(crate) fn is_friction_factor(&self) -> bool {
         self.kind == Kind::Friction
     }
 
     /// What it is, in words.
-    pub(super) fn in_words(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         match self.kind {
             Kind::Friction => "the factor of all coefficients of friction".to_owned(),
             Kind::Parameter => format!("the parameter {}", self.name),
@@ -62,7 +63,7 @@ impl Varied {
     ///
     /// # Errors
     /// Values of the model that are not allowed.
-    pub(super) fn present(&self) -> Result<f64, Faults> {
+    pub(crate) fn present(&self) -> Result<f64, Faults> {
         Ok(match self.kind {
             Kind::Friction => 1.0,
             Kind::Parameter => {
@@ -82,7 +83,7 @@ impl Varied {
     ///
     /// # Errors
     /// A text that is no quantity of the right dimension.
-    pub(super) fn value_of(&self, text: &str) -> Result<f64, Faults> {
+    pub(crate) fn value_of(&self, text: &str) -> Result<f64, Faults> {
         match self.kind {
             Kind::Friction => text.trim().parse().map_err(|_| {
                 Fault::general(FaultKind::MalformedRange { text: text.to_owned(), name: self.name.clone() })
@@ -97,7 +98,11 @@ impl Varied {
         Setting { kind, name: self.name.clone(), value: value.trim().to_owned() }
     }
 
-    fn with(&self, value: &str) -> Result<Model, Faults> {
+    /// The model with this value; unchanged where all friction is scaled.
+    ///
+    /// # Errors
+    /// A value that is not allowed.
+    pub(crate) fn with(&self, value: &str) -> Result<Model, Faults> {
         let settings = Settings::default();
         self.model.with(&match self.kind {
             Kind::Friction => settings,
@@ -110,11 +115,54 @@ impl Varied {
     ///
     /// # Errors
     /// Whatever `solve` refuses there.
-    pub(super) fn parts(&self, value: f64) -> Result<Parts, Faults> {
+    pub(crate) fn parts(&self, value: f64) -> Result<Parts, Faults> {
+        self.at(value, |stages, factor| stages.parts(factor))
+    }
+
+    /// What is asked of the stages at a value, and of the factor of friction.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there, and those of the question.
+    pub(crate) fn at<R>(
+        &self,
+        value: f64,
+        question: impl Fn(&Stages, f64) -> Result<R, Faults>,
+    ) -> Result<R, Faults> {
         match &self.stages {
-            Some(stages) => stages.parts(value),
-            None => Stages::new(&self.with(&format!("{value:e}"))?)?.parts(1.0),
+            Some(stages) => question(stages, value),
+            None => question(&Stages::new(&self.with(&format!("{value:e}"))?)?, 1.0),
         }
+    }
+
+    /// The line of mode problems from no friction (`t = 0`) to the friction at a value (`t = 1`).
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn growing_friction(&self, value: f64) -> Result<ModeProblemLine, Faults> {
+        self.at(value, |stages, factor| Ok(stages.parts(0.0)?.line_to(&stages.parts(factor)?)))
+    }
+
+    /// Unit of its values; empty where there is none, or none is known.
+    pub(crate) fn unit(&self) -> &'static str {
+        match self.kind {
+            Kind::Friction => "",
+            Kind::Parameter => self.model.parameter_unit(&self.name).unwrap_or_default(),
+            Kind::Coordinate => {
+                let coordinates = self.model.coordinates.iter();
+                let same = coordinates.filter(|coordinate| *coordinate.name == *self.name);
+                same.map(|coordinate| if coordinate.kind.is_angle() { "rad" } else { "m" }).next().unwrap_or("")
+            }
+        }
+    }
+
+    /// The model in which it is varied.
+    pub(crate) fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Whether it is the value of a coordinate.
+    pub(crate) fn is_coordinate(&self) -> bool {
+        self.kind == Kind::Coordinate
     }
 }
 

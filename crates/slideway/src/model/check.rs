@@ -50,6 +50,12 @@ impl Model {
         }
     }
 
+    /// The SI unit of a parameter, if its dimension is known and has a unit with a name; empty for a pure number.
+    pub fn parameter_unit(&self, parameter: &str) -> Option<&'static str> {
+        let index = self.parameters.iter().position(|other| &*other.name == parameter)?;
+        self.parameter_dimension(index)?.unit()
+    }
+
     /// The values of all formulas that do not depend on the motion; 0 for the others.
     ///
     /// # Errors

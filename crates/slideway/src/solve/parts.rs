@@ -3,7 +3,7 @@
 use super::mode_problem::{check_size, mode_problem, velocity_signs};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::JointId;
+use crate::ids::{DriveId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{JointKind, Mechanism};
@@ -53,6 +53,28 @@ impl Stages {
     pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
         Parts::scaled(&self.mechanism, &self.influence, &self.velocity_signs, &|_| friction)
     }
+
+    /// The same with the efforts of the drives as further outputs, behind the couples.
+    ///
+    /// # Errors
+    /// As [`Stages::parts`].
+    pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
+        let mechanism = rougher(&self.mechanism, &|_| friction);
+        let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
+        let drives = 0..mechanism.drives.len();
+        let efforts: Vec<usize> =
+            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
+        Ok(Parts::new((&mechanism, &self.influence, &self.velocity_signs), &problem, &efforts))
+    }
+}
+
+/// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
+fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
+    let mut mechanism = mechanism.clone();
+    for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
+        contact.mu = contact.mu.map(|mu| mu * factor(k));
+    }
+    mechanism
 }
 
 impl Parts {
@@ -66,26 +88,24 @@ impl Parts {
         velocity_signs: &DVector<f64>,
         factor: &dyn Fn(usize) -> f64,
     ) -> Result<Self, Faults> {
-        let mut mechanism = mechanism.clone();
-        for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
-            contact.mu = contact.mu.map(|mu| mu * factor(k));
-        }
+        let mechanism = rougher(mechanism, factor);
         let problem = mode_problem(&mechanism, influence, velocity_signs)?;
-        Ok(Self::new(&mechanism, influence, velocity_signs, &problem))
+        Ok(Self::new((&mechanism, influence, velocity_signs), &problem, &[]))
     }
 
+    /// The numbers of a mode problem, with the couples and then these unknowns as outputs.
     fn new(
-        mechanism: &Mechanism,
-        influence: &Influence,
-        velocity_signs: &DVector<f64>,
+        (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
         problem: &ModeProblem,
+        others: &[usize],
     ) -> Self {
         let contacts = problem.contacts();
         let couples = couples(mechanism, influence);
-        let rows = contacts + couples.len();
+        let outputs: Vec<usize> = couples.iter().map(|(_, row)| *row).chain(others.iter().copied()).collect();
+        let rows = contacts + outputs.len();
         let extended = |upper: &DMatrix<f64>, below: &dyn Fn(usize, usize) -> f64| {
             DMatrix::from_fn(rows, contacts, |row, k| {
-                if row < contacts { upper[(row, k)] } else { below(couples[row - contacts].1, k) }
+                if row < contacts { upper[(row, k)] } else { below(outputs[row - contacts], k) }
             })
         };
         // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
@@ -112,7 +132,7 @@ impl Parts {
             if row < contacts {
                 problem.right_hand_side()[row]
             } else {
-                influence.frictionless[couples[row - contacts].1]
+                influence.frictionless[outputs[row - contacts]]
             }
         });
         Self {

@@ -77,6 +77,12 @@ impl ModeProblemLine {
         known.len()
     }
 
+    /// Outputs of a pattern's solution; none where its determinant vanishes.
+    pub fn outputs(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
+        let unknowns = self.line(pattern).solution(at)?;
+        Some(unknowns.rows(pattern.len(), unknowns.len() - pattern.len()).into_owned())
+    }
+
     /// Signed normal forces of a pattern, 0 in a gap; none where its determinant vanishes.
     pub fn normal_force(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
         let unknowns = self.line(pattern).solution(at)?;
