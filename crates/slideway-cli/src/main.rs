@@ -45,6 +45,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
     match command {
         Command::Solve(arguments) => commands::solve(arguments, output),
         Command::Limits(arguments) => commands::limits(arguments, output),
+        Command::Map(arguments) => commands::map(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),

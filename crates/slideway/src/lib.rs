@@ -31,6 +31,7 @@ pub mod influence;
 pub mod interval;
 pub mod kinetics;
 pub mod limits;
+pub mod map;
 pub mod mechanism;
 pub mod model;
 pub mod modes;

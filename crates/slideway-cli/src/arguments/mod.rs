@@ -4,6 +4,7 @@ mod check;
 mod destination;
 mod hold;
 mod limits;
+mod map;
 mod model;
 mod models;
 mod modes;
@@ -16,10 +17,11 @@ pub(crate) use check::CheckArguments;
 pub(crate) use destination::{CheckFormat, Destination, Format};
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
+pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
-pub(crate) use plot::PlotArguments;
+pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use search::SearchArguments;
 pub(crate) use solve::SolveArguments;
 
@@ -49,6 +51,7 @@ Examples:
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
+  slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
   slideway modes problem.json                   all solutions of an LCP or the like
 
@@ -63,6 +66,9 @@ pub(crate) enum Command {
     /// Say for which friction, load or size each contact mode exists, and where it locks
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
+    /// Map the plane of two quantities by its solutions, contact modes or margins
+    #[command(after_help = map::HELP)]
+    Map(MapArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),

@@ -3,6 +3,7 @@
 mod check;
 mod hold;
 mod limits;
+mod map;
 mod models;
 mod modes;
 mod solve;
@@ -10,6 +11,7 @@ mod solve;
 pub(crate) use check::check;
 pub(crate) use hold::hold;
 pub(crate) use limits::limits;
+pub(crate) use map::map;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
 pub(crate) use solve::solve;

@@ -23,6 +23,7 @@ mod text;
 mod varied;
 
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, limits_with_curves};
+pub(crate) use report::Naming;
 pub use report::{
     CountLimits, Direction, EndReaction, LimitsReport, ModeLimits, SCHEMA, VariedQuantity, to_json,
 };
@@ -34,7 +35,6 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes, counts};
 use crate::solve::{Parts, Stages};
-use report::Naming;
 use scan::{STEPS, Scanner};
 
 /// The most patterns whose limits are computed.
