@@ -6,6 +6,7 @@ mod diagnostics;
 mod failure;
 mod input;
 mod output;
+mod picture;
 mod watch;
 
 use arguments::{Arguments, Command};
@@ -46,6 +47,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Limits(arguments) => commands::limits(arguments, output),
         Command::Size(arguments) => commands::size(arguments, output),
         Command::Drive(arguments) => commands::drive(arguments, output),
+        Command::Map(arguments) => commands::map(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),

@@ -35,6 +35,7 @@ pub mod influence;
 pub mod interval;
 pub mod kinetics;
 pub mod limits;
+pub mod map;
 pub mod mechanism;
 pub mod model;
 pub mod modes;

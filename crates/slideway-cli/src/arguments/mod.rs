@@ -5,9 +5,11 @@ mod destination;
 mod drive;
 mod hold;
 mod limits;
+mod map;
 mod model;
 mod models;
 mod modes;
+mod plot;
 mod search;
 mod size;
 mod solve;
@@ -18,9 +20,11 @@ pub(crate) use destination::{CheckFormat, Destination, Format};
 pub(crate) use drive::DriveArguments;
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
+pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
+pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use search::SearchArguments;
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
@@ -53,6 +57,7 @@ Examples:
   slideway limits drawer.toml --vary mu         at which friction it jams
   slideway size drawer.toml --vary L --margin 2 how long its guide has to be
   slideway drive drawer.toml                    which push it needs, with which efficiency
+  slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
   slideway modes problem.json                   all solutions of an LCP or the like
 
@@ -73,6 +78,9 @@ pub(crate) enum Command {
     /// Say which force or torque each drive needs against friction
     #[command(after_help = drive::HELP)]
     Drive(DriveArguments),
+    /// Map the plane of two quantities by its solutions, contact modes or margins
+    #[command(after_help = map::HELP)]
+    Map(MapArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),

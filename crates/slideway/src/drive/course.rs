@@ -43,12 +43,10 @@ impl Tabulated<'_> {
     fn rows(&self, steps: usize) -> Vec<CourseRow> {
         let [from, to] = self.range;
         let room = SAME_ROW * (to - from);
-        let even = (0..=steps).map(|step| {
-            if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 }
-        });
+        let even = (0..=steps)
+            .map(|step| if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 });
         let is_free = |value: &f64| self.blow_ups.iter().all(|blow_up| (blow_up.at - value).abs() > room);
-        let mut rows: Vec<CourseRow> =
-            even.filter(is_free).flat_map(|value| self.rows_at(value)).collect();
+        let mut rows: Vec<CourseRow> = even.filter(is_free).flat_map(|value| self.rows_at(value)).collect();
         rows.extend(self.blow_ups.iter().map(|blow_up| CourseRow {
             at: blow_up.at,
             pattern: Some(blow_up.pattern.clone()),

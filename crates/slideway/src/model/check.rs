@@ -50,12 +50,6 @@ impl Model {
         }
     }
 
-    /// The SI unit of a parameter, if its dimension is known and has a unit with a name; empty for a pure number.
-    pub fn parameter_unit(&self, parameter: &str) -> Option<&'static str> {
-        let index = self.parameters.iter().position(|other| &*other.name == parameter)?;
-        self.parameter_dimension(index)?.unit()
-    }
-
     /// The values of all formulas that do not depend on the motion; 0 for the others.
     ///
     /// # Errors
@@ -81,6 +75,12 @@ impl Model {
     /// The values of the parameters among those of all formulas.
     pub fn parameter_values<T: Real>(&self, constants: &[T]) -> Vec<T> {
         self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
+    }
+
+    /// The SI unit of a parameter: empty for pure numbers and where its dimension does not follow from the model.
+    pub fn parameter_unit(&self, parameter: &str) -> String {
+        let index = self.parameters.iter().position(|other| &*other.name == parameter);
+        index.and_then(|index| self.parameter_dimension(index)).map_or_else(String::new, Dimension::unit)
     }
 
     /// Whether some coefficient of friction is this parameter, or computed from it.

@@ -93,7 +93,7 @@ impl Question<'_> {
 
     /// The factor of static friction at which the mechanism becomes self-locking.
     fn threshold(&self, load: &str, value: f64) -> Result<Option<f64>, Faults> {
-        let (threshold, undecided) = self_locking_factor(&self.varied.with(&format!("{value:e}"))?, load)?;
+        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?.0, load)?;
         if undecided > 0 {
             return Err(Fault::general(FaultKind::UndecidedAtRest { load: load.to_owned() }).into());
         }
@@ -112,9 +112,8 @@ fn against_locking(varied: &Varied, value: f64) -> Result<Margin, Faults> {
 /// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where there is none
 /// as it is, the factor to which it has to fall.
 fn locking_margin(line: &ModeProblemLine) -> Result<Margin, TooManyModes> {
-    let existence = |range| {
-        line.existence(&ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS })
-    };
+    let existence =
+        |range| line.existence(&ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS });
     Ok(match covered(&existence(GROWING)?) {
         Some(end) if end.is_infinite() => Margin::Infinite,
         Some(end) => Margin::Finite(end),
@@ -127,8 +126,7 @@ fn locking_margin(line: &ModeProblemLine) -> Result<Margin, TooManyModes> {
 
 /// Up to where some mode exists without interruption, from the friction of the model on; nothing if none exists there.
 fn covered(existence: &Existence) -> Option<f64> {
-    let mut modes: Vec<[f64; 2]> =
-        existence.modes.iter().map(|mode| [mode.from.at, mode.to.at]).collect();
+    let mut modes: Vec<[f64; 2]> = existence.modes.iter().map(|mode| [mode.from.at, mode.to.at]).collect();
     modes.sort_by(|one, other| one[0].total_cmp(&other[0]));
     modes.into_iter().fold(None, |end: Option<f64>, [from, to]| {
         let reached = end.unwrap_or(GROWING[0]);

@@ -2,8 +2,8 @@
 
 use super::report::{MarginKind, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Place;
-use crate::limits::precise;
 use crate::report::number::number;
+use crate::report::number::precise;
 
 /// Margins closer than this, relative to the greater one, are the same.
 const SAME: f64 = 1e-9;
@@ -104,7 +104,9 @@ impl Words<'_> {
                         format!("{model}: friction may grow {factor} times before nothing moves; {met}.")
                     }
                     (MarginKind::Locking, false) => {
-                        format!("{model}: it is locked; friction would have to fall to {factor} of its value.")
+                        format!(
+                            "{model}: it is locked; friction would have to fall to {factor} of its value."
+                        )
                     }
                     (MarginKind::SelfLocking, true) => format!(
                         "{model}: static friction may grow {factor} times before {load} is held however great it is; {met}."
@@ -130,8 +132,8 @@ impl Words<'_> {
     /// Says so if the margin is the same wherever there is one.
     fn constant(&self) -> Option<String> {
         let demands = self.places.iter().filter_map(|place| Some(place.margin?.demand(1.0)));
-        let [least, greatest] = demands
-            .fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
+        let [least, greatest] =
+            demands.fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
         (greatest - least <= SAME * greatest || least == f64::INFINITY && greatest == f64::INFINITY)
             .then(|| format!("The margin does not depend on {}.", self.report.vary.name))
     }
@@ -161,7 +163,7 @@ fn wish(report: &SizeReport) -> String {
 
 /// A value of what is varied, with its unit.
 pub(super) fn quantity(report: &SizeReport, value: f64) -> String {
-    match report.vary.unit {
+    match report.vary.unit.as_str() {
         "" => precise(value),
         "rad" => format!("{} rad ({} deg)", precise(value), number(value.to_degrees())),
         unit => format!("{} {unit}", precise(value)),
