@@ -2,6 +2,7 @@
 
 mod check;
 mod destination;
+mod draw;
 mod hold;
 mod limits;
 mod model;
@@ -13,6 +14,7 @@ mod values;
 
 pub(crate) use check::CheckArguments;
 pub(crate) use destination::{CheckFormat, Destination, Format};
+pub(crate) use draw::{DrawArguments, Which};
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
 pub(crate) use model::ModelArguments;
@@ -48,6 +50,7 @@ Examples:
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
   slideway hold drawer.toml                     whether it stays at rest
+  slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -67,6 +70,9 @@ pub(crate) enum Command {
     /// Say whether a mechanism stays at rest, and how it begins to move if not
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
+    /// Draw a mechanism and its solutions to a picture, SVG or PNG
+    #[command(after_help = draw::HELP)]
+    Draw(DrawArguments),
     /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),

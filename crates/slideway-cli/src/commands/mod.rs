@@ -1,6 +1,7 @@
 //! The commands: each reads its input, calls the library and writes the answer.
 
 mod check;
+mod draw;
 mod hold;
 mod limits;
 mod models;
@@ -8,6 +9,7 @@ mod modes;
 mod solve;
 
 pub(crate) use check::check;
+pub(crate) use draw::draw;
 pub(crate) use hold::hold;
 pub(crate) use limits::limits;
 pub(crate) use models::models;
