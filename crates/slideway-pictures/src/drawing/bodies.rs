@@ -1,7 +1,7 @@
 //! Bodies, hinges and centres of mass.
 
 use super::Painter;
-use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit};
+use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame};
@@ -111,7 +111,7 @@ impl Painter<'_> {
             let shift = (slide.block.origin - rod.origin).dot(&rod.along);
             let reach = slide.block_reach.map(|end| end + shift);
             let reach = [reach[0].max(slide.guide_reach[0]) - 1.5, reach[1].min(slide.guide_reach[1]) + 1.5];
-            let class = if slide.guide_frame == Frame::Ground { Class::Fixed } else { Class::Body };
+            let class = if slide.guide_frame == Frame::Ground { Class::Paper } else { Class::Body };
             self.area(class, rod.rectangle(reach, [-half, half]));
             for side in [-half, half] {
                 self.line(Class::Edge, vec![rod.at(reach[0], side), rod.at(reach[1], side)]);
@@ -273,7 +273,7 @@ impl Painter<'_> {
                 }
                 JointKind::Slider(_) => {
                     let Some(slide) = self.sliders[index] else { continue };
-                    let across = if slide.guide.across.y < 0.0 { 1.0 } else { -1.0 } * slide.guide.across;
+                    let across = slide.guide.across * upper_side(slide.guide.across);
                     let edge = slide.half_channel() + 8.0;
                     self.name(&joint.name, slide.block.origin + across * edge, across);
                 }

@@ -1,6 +1,6 @@
 //! Lengths and heights of blocks.
 
-use super::outline::{Local, turned};
+use super::outline::{Local, turned, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::{Painter, quantity};
 use slideway::ids::JointId;
@@ -38,7 +38,7 @@ impl Painter<'_> {
                     (middle - half, middle + half)
                 }
             };
-            let downwards = if slide.guide.across.y > 0.0 { 1.0 } else { -1.0 };
+            let downwards = -upper_side(slide.guide.across);
             let edge = downwards * slide.half_channel();
             self.dimension(&slide.guide, [from, to], [edge, edge + downwards * ASIDE], quantity(length, "m"));
             if slider.height != 0.0 {

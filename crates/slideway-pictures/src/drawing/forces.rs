@@ -1,6 +1,7 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
-use super::outline::unit;
+use super::labels::obstacles;
+use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
 use super::{ContactForces, Painter, quantity};
@@ -60,46 +61,45 @@ impl Painter<'_> {
 
     /// The velocity of what moves: the block, or the guide past a block on ground.
     pub(super) fn velocities(&mut self) {
-        for index in 0..self.mechanism.joints.len() {
-            let Some(slide) = self.slide(JointId(index)) else { continue };
-            let Some(contact) =
-                self.mechanism.slider(JointId(index)).and_then(|slider| slider.contacts.first())
+        let mechanism = self.mechanism;
+        for index in 0..mechanism.joints.len() {
+            let (Some(slide), Some(slider)) = (self.slide(JointId(index)), mechanism.slider(JointId(index)))
             else {
                 continue;
             };
-            let velocity = self.configuration.contact(self.mechanism, *contact).sliding_velocity;
+            let Some(contact) = slider.contacts.first() else { continue };
+            let velocity = self.actual.contact(mechanism, *contact).sliding_velocity;
             let velocity = if slide.block_frame == Frame::Ground { -velocity } else { velocity };
             if velocity == 0.0 {
                 continue;
             }
-            let side = self.clear_side(&slide, index);
-            let edge = slide.half_channel() + ASIDE;
-            let middle = slide.block.origin + slide.guide.across * (edge * side);
             let half = slide.guide.along * (0.5 * VELOCITY * velocity.signum());
+            let (middle, side) = self.free_place(&slide, half);
             self.scene.add(Class::Velocity, Shape::Arrow { from: middle - half, to: middle + half });
-            let outwards = unit(slide.guide.across * side, Point::y());
-            self.value(Class::Velocity, quantity(velocity.abs(), "m/s"), middle, outwards);
+            self.value(Class::Velocity, quantity(velocity.abs(), "m/s"), middle, slide.guide.across * side);
         }
     }
 
-    /// The side of a guide at which fewer forces press: 1 in the direction of n, else -1.
-    fn clear_side(&self, slide: &Slide, joint: usize) -> f64 {
-        let mut pressed = 0.0;
-        for (index, contact) in self.mechanism.contacts.iter().enumerate() {
-            if contact.joint.index() == joint {
-                // Reactions come from the side opposite to their direction.
-                pressed -= self
-                    .states
-                    .contacts
-                    .get(index)
-                    .and_then(|state| state.forces)
-                    .map_or(0.0, |forces| forces.normal);
+    /// Where beside a guide the arrow of a velocity covers least, and on which side that is.
+    fn free_place(&self, slide: &Slide, half: Point) -> (Point, f64) {
+        let obstacles = obstacles(&self.scene);
+        let edge = slide.half_channel() + ASIDE;
+        let mut best: Option<(f64, Point, f64)> = None;
+        for (side, aversion) in
+            [(upper_side(slide.guide.across), 0.0), (-upper_side(slide.guide.across), 4.0)]
+        {
+            for shift in [0.0, 25.0, -25.0, 50.0, -50.0] {
+                let middle =
+                    slide.block.origin + slide.guide.across * (edge * side) + slide.guide.along * shift;
+                let covered = obstacles
+                    .iter()
+                    .filter(|(place, _)| nearest_on_line(*place, [middle - half, middle + half]).0 < 6.0);
+                let cost = aversion + 0.1 * f64::abs(shift) + covered.map(|(_, weight)| weight).sum::<f64>();
+                if best.is_none_or(|(least, ..)| cost < least) {
+                    best = Some((cost, middle, side));
+                }
             }
         }
-        if slide.around {
-            pressed = -pressed;
-        }
-        let upwards = if slide.guide.across.y < 0.0 { 1.0 } else { -1.0 };
-        if pressed == 0.0 || self.options.dimensions { upwards } else { -pressed.signum() }
+        best.map_or((slide.block.origin, 1.0), |(_, middle, side)| (middle, side))
     }
 }

@@ -98,7 +98,7 @@ fn crossed(bounds: &Bounds, obstacles: &[(Point, f64)]) -> f64 {
 }
 
 /// Places along all lines, each with what it costs to cover it.
-fn obstacles(scene: &Scene) -> Vec<(Point, f64)> {
+pub(super) fn obstacles(scene: &Scene) -> Vec<(Point, f64)> {
     let mut places = Vec::new();
     for element in &scene.elements {
         let weight = match element.class {

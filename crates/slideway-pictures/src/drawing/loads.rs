@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 
 /// Length of an arrow that is not to scale.
 const ARROW: f64 = 46.0;
+/// Greatest length of a load's arrow; a longer one is drawn broken.
+const LONGEST_LOAD: f64 = 110.0;
 /// Below this length an arrow to scale is a head alone.
 pub(super) const LEAST_ARROW: f64 = 9.0;
 /// Radius of the arrow of a torque.
@@ -170,11 +172,25 @@ impl Painter<'_> {
     fn force(&mut self, class: Class, at: Attachment, force: Vector2<f64>, text: String) {
         let place = self.attached(&at);
         let direction = self.view.direction(force / force.norm());
-        let length = self.options.force_scale.map_or(ARROW, |scale| scale * force.norm());
+        let to_scale = self.options.force_scale.map(|scale| scale * force.norm());
+        let is_broken = to_scale.is_some_and(|length| length > LONGEST_LOAD);
+        let length = to_scale.map_or(ARROW, |length| length.min(LONGEST_LOAD));
         let centre = at.frame.body().map_or(place, |body| self.centre(body));
         let pushes = (centre - place).dot(&direction) > 1.0;
         let from = if pushes { place - direction * length } else { place };
         self.arrow(class, from, from + direction * length, text);
+        if is_broken {
+            self.broken(from + direction * (0.45 * length), direction);
+        }
+    }
+
+    /// Two strokes across an arrow that is too short for its scale.
+    fn broken(&mut self, middle: Point, direction: Point) {
+        let stroke = (turned(direction) - direction * 0.5) * 6.0;
+        for shift in [-2.5, 2.5] {
+            let centre = middle + direction * shift;
+            self.line(Class::Break, vec![centre - stroke, centre + stroke]);
+        }
     }
 
     /// An arrow and its value; the head alone where the arrow would be too short.

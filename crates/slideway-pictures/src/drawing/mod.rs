@@ -128,6 +128,7 @@ pub fn scene(
     let placed = if options.play { displaced(mechanism, configuration, states, view) } else { None };
     let mut painter = Painter {
         mechanism,
+        actual: configuration,
         configuration: placed.as_ref().unwrap_or(configuration),
         states,
         view,
@@ -206,6 +207,8 @@ fn displaced(
 /// A scene that is being drawn.
 struct Painter<'a> {
     mechanism: &'a Mechanism,
+    /// The state itself, and with the play of a contact mode.
+    actual: &'a Configuration,
     configuration: &'a Configuration,
     states: &'a ContactStates,
     view: &'a View,

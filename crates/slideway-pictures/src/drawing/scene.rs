@@ -15,6 +15,8 @@ pub enum Class {
     Hatch,
     /// What belongs to ground and has an outline.
     Fixed,
+    /// What belongs to ground, without an outline.
+    Paper,
     /// The outline of a body, drawn before its inside.
     BodyEdge,
     /// The inside of a body.
@@ -41,6 +43,8 @@ pub enum Class {
     Friction,
     /// A load, a weight, or the effort of a drive.
     Load,
+    /// A sign that an arrow is shorter than its scale says.
+    Break,
     /// The effort of a drive before it is known.
     Drive,
     /// A sliding velocity.
@@ -139,6 +143,15 @@ impl Bounds {
     pub fn widened(self, margin: f64) -> Self {
         let margin = Point::new(margin, margin);
         Self { least: self.least - margin, greatest: self.greatest + margin }
+    }
+
+    /// The same width, with the heights of other bounds.
+    #[must_use]
+    pub(super) fn with_heights_of(self, other: &Self) -> Self {
+        Self {
+            least: Point::new(self.least.x, other.least.y),
+            greatest: Point::new(self.greatest.x, other.greatest.y),
+        }
     }
 
     /// Width and height.

@@ -9,7 +9,7 @@ use slideway::mechanism::Mechanism;
 use slideway::report::{CoordinateState, Report, Solution, Status};
 
 /// Width and height for the mechanism itself in each panel.
-const PANEL: [f64; 2] = [400.0, 320.0];
+const PANEL: [f64; 2] = [440.0, 320.0];
 /// Least width of a panel, for its caption.
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels does not exceed if it has several.
@@ -163,16 +163,18 @@ impl Drawn<'_> {
         Panel { scene, caption: Caption { heading, lines }, force_scale }
     }
 
-    /// The greatest of all forces that are drawn (N).
+    /// The greatest force of a contact (N), or of a load if no contact has any.
     fn greatest_force(&self, solution: &Solution) -> f64 {
         let contacts =
             solution.contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
+        let greatest = contacts.map(f64::abs).fold(0.0, f64::max);
+        if greatest > 0.0 {
+            return greatest;
+        }
         let loads = self.mechanism.loads.iter().filter_map(|load| {
             load_force(self.mechanism, self.configuration, load).map(|force| force.norm())
         });
-        let weights = self.mechanism.bodies.iter().map(|body| body.mass * self.mechanism.gravity.norm());
-        let efforts = solution.drives.iter().filter(|drive| drive.unit == "N").map(|drive| drive.effort);
-        contacts.chain(loads).chain(weights).chain(efforts).map(f64::abs).fold(0.0, f64::max)
+        loads.fold(0.0, f64::max)
     }
 }
 
@@ -220,11 +222,7 @@ struct Layout<'a> {
 
 impl Layout<'_> {
     fn sheet(self, description: String) -> Sheet {
-        let picture = self
-            .panels
-            .iter()
-            .filter_map(|panel| panel.scene.bounds())
-            .reduce(Bounds::with)
+        let picture = bounds_of(&self.panels)
             .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::new(LEAST_WIDTH, LEAST_WIDTH) });
         let panel_width = picture.size().x.max(LEAST_WIDTH);
         let columns = columns(self.panels.len(), panel_width);
@@ -236,6 +234,7 @@ impl Layout<'_> {
         }
         let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale);
         for row in self.panels.chunks(columns) {
+            let picture = bounds_of(row).map_or(picture, |bounds| picture.with_heights_of(&bounds));
             let mut below: f64 = 0.0;
             for (column, panel) in row.iter().enumerate() {
                 let corner = Point::new(column as f64 * (panel_width + SPACE), y + 14.0);
@@ -280,6 +279,11 @@ impl Layout<'_> {
             beside(scene, to, quantity(force, "N"));
         }
     }
+}
+
+/// The bounds of all pictures.
+fn bounds_of(panels: &[Panel]) -> Option<Bounds> {
+    panels.iter().filter_map(|panel| panel.scene.bounds()).reduce(Bounds::with)
 }
 
 /// A value to the right of a place; the x of its end.

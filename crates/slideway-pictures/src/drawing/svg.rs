@@ -132,6 +132,7 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Wall => "s-wall",
         Class::Hatch => "s-hatch",
         Class::Fixed => "s-fixed",
+        Class::Paper => "s-paper",
         Class::BodyEdge => "s-body-edge",
         Class::Body => "s-body",
         Class::Slot => "s-slot",
@@ -145,6 +146,7 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Reaction => "s-reaction",
         Class::Friction => "s-friction",
         Class::Load => "s-load",
+        Class::Break => "s-break",
         Class::Drive => "s-drive",
         Class::Velocity => "s-velocity",
         Class::Dimension => "s-dimension",
@@ -237,6 +239,7 @@ pub fn rules(colour: &Colour) -> String {
     ] {
         rule(class, format!("fill: {colour}; {}", pen(colour, 2.4)));
     }
+    rule(".s-break", format!("fill: none; {}", pen(load, 1.6)));
     rule(".s-drive .s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));
     rule(".s-leader", format!("fill: none; stroke-dasharray: 2 3; {}", pen(muted, 1.0)));
