@@ -50,6 +50,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Map(arguments) => commands::map(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
+        Command::Draw(arguments) => commands::draw(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Schema => commands::schema(output),

@@ -2,6 +2,7 @@
 
 mod check;
 mod destination;
+mod draw;
 mod drive;
 mod hold;
 mod limits;
@@ -17,6 +18,7 @@ mod values;
 
 pub(crate) use check::CheckArguments;
 pub(crate) use destination::{CheckFormat, Destination, Format};
+pub(crate) use draw::{DrawArguments, Which};
 pub(crate) use drive::DriveArguments;
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
@@ -59,6 +61,7 @@ Examples:
   slideway drive drawer.toml                    which push it needs, with which efficiency
   slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
+  slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -87,6 +90,9 @@ pub(crate) enum Command {
     /// Say whether a mechanism stays at rest, and how it begins to move if not
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
+    /// Draw a mechanism and its solutions to a picture, SVG or PNG
+    #[command(after_help = draw::HELP)]
+    Draw(DrawArguments),
     /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),

@@ -1,6 +1,7 @@
 //! The commands: each reads its input, calls the library and writes the answer.
 
 mod check;
+mod draw;
 mod drive;
 mod hold;
 mod limits;
@@ -11,6 +12,7 @@ mod size;
 mod solve;
 
 pub(crate) use check::check;
+pub(crate) use draw::draw;
 pub(crate) use drive::drive;
 pub(crate) use hold::hold;
 pub(crate) use limits::limits;

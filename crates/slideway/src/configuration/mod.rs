@@ -5,6 +5,7 @@
 //! reference drawing to the wanted state in small steps so that the assembly branch of the drawing is kept.
 
 mod assembly;
+mod clearance;
 mod joint_equations;
 mod mobility;
 
