@@ -39,3 +39,4 @@ pub mod raw_problem;
 pub mod report;
 pub mod solve;
 pub mod standstill;
+pub mod sweep;

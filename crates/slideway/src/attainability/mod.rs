@@ -92,6 +92,21 @@ impl<'p> ElasticGuides<'p> {
         all
     }
 
+    /// The verdict on the mode with these sides alone, without what it depends on.
+    pub(crate) fn verdict_on(&self, sides: &[Side]) -> Verdict {
+        let (Some(inertia), true) = (&self.inertia, self.stable) else { return Verdict::Undecided };
+        if sides.len() > MOST_CONTACTS {
+            return Verdict::NotComputed;
+        }
+        let mode = mode_matrix(self.problem, sides);
+        let oriented = mode.determinant();
+        let spectrum = Pencil::new(inertia, mode)
+            .and_then(|pencil| pencil.spectrum(&self.stiffness, &equal_masses(inertia)));
+        let Some(spectrum) = spectrum else { return Verdict::NotComputed };
+        let is_odd = spectrum.negative % 2 == 1;
+        self.verdict(&spectrum, oriented != 0.0 && is_odd == (oriented < 0.0)).verdict
+    }
+
     /// The attainability of the mode with these sides, without what an unattainable solution separates.
     fn of(&self, sides: &[Side]) -> Attainability {
         if sides.len() > MOST_CONTACTS {

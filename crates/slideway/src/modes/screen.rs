@@ -146,11 +146,7 @@ impl Screen {
     ///
     /// # Errors
     /// [`InDoubt`] if some pattern is not.
-    pub(crate) fn states(
-        &mut self,
-        problem: &SmallProblem,
-        accuracy: f64,
-    ) -> Result<&[SmallState], InDoubt> {
+    pub(crate) fn states(&mut self, problem: &SmallProblem, accuracy: f64) -> Result<&[SmallState], InDoubt> {
         self.states.clear();
         self.slack = SLACK.max(accuracy);
         self.load(problem);
@@ -318,11 +314,7 @@ fn refine(problem: &SmallProblem, pattern: &[ContactState], state: &mut SmallSta
 }
 
 /// Gaussian elimination with partial pivoting; none if a pivot vanishes.
-fn solve(
-    mut matrix: Square,
-    mut load: [f64; MOST_CONTACTS],
-    count: usize,
-) -> Option<[f64; MOST_CONTACTS]> {
+fn solve(mut matrix: Square, mut load: [f64; MOST_CONTACTS], count: usize) -> Option<[f64; MOST_CONTACTS]> {
     for step in 0..count {
         let mut pivot_at = step;
         for row in step + 1..count {
@@ -409,8 +401,11 @@ mod tests {
                 })
             };
             let columns = [matrix(1.0, 0.9), matrix(-1.0, 0.9)];
-            let jumps =
-                if round % 2 == 0 { [matrix(0.0, 0.0), matrix(0.0, 0.0)] } else { [matrix(0.0, 0.5), matrix(0.0, 0.5)] };
+            let jumps = if round % 2 == 0 {
+                [matrix(0.0, 0.0), matrix(0.0, 0.0)]
+            } else {
+                [matrix(0.0, 0.5), matrix(0.0, 0.5)]
+            };
             let load = DVector::from_fn(contacts, |_, _| random());
             let [cp, cn] = columns;
             let [dp, dn] = jumps;
@@ -419,9 +414,8 @@ mod tests {
             let Ok(states) = screen.states(&small(&problem), 0.0) else { continue };
             decided += 1;
             let all = enumerate(&problem, &Limits::default()).expect("few patterns");
-            let (in_gap, pressed): (Vec<&SmallState>, Vec<&SmallState>) = states
-                .iter()
-                .partition(|state| state.pattern[..contacts].contains(&ContactState::Gap));
+            let (in_gap, pressed): (Vec<&SmallState>, Vec<&SmallState>) =
+                states.iter().partition(|state| state.pattern[..contacts].contains(&ContactState::Gap));
             assert_eq!((pressed.len(), in_gap.len()), (all.solutions.len(), all.gaps.len()), "round {round}");
             for (state, solution) in pressed.iter().zip(&all.solutions) {
                 for k in 0..contacts {
