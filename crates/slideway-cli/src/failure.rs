@@ -32,6 +32,20 @@ pub(crate) enum Failure {
     StageCount { stages: usize, most: usize },
     /// The output file exists.
     OutputExists { path: PathBuf },
+    /// An unfinished table is where a new one would be written.
+    Unfinished { path: PathBuf },
+    /// There is no unfinished table.
+    NothingToResume { path: PathBuf },
+    /// The unfinished table is that of another sweep.
+    AnotherSweep { path: PathBuf, command: String },
+    /// The ending of a table says nothing.
+    UnknownEnding { path: PathBuf },
+    /// The program was built without Parquet.
+    NoParquet,
+    /// A table that is not written from beginning to end.
+    NoStream,
+    /// A sweep was interrupted.
+    Interrupted { done: u64, points: u64, path: PathBuf },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
@@ -63,6 +77,21 @@ impl Failure {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
             Self::OutputExists { path } => format!("`{}` exists already", path.display()),
+            Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::NothingToResume { path } => {
+                format!("there is no sweep to go on with: `{}` is missing or damaged", path.display())
+            }
+            Self::AnotherSweep { path, command } => {
+                format!("`{}` belongs to another sweep: `{command}`", path.display())
+            }
+            Self::UnknownEnding { path } => {
+                format!("the ending of `{}` does not tell the form of the table", path.display())
+            }
+            Self::NoParquet => "this program was built without Parquet".to_owned(),
+            Self::NoStream => "this form of table can only be written to a file".to_owned(),
+            Self::Interrupted { done, points, path } => {
+                format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
+            }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
@@ -90,6 +119,23 @@ impl Failure {
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            Self::Unfinished { .. } => {
+                Some("go on with it by --resume, or begin anew with --force".to_owned())
+            }
+            Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
+            Self::AnotherSweep { .. } => {
+                Some("repeat that command with --resume and the same model, or begin anew with --force".to_owned())
+            }
+            Self::UnknownEnding { .. } => {
+                Some("use .csv, .npz or .parquet, or say it with --format".to_owned())
+            }
+            Self::NoParquet => {
+                Some("build it with `cargo build --release --features parquet`, or write .npz".to_owned())
+            }
+            Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
+            Self::Interrupted { .. } => {
+                Some("the same command with --resume goes on from there".to_owned())
+            }
             _ => None,
         }
     }

@@ -9,6 +9,7 @@ mod models;
 mod modes;
 mod search;
 mod solve;
+mod sweep;
 mod values;
 
 pub(crate) use check::CheckArguments;
@@ -20,6 +21,7 @@ pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use search::SearchArguments;
 pub(crate) use solve::SolveArguments;
+pub(crate) use sweep::{SweepArguments, TableFormat};
 
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -48,6 +50,7 @@ Examples:
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
   slideway hold drawer.toml                     whether it stays at rest
+  slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -61,6 +64,9 @@ pub(crate) enum Command {
     /// Say for which friction, load or size each contact mode exists, and where it locks
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
+    /// Compute all solutions at every point of a grid, or for random samples, into a table
+    #[command(after_help = sweep::HELP)]
+    Sweep(SweepArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),

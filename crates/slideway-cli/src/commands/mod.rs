@@ -6,6 +6,7 @@ mod limits;
 mod models;
 mod modes;
 mod solve;
+mod sweep;
 
 pub(crate) use check::check;
 pub(crate) use hold::hold;
@@ -13,6 +14,7 @@ pub(crate) use limits::limits;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
 pub(crate) use solve::solve;
+pub(crate) use sweep::sweep;
 
 use crate::Outcome;
 use crate::failure::Failure;

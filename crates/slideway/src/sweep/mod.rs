@@ -35,6 +35,7 @@ mod quantity;
 mod rows;
 mod stages;
 mod summary;
+mod text;
 mod told;
 
 pub use branches::Branches;
@@ -42,6 +43,7 @@ pub use columns::Column;
 pub use distribution::{Sampling, Spread};
 pub use rows::{Breakpoint, PointStatus, RowHead, RowKind, RowVerdict, Rows};
 pub use summary::{Probability, Tally};
+pub use text::to_text;
 
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
