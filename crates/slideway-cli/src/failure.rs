@@ -37,14 +37,24 @@ pub(crate) enum Failure {
     SameOutput { path: PathBuf },
     /// The ending of a picture's file says nothing of its format.
     PictureFormat { path: PathBuf, known: &'static [&'static str] },
-    /// A picture could not be made.
-    Picture { reason: String },
+    /// An unfinished table is where a new one would be written.
+    Unfinished { path: PathBuf },
+    /// There is no unfinished table.
+    NothingToResume { path: PathBuf },
+    /// The unfinished table is that of another sweep.
+    AnotherSweep { path: PathBuf, command: String },
+    /// The ending of a table says nothing.
+    UnknownEnding { path: PathBuf },
+    /// The program was built without Parquet.
+    NoParquet,
+    /// A table that is not written from beginning to end.
+    NoStream,
+    /// A sweep was interrupted.
+    Interrupted { done: u64, points: u64, path: PathBuf },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
-    /// The ending of the file is that of no picture.
-    PictureFormat { path: PathBuf },
     /// There is no solution of the wanted number.
     NoSuchSolution { count: usize },
     /// The picture cannot be made of pixels.
@@ -80,13 +90,24 @@ impl Failure {
             Self::PictureFormat { path, .. } => {
                 format!("the ending of `{}` names no format of pictures", path.display())
             }
-            Self::Picture { reason } => format!("the picture could not be made: {reason}"),
+            Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::NothingToResume { path } => {
+                format!("there is no sweep to go on with: `{}` is missing or damaged", path.display())
+            }
+            Self::AnotherSweep { path, command } => {
+                format!("`{}` belongs to another sweep: `{command}`", path.display())
+            }
+            Self::UnknownEnding { path } => {
+                format!("the ending of `{}` does not tell the form of the table", path.display())
+            }
+            Self::NoParquet => "this program was built without Parquet".to_owned(),
+            Self::NoStream => "this form of table can only be written to a file".to_owned(),
+            Self::Interrupted { done, points, path } => {
+                format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
+            }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
-            }
-            Self::PictureFormat { path } => {
-                format!("the ending of `{}` is that of no picture", path.display())
             }
             Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
@@ -109,7 +130,6 @@ impl Failure {
             Self::NoProblem { .. } => {
                 Some("`slideway modes --help` shows what a problem looks like".to_owned())
             }
-            Self::PictureFormat { .. } => Some("pictures are .svg or .png".to_owned()),
             Self::NoSuchSolution { .. } => {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }
@@ -120,6 +140,23 @@ impl Failure {
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
             Self::PictureFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            Self::Unfinished { .. } => {
+                Some("go on with it by --resume, or begin anew with --force".to_owned())
+            }
+            Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
+            Self::AnotherSweep { .. } => {
+                Some("repeat that command with --resume and the same model, or begin anew with --force".to_owned())
+            }
+            Self::UnknownEnding { .. } => {
+                Some("use .csv, .npz or .parquet, or say it with --format".to_owned())
+            }
+            Self::NoParquet => {
+                Some("build it with `cargo build --release --features parquet`, or write .npz".to_owned())
+            }
+            Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
+            Self::Interrupted { .. } => {
+                Some("the same command with --resume goes on from there".to_owned())
+            }
             _ => None,
         }
     }

@@ -2,6 +2,10 @@
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
+mod axis;
+
+pub use axis::AxisProblem;
+
 use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
 use std::fmt;
 use std::ops::Range;
@@ -277,6 +281,9 @@ pub enum FaultKind {
     #[error("`{text}` is not of the form name=value")]
     MalformedSetting { text: String },
 
+    #[error("`{text}`: {problem}")]
+    Axis { text: String, problem: AxisProblem },
+
     // Degrees of freedom and coordinates.
     #[error("the structure is redundant: {} in excess, so the reactions are indeterminate", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
@@ -375,6 +382,7 @@ impl FaultKind {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
+            Self::Axis { problem, .. } => problem.hint(),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }

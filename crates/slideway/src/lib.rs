@@ -45,3 +45,4 @@ pub mod report;
 pub mod size;
 pub mod solve;
 pub mod standstill;
+pub mod sweep;

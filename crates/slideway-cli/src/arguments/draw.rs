@@ -1,7 +1,7 @@
 //! `slideway draw`
 
 use super::values::positive;
-use super::{Destination, ModelArguments};
+use super::{Destination, ModelArguments, PictureTheme};
 use clap::Args;
 
 pub(super) const HELP: &str = "\
@@ -9,7 +9,7 @@ Examples:
   slideway draw klepp-2002.toml --output klepp.svg
   slideway draw klepp-2002.toml --solution 2 --output second.png --width 1200
   slideway draw slider-crank.toml --at phi=\"150 deg\" --solution none --output crank.svg
-  slideway draw drawer.toml --dark --output drawer.png
+  slideway draw drawer.toml --theme dark --output drawer.png
 
 Exit codes:
   0  done
@@ -25,9 +25,9 @@ pub(crate) struct DrawArguments {
     #[arg(long, value_name = "N|all|none", value_parser = which)]
     pub(crate) solution: Option<Which>,
 
-    /// On a dark background.
-    #[arg(long)]
-    pub(crate) dark: bool,
+    /// Colours of the picture.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) theme: PictureTheme,
 
     /// Width of the picture in pixels. By default letters are 15 pixels high, 30 in PNG.
     #[arg(long, value_name = "PIXELS", value_parser = positive)]

@@ -14,6 +14,7 @@ mod plot;
 mod search;
 mod size;
 mod solve;
+mod sweep;
 mod values;
 
 pub(crate) use check::CheckArguments;
@@ -30,6 +31,7 @@ pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use search::SearchArguments;
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
+pub(crate) use sweep::{SweepArguments, TableFormat};
 
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -62,6 +64,7 @@ Examples:
   slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
   slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
+  slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -84,6 +87,9 @@ pub(crate) enum Command {
     /// Map the plane of two quantities by its solutions, contact modes or margins
     #[command(after_help = map::HELP)]
     Map(MapArguments),
+    /// Compute all solutions at every point of a grid, or for random samples, into a table
+    #[command(after_help = sweep::HELP)]
+    Sweep(SweepArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),

@@ -10,6 +10,7 @@ mod models;
 mod modes;
 mod size;
 mod solve;
+mod sweep;
 
 pub(crate) use check::check;
 pub(crate) use draw::draw;
@@ -21,6 +22,7 @@ pub(crate) use models::models;
 pub(crate) use modes::modes;
 pub(crate) use size::size;
 pub(crate) use solve::solve;
+pub(crate) use sweep::sweep;
 
 use crate::Outcome;
 use crate::failure::Failure;

@@ -333,7 +333,15 @@ impl Mechanism {
     /// # Errors
     /// Every value that is not finite or not allowed, or too large or small to compute with.
     pub fn new(model: &Model) -> Result<Self, Faults> {
-        let mut mechanism = Evaluation { model, values: model.constants()? }.mechanism();
+        Self::with_parameters(model, &[])
+    }
+
+    /// [`Self::new`] with other values of some parameters, which are given by their numbers.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn with_parameters(model: &Model, given: &[(usize, f64)]) -> Result<Self, Faults> {
+        let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
         Ok(mechanism)
