@@ -36,7 +36,9 @@ impl Efforts {
         Ok(Self {
             line: parts.line_to(&parts),
             drives,
-            frictionless: (0..drives).map(|drive| stages.influence.frictionless[effort(drive)] + 0.0).collect(),
+            frictionless: (0..drives)
+                .map(|drive| stages.influence.frictionless[effort(drive)] + 0.0)
+                .collect(),
             velocities: velocities(stages),
         })
     }

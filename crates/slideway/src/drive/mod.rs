@@ -34,8 +34,8 @@ mod state;
 mod text;
 
 pub use report::{
-    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, DriveSolution, DrivenQuantity,
-    DriveName, Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
+    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution,
+    DrivenQuantity, Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
 };
 pub use text::to_text;
 
@@ -74,7 +74,8 @@ pub fn drive(model: &Model, options: &DriveOptions) -> Result<DriveReport, Fault
         return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
     }
     let reversed = backwards(model)?;
-    let course = options.vary.as_ref().map(|vary| course(model, &reversed, vary, options.rows)).transpose()?;
+    let course =
+        options.vary.as_ref().map(|vary| course(model, &reversed, vary, options.rows)).transpose()?;
     let drives = model.drives.iter().map(|drive| DriveName {
         name: drive.name.to_string(),
         unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },

@@ -4,9 +4,9 @@ use super::efforts::{Efforts, efficiency, growing, power, velocities};
 use super::report::{BlowUp, DriveDirection, DriveSolution, Frictionless};
 use crate::fault::Faults;
 use crate::ids::DriveId;
+use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
 use crate::report::{CoordinateState, Solution};
-use crate::model::Model;
 use crate::solve::{Stages, pattern, solve};
 
 /// The most patterns whose locking is sought.

@@ -136,8 +136,11 @@ impl Page<'_, DriveReport> {
         let mut rows = vec![row(["without friction", ""], &frictionless.efforts, frictionless.power)];
         rows[0].extend([String::new(), String::new()]);
         for solution in &direction.solutions {
-            let mut one =
-                row([&spaced(&solution.pattern), verdict(solution.attainability)], &solution.efforts, solution.power);
+            let mut one = row(
+                [&spaced(&solution.pattern), verdict(solution.attainability)],
+                &solution.efforts,
+                solution.power,
+            );
             let words = solution.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode));
             one.extend([share(solution.efficiency), words.collect::<Vec<_>>().join("; ")]);
             rows.push(one);
@@ -208,7 +211,8 @@ fn course_row(row: &CourseRow, drives: usize) -> Vec<String> {
         (None, Some(-1)) => "-without bound".to_owned(),
         _ => String::new(),
     }));
-    let frictionless = |drive: usize| row.frictionless.as_ref().map_or(String::new(), |all| number(all[drive]));
+    let frictionless =
+        |drive: usize| row.frictionless.as_ref().map_or(String::new(), |all| number(all[drive]));
     cells.extend((0..drives).map(frictionless));
     cells.push(row.efficiency.map_or(String::new(), share));
     cells

@@ -21,13 +21,13 @@ mod scan;
 mod text;
 mod varied;
 
+pub(crate) use conclusion::precise;
+pub(crate) use report::guarantee;
 pub use report::{
     CountLimits, Direction, EndReaction, LimitsReport, ModeLimits, SCHEMA, VariedQuantity, to_json,
 };
 pub use text::to_text;
 pub use varied::FRICTION;
-pub(crate) use conclusion::precise;
-pub(crate) use report::guarantee;
 pub(crate) use varied::Varied;
 
 use crate::fault::{Fault, FaultKind, Faults};

@@ -150,7 +150,9 @@ impl Varied {
             Kind::Coordinate => {
                 let coordinates = self.model.coordinates.iter();
                 let same = coordinates.filter(|coordinate| *coordinate.name == *self.name);
-                same.map(|coordinate| if coordinate.kind.is_angle() { "rad" } else { "m" }).next().unwrap_or("")
+                same.map(|coordinate| if coordinate.kind.is_angle() { "rad" } else { "m" })
+                    .next()
+                    .unwrap_or("")
             }
         }
     }

@@ -110,7 +110,11 @@ impl Search<'_> {
                 return crossed.margin.map(|_| *crossed);
             }
             let [one, other] = pair.map(|place| place.margin.map(|margin| margin.demand(self.wanted)));
-            if nearer(one?, other?) { high = pair[1].at } else { low = pair[0].at }
+            if nearer(one?, other?) {
+                high = pair[1].at
+            } else {
+                low = pair[0].at
+            }
             let next = inner(low, high);
             pair = if nearer(one?, other?) {
                 [self.place(next[0]), pair[0]]

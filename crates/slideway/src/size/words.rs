@@ -104,7 +104,9 @@ impl Words<'_> {
                         format!("{model}: friction may grow {factor} times before nothing moves; {met}.")
                     }
                     (MarginKind::Locking, false) => {
-                        format!("{model}: it is locked; friction would have to fall to {factor} of its value.")
+                        format!(
+                            "{model}: it is locked; friction would have to fall to {factor} of its value."
+                        )
                     }
                     (MarginKind::SelfLocking, true) => format!(
                         "{model}: static friction may grow {factor} times before {load} is held however great it is; {met}."
@@ -130,8 +132,8 @@ impl Words<'_> {
     /// Says so if the margin is the same wherever there is one.
     fn constant(&self) -> Option<String> {
         let demands = self.places.iter().filter_map(|place| Some(place.margin?.demand(1.0)));
-        let [least, greatest] = demands
-            .fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
+        let [least, greatest] =
+            demands.fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
         (greatest - least <= SAME * greatest || least == f64::INFINITY && greatest == f64::INFINITY)
             .then(|| format!("The margin does not depend on {}.", self.report.vary.name))
     }
