@@ -116,7 +116,7 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn parts(&self, value: f64) -> Result<Parts, Faults> {
-        self.at(value, |stages, factor| stages.parts(factor))
+        self.at(value, Stages::parts)
     }
 
     /// What is asked of the stages at a value, and of the factor of friction.

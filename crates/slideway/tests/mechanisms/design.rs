@@ -150,7 +150,7 @@ fn cam_follower_force_margin_and_sizes() {
         assert_close(found, k * (2.0 * a - margin * mu * d) / (1.0 - k), 0.0, 1e-12);
         let (found, above) = only_end(&against_locking(&model("cam-follower"), "A=10 mm..0.5 m", margin));
         assert!(!above, "less overhang is better");
-        assert_close(found, (b / k - b + margin * mu * d) / 2.0, 0.0, 1e-12);
+        assert_close(found, 0.5 * (b / k - b + margin * mu * d), 0.0, 1e-12);
         let report = against_locking(&model("cam-follower"), "phi=10 deg..80 deg", margin);
         let (found, above) = only_end(&report);
         assert!(!above, "a smaller pressure angle is better");
