@@ -12,7 +12,7 @@ use slideway::solve::solve;
 /// The greatest factor of friction.
 const GREATEST: f64 = 3.0;
 /// Factors at which the mechanism is solved.
-const SCANNED: usize = 24;
+const SCANNED: usize = 16;
 
 fn found(drawing: &Drawing, both_directions: bool) -> Result<LimitsReport, TestCaseError> {
     let model = Model::parse(&drawing.text()).expect("sound");
@@ -64,7 +64,7 @@ fn is_delicate(report: &LimitsReport) -> bool {
 }
 
 proptest! {
-    #![proptest_config(cases(30))]
+    #![proptest_config(cases(16))]
 
     #[test]
     fn dense_scanning_finds_the_same_intervals(drawing in mechanisms()) {
@@ -89,6 +89,11 @@ proptest! {
             prop_assert_eq!(solved, present, "at {} times the friction", factor);
         }
     }
+
+}
+
+proptest! {
+    #![proptest_config(cases(30))]
 
     #[test]
     fn limits_do_not_depend_on_units(drawing in mechanisms(), powers in prop::array::uniform3(-2.0..2.0_f64)) {
