@@ -9,6 +9,8 @@ use crate::solve::{Stages, pattern};
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
 const SAME_ROW: f64 = 1e-9;
+/// Places nearer to zero than this share of the range are zero.
+const ROUNDING: f64 = 1e-12;
 /// Steps between which efforts that pass through infinity are sought.
 const STEPS: usize = 500;
 /// Halvings between two values: down to neighbouring numbers.
@@ -58,6 +60,8 @@ fn poles(varied: &Varied, [from, to]: [f64; 2], found: &Found) -> Vec<BlowUp> {
             };
             let places: Vec<Option<f64>> = (0..pair[0].1.len()).map(pole).collect();
             let Some(place) = places.iter().flatten().next().copied() else { continue };
+            // A change of sign within rounding of zero is at zero.
+            let place = if place.abs() <= ROUNDING * (to - from) { 0.0 } else { place };
             let sign = |values: &[f64]| -> Vec<i8> {
                 let one = |(place, value): (&Option<f64>, &f64)| match place {
                     None => 0,
