@@ -70,6 +70,9 @@ show scotch-yoke.txt 0 solve models/scotch-yoke.toml
 show elliptic-trammel.txt 0 solve models/elliptic-trammel.toml
 show sleeve-on-arm.txt 0 solve models/sleeve-on-arm.toml
 show telescopic-boom.txt 0 solve models/telescopic-boom.toml
+show klepp-2002-spring.txt 0 solve models/klepp-2002-spring.toml
+show frictional-oscillator.txt 0 solve models/frictional-oscillator.toml
+show stick-slip.txt 0 solve models/stick-slip.toml
 
 # The command line.
 show help.txt 0 --help

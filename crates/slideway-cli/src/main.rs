@@ -6,6 +6,8 @@ mod diagnostics;
 mod failure;
 mod input;
 mod output;
+mod picture;
+mod table;
 mod watch;
 
 use arguments::{Arguments, Command};
@@ -25,6 +27,8 @@ enum Outcome {
     Refused = 2,
     /// The search was incomplete and found nothing.
     Unknown = 3,
+    /// It was interrupted, and can be continued.
+    Interrupted = 130,
 }
 
 impl From<Outcome> for ExitCode {
@@ -46,8 +50,11 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Limits(arguments) => commands::limits(arguments, output),
         Command::Size(arguments) => commands::size(arguments, output),
         Command::Drive(arguments) => commands::drive(arguments, output),
+        Command::Map(arguments) => commands::map(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
+        Command::Draw(arguments) => commands::draw(arguments, output),
+        Command::Sweep(arguments) => commands::sweep(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Schema => commands::schema(output),
@@ -57,5 +64,8 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 
 fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
     output::complain(&failure.to_string(), color);
+    if matches!(failure, Failure::Interrupted { .. }) {
+        return Outcome::Interrupted;
+    }
     Outcome::Refused
 }

@@ -2,6 +2,10 @@
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
+mod axis;
+
+pub use axis::AxisProblem;
+
 use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
 use std::fmt;
 use std::ops::Range;
@@ -212,6 +216,8 @@ pub enum FaultKind {
     InvalidName { what: &'static str, name: String, reason: &'static str },
     #[error("`{name}` is the name of a parameter and of a coordinate")]
     SharedName { name: String },
+    #[error("`{name}` is the name of a table and of a parameter or coordinate")]
+    TableSharesName { name: String },
     #[error("the point `{point}` does not belong to {body}")]
     NotOwned { body: String, point: String, owners: Vec<String> },
     #[error("the point `{point}` belongs to several bodies ({})", owners.join(", "))]
@@ -236,10 +242,18 @@ pub enum FaultKind {
     EmptyRange { what: String, from: f64 },
     #[error("nothing in the mode problem depends on {what} between {from} and {to}")]
     NothingVaries { what: String, from: f64, to: f64 },
+    #[error("{what} cannot be both axes of a map")]
+    SameAxes { what: String },
     #[error("{contacts} contacts have more contact modes than the {limit} whose limits are computed")]
     TooManyModes { contacts: usize, limit: u64 },
     #[error("the range of {what} is reversed: it goes from {from} down to {to}")]
     ReversedRange { what: String, from: f64, to: f64 },
+    #[error("the table {name} has {arguments} arguments and {values} values; it needs as many, at least one")]
+    TableLengths { name: String, arguments: usize, values: usize },
+    #[error("the arguments of the table {name} fall at number {row}")]
+    TableFalls { name: String, row: usize },
+    #[error("a table holds constant numbers, none that depend on the time")]
+    TableOfTime,
     #[error("{what} is not a finite number")]
     NotFinite { what: String },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
@@ -266,6 +280,9 @@ pub enum FaultKind {
     // Settings.
     #[error("`{text}` is not of the form name=value")]
     MalformedSetting { text: String },
+
+    #[error("`{text}`: {problem}")]
+    Axis { text: String, problem: AxisProblem },
 
     // Degrees of freedom and coordinates.
     #[error("the structure is redundant: {} in excess, so the reactions are indeterminate", constraints(*excess))]
@@ -367,6 +384,7 @@ impl FaultKind {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
+            Self::Axis { problem, .. } => problem.hint(),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }

@@ -21,6 +21,7 @@ macro_rules! gallery {
 /// All models of the gallery.
 pub const MODELS: &[GalleryModel] = gallery![
     "klepp-2002",
+    "klepp-2002-spring",
     "painleve-klein",
     "drawer",
     "cam-follower",
@@ -32,6 +33,8 @@ pub const MODELS: &[GalleryModel] = gallery![
     "elliptic-trammel",
     "sleeve-on-arm",
     "telescopic-boom",
+    "frictional-oscillator",
+    "stick-slip",
 ];
 
 impl GalleryModel {

@@ -2,28 +2,36 @@
 
 mod check;
 mod destination;
+mod draw;
 mod drive;
 mod hold;
 mod limits;
+mod map;
 mod model;
 mod models;
 mod modes;
+mod plot;
 mod search;
 mod size;
 mod solve;
+mod sweep;
 mod values;
 
 pub(crate) use check::CheckArguments;
 pub(crate) use destination::{CheckFormat, Destination, Format};
+pub(crate) use draw::{DrawArguments, Which};
 pub(crate) use drive::DriveArguments;
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
+pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
+pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use search::SearchArguments;
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
+pub(crate) use sweep::{SweepArguments, TableFormat};
 
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -53,7 +61,10 @@ Examples:
   slideway limits drawer.toml --vary mu         at which friction it jams
   slideway size drawer.toml --vary L --margin 2 how long its guide has to be
   slideway drive drawer.toml                    which push it needs, with which efficiency
+  slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
+  slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
+  slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -73,12 +84,21 @@ pub(crate) enum Command {
     /// Say which force or torque each drive needs against friction
     #[command(after_help = drive::HELP)]
     Drive(DriveArguments),
+    /// Map the plane of two quantities by its solutions, contact modes or margins
+    #[command(after_help = map::HELP)]
+    Map(MapArguments),
+    /// Compute all solutions at every point of a grid, or for random samples, into a table
+    #[command(after_help = sweep::HELP)]
+    Sweep(SweepArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
     /// Say whether a mechanism stays at rest, and how it begins to move if not
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
+    /// Draw a mechanism and its solutions to a picture, SVG or PNG
+    #[command(after_help = draw::HELP)]
+    Draw(DrawArguments),
     /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),

@@ -51,9 +51,9 @@ impl Efforts {
 
     /// The efforts in the solution of a pattern; none where its determinant vanishes.
     pub(super) fn of(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
-        let outputs = self.line.outputs(pattern, 0.0)?;
-        // The efforts stand behind the couples. Adding zero turns -0 into 0.
-        Some(outputs.iter().skip(outputs.len() - self.drives).map(|effort| effort + 0.0).collect())
+        let unknowns = self.line.unknowns(pattern, 0.0)?;
+        // The efforts stand at the end. Adding zero turns -0 into 0.
+        Some(unknowns.iter().skip(unknowns.len() - self.drives).map(|effort| effort + 0.0).collect())
     }
 
     fn normal_forces(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {

@@ -139,7 +139,7 @@ pub struct DrivenQuantity {
     /// Its name.
     pub name: String,
     /// Its unit; empty where there is none, or none is known.
-    pub unit: &'static str,
+    pub unit: String,
     /// Where the range begins.
     pub from: f64,
     /// Where it ends.

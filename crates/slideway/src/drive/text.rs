@@ -3,8 +3,8 @@
 use super::report::{
     BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
 };
-use crate::limits::precise;
 use crate::report::number::number;
+use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Status, Style, Verdict, spaced};
@@ -177,7 +177,7 @@ impl Page<'_, DriveReport> {
     }
 
     fn course_table(&self, course: &Course, direction: &CourseDirection) -> String {
-        let name = match course.vary.unit {
+        let name = match course.vary.unit.as_str() {
             "" => course.vary.name.clone(),
             unit => format!("{} in {unit}", course.vary.name),
         };

@@ -67,9 +67,9 @@ impl Expression {
 fn run<T: Real>(steps: &[Step], values: &Values<'_, T>, stack: &mut [T]) -> Result<T, ExpressionFault> {
     let mut height = 0;
     for step in steps {
-        let value = match step.operation {
-            Operation::Number { value, enclosure, .. } => T::written(value, enclosure),
-            Operation::Symbol(symbol) => values.of(symbol).map_err(|kind| fault(kind, step))?,
+        let value = match &step.operation {
+            Operation::Number { value, enclosure, .. } => T::written(*value, *enclosure),
+            Operation::Symbol(symbol) => values.of(*symbol).map_err(|kind| fault(kind, step))?,
             Operation::Unary(function) => {
                 height -= 1;
                 function.value(stack[height])
@@ -78,9 +78,13 @@ fn run<T: Real>(steps: &[Step], values: &Values<'_, T>, stack: &mut [T]) -> Resu
                 height -= 2;
                 function.value(stack[height], stack[height + 1])
             }
+            Operation::Table(table) => {
+                height -= 1;
+                table.at(stack[height])
+            }
         };
         if !value.is_finite() {
-            return Err(fault(not_finite(step.operation, &stack[height..], value), step));
+            return Err(fault(not_finite(&step.operation, &stack[height..], value), step));
         }
         stack[height] = value;
         height += 1;
@@ -92,20 +96,23 @@ fn fault(kind: ExpressionFaultKind, step: &Step) -> ExpressionFault {
     ExpressionFault::new(kind, step.span.clone())
 }
 
-fn not_finite<T: Real>(operation: Operation, arguments: &[T], value: T) -> ExpressionFaultKind {
+fn not_finite<T: Real>(operation: &Operation, arguments: &[T], value: T) -> ExpressionFaultKind {
     let numbers = |count: usize| arguments[..count].iter().map(|argument| argument.middle()).collect();
     match operation {
         Operation::Number { .. } | Operation::Symbol(_) => {
             ExpressionFaultKind::ValueNotFinite { value: value.middle() }
         }
         Operation::Unary(function) => {
-            ExpressionFaultKind::NotFinite { operation: function.name(), arguments: numbers(1) }
+            ExpressionFaultKind::NotFinite { operation: function.name().to_owned(), arguments: numbers(1) }
         }
         Operation::Binary(Binary::Divide) if arguments[1].is_zero() => {
             ExpressionFaultKind::DivisionByZero { numerator: arguments[0].middle() }
         }
+        Operation::Table(table) => {
+            ExpressionFaultKind::NotFinite { operation: table.name.to_string(), arguments: numbers(1) }
+        }
         Operation::Binary(function) => {
-            ExpressionFaultKind::NotFinite { operation: function.name(), arguments: numbers(2) }
+            ExpressionFaultKind::NotFinite { operation: function.name().to_owned(), arguments: numbers(2) }
         }
     }
 }

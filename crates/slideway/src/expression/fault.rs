@@ -103,7 +103,7 @@ pub enum ExpressionFaultKind {
         /// The name.
         name: String,
         /// The function most like it.
-        nearest: Option<&'static str>,
+        nearest: Option<String>,
         /// Whether the model has something of this name.
         is_name: bool,
     },
@@ -175,6 +175,16 @@ pub enum ExpressionFaultKind {
         /// Dimension of its argument.
         found: Dimension,
     },
+    /// A table asked for the value at something of another dimension.
+    #[error("the table `{table}` wants {wanted}, not {found}")]
+    TableArgument {
+        /// The table.
+        table: String,
+        /// Dimension of its arguments.
+        wanted: Dimension,
+        /// Dimension of the argument.
+        found: Dimension,
+    },
     /// An exponent with a dimension.
     #[error("an exponent must be a pure number, not {found}")]
     ExponentDimension {
@@ -208,7 +218,7 @@ pub enum ExpressionFaultKind {
     #[error("`{operation}` has no finite value for {}", listed(.arguments))]
     NotFinite {
         /// The operator or function.
-        operation: &'static str,
+        operation: String,
         /// Its arguments.
         arguments: Vec<f64>,
     },
@@ -244,7 +254,7 @@ impl ExpressionFaultKind {
             Self::UnknownName { nearest, .. } | Self::NotACoordinate { nearest, .. } => {
                 nearest.as_deref().map(did_you_mean)
             }
-            Self::UnknownFunction { nearest, .. } => nearest.map(did_you_mean),
+            Self::UnknownFunction { nearest, .. } => nearest.as_deref().map(did_you_mean),
             Self::UnknownUnit { unit, nearest, is_name } => unit_hint(unit, nearest, *is_name),
             Self::AmbiguousUnit { name, as_name, as_unit } => {
                 Some(format!("write `{as_name}` for the model's `{name}`, `{as_unit}` for the unit"))

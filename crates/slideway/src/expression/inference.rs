@@ -7,6 +7,7 @@ use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::function::{Binary, Unary};
 use super::names::Symbol;
 use super::program::{Expression, Operation};
+use super::table::Table;
 
 /// What is known of a part of the expression: its dimension, its value if it is constant, its place.
 struct Part {
@@ -44,17 +45,23 @@ impl Expression {
         let mut stack: Vec<Part> = Vec::with_capacity(self.greatest_height());
         for step in self.steps() {
             let span = step.span.clone();
-            let part = match step.operation {
-                Operation::Number { value, inferred, .. } => Part { inferred, constant: Some(value), span },
-                Operation::Symbol(symbol) => Part { inferred: of(symbol), constant: None, span },
+            let part = match &step.operation {
+                Operation::Number { value, inferred, .. } => {
+                    Part { inferred: *inferred, constant: Some(*value), span }
+                }
+                Operation::Symbol(symbol) => Part { inferred: of(*symbol), constant: None, span },
                 Operation::Unary(function) => {
                     let x = stack.pop().unwrap_or_else(Part::unknown);
-                    unary(function, &x, span)?
+                    unary(*function, &x, span)?
                 }
                 Operation::Binary(function) => {
                     let y = stack.pop().unwrap_or_else(Part::unknown);
                     let x = stack.pop().unwrap_or_else(Part::unknown);
-                    binary(function, &x, &y, span)?
+                    binary(*function, &x, &y, span)?
+                }
+                Operation::Table(table) => {
+                    let x = stack.pop().unwrap_or_else(Part::unknown);
+                    looked_up(table, &x, span)?
                 }
             };
             stack.push(part);
@@ -108,6 +115,17 @@ fn binary(function: Binary, x: &Part, y: &Part, span: Range<usize>) -> Result<Pa
     let inferred = inferred.map_err(|kind| ExpressionFault::new(kind, span.clone()))?;
     let constant = x.constant.zip(y.constant).map(|(x, y)| function.value(x, y));
     Ok(Part { inferred, constant, span })
+}
+
+/// The value of a table, whose argument must have the dimension of the table's.
+fn looked_up(table: &Table, x: &Part, span: Range<usize>) -> Result<Part, ExpressionFault> {
+    if let (Inferred::Known(wanted), Inferred::Known(found)) = (table.argument, x.inferred)
+        && wanted != found
+    {
+        let kind = ExpressionFaultKind::TableArgument { table: table.name.to_string(), wanted, found };
+        return Err(ExpressionFault::new(kind, x.span.clone()));
+    }
+    Ok(Part { inferred: table.value, constant: x.constant.map(|value| table.at(value)), span })
 }
 
 /// The dimension of arguments that must agree.

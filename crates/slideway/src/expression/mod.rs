@@ -19,6 +19,7 @@
 //! | `sqrt abs`, `min(x, y, ...)`, `max(x, y, ...)` | keep the dimension (`sqrt` halves it) |
 //! | `sign(x)` | -1, 0 or 1 |
 //! | `step(x)` | 0 for x < 0, else 1 |
+//! | `NAME(x)` | the table NAME of the model at x |
 //! | `pi`, `t` | the number, the time |
 //! | `rate(q)` | rate of change of the coordinate `q` |
 //!
@@ -44,6 +45,7 @@ mod literal;
 mod names;
 mod parser;
 mod program;
+mod table;
 mod unit;
 
 pub use dimension::{Dimension, Inferred};
@@ -53,3 +55,4 @@ pub(crate) use names::nearest as nearest_names;
 pub use names::{Names, Symbol, is_reserved, is_valid_name};
 pub use parser::{MAX_DEPTH, MAX_LENGTH, parse};
 pub use program::Expression;
+pub use table::{Beyond, Entry, Table};

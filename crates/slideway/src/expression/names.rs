@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 
 use super::function::{self, FUNCTIONS};
+use super::table::Table;
+use std::sync::Arc;
 
 /// What a name in an expression stands for; an index is the position in the model's list of that kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,6 +36,7 @@ pub struct Names {
     in_order: Vec<String>,
     parameters: usize,
     coordinates: usize,
+    tables: Vec<Arc<Table>>,
 }
 
 impl Names {
@@ -58,6 +61,16 @@ impl Names {
         self.add(name, symbol)
     }
 
+    /// Adds a table, which expressions may call as a function.
+    pub fn table(&mut self, table: Arc<Table>) {
+        self.tables.push(table);
+    }
+
+    /// The table with this name.
+    pub(super) fn table_named(&self, name: &str) -> Option<&Arc<Table>> {
+        self.tables.iter().find(|table| *table.name == *name)
+    }
+
     fn add(&mut self, name: &str, symbol: Symbol) -> Symbol {
         if !self.symbols.contains_key(name) {
             self.symbols.insert(name.to_owned(), symbol);
@@ -78,6 +91,13 @@ impl Names {
     pub fn nearest(&self, name: &str) -> Option<&str> {
         let known = self.in_order.iter().map(String::as_str).chain([TIME, PI]);
         nearest(name, known).first().copied()
+    }
+
+    /// The function or table most like `name`, if one is like it at all.
+    pub(super) fn nearest_function(&self, name: &str) -> Option<&str> {
+        let tables = self.tables.iter().map(|table| &*table.name);
+        let callable = FUNCTIONS.iter().map(|(known, _)| *known).chain([RATE]).chain(tables);
+        nearest(name, callable).first().copied()
     }
 
     /// The coordinate most like `name`, if one is like it at all.
@@ -119,12 +139,6 @@ pub(super) fn starts_name(character: char) -> bool {
 
 pub(super) fn continues_name(character: char) -> bool {
     starts_name(character) || character.is_ascii_digit()
-}
-
-/// The function most like `name`, if one is like it at all.
-pub(super) fn nearest_function(name: &str) -> Option<&'static str> {
-    let callable = FUNCTIONS.iter().map(|(known, _)| *known).chain([RATE]);
-    nearest(name, callable).first().copied()
 }
 
 /// The candidates most like `name`, best first: those that differ in case only, else those a few edits away.

@@ -2,13 +2,15 @@
 
 use std::f64::consts;
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::dimension::Inferred;
 use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::function::{self, Binary, Function, Unary};
 use super::lexer::{Token, TokenKind, tokens};
-use super::names::{Names, PI, RATE, Symbol, nearest_function};
+use super::names::{Names, PI, RATE, Symbol};
 use super::program::{Expression, Operation};
+use super::table::Table;
 use super::unit;
 use crate::interval::Interval;
 
@@ -214,7 +216,7 @@ impl<'t> Parser<'t> {
 
     fn no_such_name(&self, name: &str) -> ExpressionFaultKind {
         let name = name.to_owned();
-        if name == RATE || function::find(&name).is_some() {
+        if name == RATE || function::find(&name).is_some() || self.names.table_named(&name).is_some() {
             return ExpressionFaultKind::FunctionWithoutArguments { name };
         }
         let nearest = self.names.nearest(&name).map(str::to_owned);
@@ -227,12 +229,15 @@ impl<'t> Parser<'t> {
         if name == RATE {
             return self.rate(called.start);
         }
-        let known = function::find(name);
         let start = called.start;
+        if let Some(table) = self.names.table_named(name).cloned() {
+            return self.look_up(table, start);
+        }
+        let known = function::find(name);
         if known.is_none() {
             let kind = ExpressionFaultKind::UnknownFunction {
                 name: name.to_owned(),
-                nearest: nearest_function(name),
+                nearest: self.names.nearest_function(name).map(str::to_owned),
                 is_name: name == PI || self.names.lookup(name).is_some(),
             };
             self.faults.push(ExpressionFault::new(kind, called));
@@ -248,6 +253,21 @@ impl<'t> Parser<'t> {
             self.faults.push(ExpressionFault::new(kind, start..end));
         } else if let Some(function @ Function::Unary(_)) = known {
             self.apply(function, start..end);
+        }
+        Ok(start..end)
+    }
+
+    /// The argument of a table, whose name begins at `start`.
+    fn look_up(&mut self, table: Arc<Table>, start: usize) -> Read {
+        let mut count = 0;
+        let end = self.parenthesis(|parser| parser.arguments(None, start, &mut count))?;
+        if count == 1 {
+            self.program.push(Operation::Table(table), start..end);
+        } else {
+            let function = table.name.to_string();
+            let kind =
+                ExpressionFaultKind::WrongArgumentCount { function, expected: "one argument", found: count };
+            self.faults.push(ExpressionFault::new(kind, start..end));
         }
         Ok(start..end)
     }

@@ -1,14 +1,16 @@
 //! A parsed expression as a list of steps for a stack machine.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::decimal;
 use super::dimension::Inferred;
 use super::function::{Binary, Unary};
 use super::names::Symbol;
+use super::table::Table;
 use crate::interval::Interval;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Operation {
     /// A number that was written: the nearest to it, and where it lies.
     Number {
@@ -19,6 +21,7 @@ pub(super) enum Operation {
     Symbol(Symbol),
     Unary(Unary),
     Binary(Binary),
+    Table(Arc<Table>),
 }
 
 /// One operation; the span is that of the whole part of the text whose value it leaves on the stack.
@@ -99,7 +102,7 @@ impl Expression {
     pub(super) fn push(&mut self, operation: Operation, span: Range<usize>) {
         match operation {
             Operation::Number { .. } | Operation::Symbol(_) => self.height += 1,
-            Operation::Unary(_) => {}
+            Operation::Unary(_) | Operation::Table(_) => {}
             Operation::Binary(_) => self.height = self.height.saturating_sub(1),
         }
         self.greatest_height = self.greatest_height.max(self.height);

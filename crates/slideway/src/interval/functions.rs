@@ -157,6 +157,10 @@ impl Real for Interval {
         Self::middle(self)
     }
 
+    fn image(self, _: impl FnOnce(f64) -> f64, interval: impl FnOnce(Interval) -> Interval) -> Self {
+        interval(self)
+    }
+
     fn square(self) -> Self {
         let size = Self::abs(self);
         from(0.0, size * size)

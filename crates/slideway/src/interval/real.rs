@@ -58,6 +58,10 @@ pub trait Real:
         self.lower().abs().max(self.upper().abs())
     }
 
+    /// The value of a function that is given for numbers and, enclosing all its values, for intervals.
+    #[must_use]
+    fn image(self, number: impl FnOnce(f64) -> f64, interval: impl FnOnce(Interval) -> Interval) -> Self;
+
     /// Its square.
     #[must_use]
     fn square(self) -> Self;
@@ -148,6 +152,10 @@ impl Real for f64 {
 
     fn middle(self) -> f64 {
         self
+    }
+
+    fn image(self, number: impl FnOnce(f64) -> f64, _: impl FnOnce(Interval) -> Interval) -> Self {
+        number(self)
     }
 
     fn square(self) -> Self {

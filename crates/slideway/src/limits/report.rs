@@ -54,6 +54,8 @@ pub struct VariedQuantity {
     pub to: f64,
     /// Its value in the model.
     pub value: f64,
+    /// Its SI unit; empty for pure numbers and angles.
+    pub unit: String,
 }
 
 /// The modes of the opposite direction of motion.
@@ -129,15 +131,15 @@ pub fn to_json(report: &LimitsReport) -> String {
 }
 
 /// The names of a mechanism's parts, and how its guides lie.
-pub(super) struct Naming {
-    mechanism: Mechanism,
+pub(crate) struct Naming {
+    pub(super) mechanism: Mechanism,
     configuration: Configuration,
 }
 
 impl Naming {
     /// # Errors
     /// A model that cannot be assembled in its state.
-    pub(super) fn new(model: &Model) -> Result<Self, Faults> {
+    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
         let mechanism = Mechanism::new(model)?;
         let configuration = Configuration::new(&mechanism)?;
         Ok(Self { mechanism, configuration })
@@ -150,6 +152,19 @@ impl Naming {
             JointMode { name: name.to_owned(), mode: mode_in_words(slider, tangent, &signs) }
         };
         self.sliders().map(one).collect()
+    }
+
+    /// The contact modes of all joints in a pattern, in words.
+    pub(crate) fn in_words(&self, pattern: &str) -> String {
+        let sign = |sign: char| match sign {
+            '+' => 1,
+            '-' => -1,
+            _ => 0,
+        };
+        let signs: Vec<i8> = pattern.chars().map(sign).collect();
+        let words =
+            self.joint_modes(&signs).into_iter().map(|joint| format!("{} {}", joint.name, joint.mode));
+        words.collect::<Vec<_>>().join("; ")
     }
 
     fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
@@ -235,7 +250,13 @@ pub(super) fn report(
     LimitsReport {
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
-        vary: VariedQuantity { name: varied.name.clone(), from: range[0], to: range[1], value },
+        vary: VariedQuantity {
+            name: varied.name.clone(),
+            from: range[0],
+            to: range[1],
+            value,
+            unit: varied.unit(),
+        },
         method: if found.is_linear { "closed form" } else { "bracketing" },
         guarantee,
         modes: forwards.modes,

@@ -10,7 +10,7 @@ use crate::solve::{Parts, Stages};
 pub const FRICTION: &str = "friction";
 
 /// What is varied in a model.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// The factor of all coefficients of friction.
     Friction,
@@ -94,21 +94,56 @@ impl Varied {
         }
     }
 
+    /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.
+    pub(crate) fn shown_in(&self, range: &str) -> ShownIn {
+        let [from, to] = range.split_once("..").map_or([""; 2], |(from, to)| [unit_of(from), unit_of(to)]);
+        let scale =
+            if from == to && !from.is_empty() { self.value_of(&format!("1 {from}")).ok() } else { None };
+        match scale {
+            Some(scale) if scale > 0.0 => ShownIn { unit: from.to_owned(), scale },
+            _ => ShownIn { unit: self.unit(), scale: 1.0 },
+        }
+    }
+
+    /// The SI unit, empty for pure numbers.
+    pub(crate) fn unit(&self) -> String {
+        let coordinate = self.model.coordinates.iter().find(|coordinate| *coordinate.name == *self.name);
+        match (self.kind, coordinate) {
+            (Kind::Friction, _) | (Kind::Coordinate, None) => String::new(),
+            (Kind::Coordinate, Some(coordinate)) => {
+                if coordinate.kind.is_angle() {
+                    "rad".to_owned()
+                } else {
+                    "m".to_owned()
+                }
+            }
+            (Kind::Parameter, _) => self.model.parameter_unit(&self.name),
+        }
+    }
+
     fn setting(&self, kind: SettingKind, value: &str) -> Setting {
         Setting { kind, name: self.name.clone(), value: value.trim().to_owned() }
     }
 
-    /// The model with this value; unchanged where all friction is scaled.
+    /// These settings and this value; a factor of friction is no setting.
+    pub(crate) fn set(&self, settings: Settings, value: f64) -> Settings {
+        let value = format!("{value:e}");
+        match self.kind {
+            Kind::Friction => settings,
+            Kind::Parameter => settings.parameter(&self.name, &value),
+            Kind::Coordinate => settings.position(&self.name, &value),
+        }
+    }
+
+    /// The model at a value, and the factor of its coefficients of friction there.
     ///
     /// # Errors
-    /// A value that is not allowed.
-    pub(crate) fn with(&self, value: &str) -> Result<Model, Faults> {
-        let settings = Settings::default();
-        self.model.with(&match self.kind {
-            Kind::Friction => settings,
-            Kind::Parameter => settings.parameter(&self.name, value),
-            Kind::Coordinate => settings.position(&self.name, value),
-        })
+    /// A value that the model does not allow.
+    pub(crate) fn model_at(&self, value: f64) -> Result<(Model, f64), Faults> {
+        if self.is_friction_factor() {
+            return Ok((self.model.clone(), value));
+        }
+        Ok((self.model.with(&self.set(Settings::default(), value))?, 1.0))
     }
 
     /// The mode problem at a value.
@@ -130,7 +165,7 @@ impl Varied {
     ) -> Result<R, Faults> {
         match &self.stages {
             Some(stages) => question(stages, value),
-            None => question(&Stages::new(&self.with(&format!("{value:e}"))?)?, 1.0),
+            None => question(&Stages::new(&self.model_at(value)?.0)?, 1.0),
         }
     }
 
@@ -142,21 +177,6 @@ impl Varied {
         self.at(value, |stages, factor| Ok(stages.parts(0.0)?.line_to(&stages.parts(factor)?)))
     }
 
-    /// Unit of its values; empty where there is none, or none is known.
-    pub(crate) fn unit(&self) -> &'static str {
-        match self.kind {
-            Kind::Friction => "",
-            Kind::Parameter => self.model.parameter_unit(&self.name).unwrap_or_default(),
-            Kind::Coordinate => {
-                let coordinates = self.model.coordinates.iter();
-                let same = coordinates.filter(|coordinate| *coordinate.name == *self.name);
-                same.map(|coordinate| if coordinate.kind.is_angle() { "rad" } else { "m" })
-                    .next()
-                    .unwrap_or("")
-            }
-        }
-    }
-
     /// The model in which it is varied.
     pub(crate) fn model(&self) -> &Model {
         &self.model
@@ -166,6 +186,23 @@ impl Varied {
     pub(crate) fn is_coordinate(&self) -> bool {
         self.kind == Kind::Coordinate
     }
+}
+
+/// The unit in which values of what is varied are shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShownIn {
+    /// Its name, empty for pure numbers.
+    pub unit: String,
+    /// The unit in SI units.
+    pub scale: f64,
+}
+
+/// What stands behind the number of a quantity.
+fn unit_of(text: &str) -> &str {
+    let text = text.trim();
+    let number =
+        (0..=text.len()).rev().filter_map(|end| text.get(..end)).find(|start| start.parse::<f64>().is_ok());
+    number.map_or("", |number| text[number.len()..].trim())
 }
 
 fn unknown(model: &Model, name: &str) -> Faults {

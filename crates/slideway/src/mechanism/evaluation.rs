@@ -1,8 +1,8 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, Joint, JointKind, Load, LoadKind,
-    Mechanism, Quantity, Slider, length, rot90,
+    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, Event, Joint, JointKind, Load,
+    LoadKind, Mechanism, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -39,6 +39,7 @@ impl<T: Real> Evaluation<'_, T> {
             loads: model.loads.iter().map(|load| self.load(load)).collect(),
             drives: model.drives.iter().map(|drive| self.drive(drive)).collect(),
             coordinates,
+            events: model.events.iter().map(|event| self.event(event)).collect(),
             size: 1.0,
             parameters: model.parameter_values(&self.values),
             formulas: Arc::clone(&model.formulas),
@@ -105,6 +106,17 @@ impl<T: Real> Evaluation<'_, T> {
             moment_of_inertia,
             centre_of_mass,
             points,
+            shape: self.shape(&body.inertia),
+        }
+    }
+
+    fn shape(&self, inertia: &Inertia) -> Option<Shape<T>> {
+        let Inertia::Massive { moment, .. } = inertia else { return None };
+        match moment {
+            Moment::Given(_) => None,
+            Moment::Bar(ends) => Some(Shape::Bar(ends.map(|end| self.vector(end)))),
+            Moment::Rectangle(sides) => Some(Shape::Rectangle(sides.map(|side| self.value(side)))),
+            Moment::Disc(radius) => Some(Shape::Disc(self.value(*radius))),
         }
     }
 
@@ -227,6 +239,16 @@ impl<T: Real> Evaluation<'_, T> {
             coordinate: drive.coordinate,
             acceleration: drive.acceleration.map_or(Quantity::Constant(T::zero()), |id| self.quantity(id)),
             effort,
+        }
+    }
+
+    fn event(&self, event: &model::Event) -> Event<T> {
+        Event {
+            name: event.name.clone(),
+            place: event.place.clone(),
+            zero_of: self.quantity(event.zero_of),
+            direction: event.direction,
+            stops: event.stops,
         }
     }
 

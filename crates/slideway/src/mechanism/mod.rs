@@ -9,7 +9,7 @@ use crate::expression::Values;
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
-use crate::model::{CarriedBy, Formula, Model, PreloadLine, SliderKind};
+use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind};
 use evaluation::Evaluation;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -38,6 +38,8 @@ pub struct Mechanism<T = f64> {
     pub drives: Vec<Drive<T>>,
     /// The chosen coordinates.
     pub coordinates: Vec<Coordinate<T>>,
+    /// What a motion is watched for.
+    pub events: Vec<Event<T>>,
     /// The greatest distance between two of its places (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
     parameters: Vec<T>,
@@ -59,6 +61,19 @@ pub struct Body<T = f64> {
     pub centre_of_mass: Vector2<T>,
     /// Its named points in the drawing.
     pub points: Vec<(Arc<str>, Vector2<T>)>,
+    /// Its shape in the drawing, if the model gives one.
+    pub shape: Option<Shape<T>>,
+}
+
+/// Shape of a homogeneous body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape<T = f64> {
+    /// A thin bar between two places of the drawing.
+    Bar([Vector2<T>; 2]),
+    /// A rectangle about the centre of mass: width and height (m).
+    Rectangle([T; 2]),
+    /// A disc of this radius (m) about the centre of mass.
+    Disc(T),
 }
 
 /// A point that moves with a frame.
@@ -262,6 +277,21 @@ pub enum Effort<T = f64> {
     },
 }
 
+/// Something that happens in a motion when a quantity passes through zero.
+#[derive(Debug, Clone)]
+pub struct Event<T = f64> {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the model file.
+    pub place: Place,
+    /// The quantity.
+    pub zero_of: Quantity<T>,
+    /// In which direction it passes.
+    pub direction: CrossingDirection,
+    /// Whether the motion ends there.
+    pub stops: bool,
+}
+
 /// A chosen coordinate.
 #[derive(Debug, Clone)]
 pub struct Coordinate<T = f64> {
@@ -303,7 +333,15 @@ impl Mechanism {
     /// # Errors
     /// Every value that is not finite or not allowed, or too large or small to compute with.
     pub fn new(model: &Model) -> Result<Self, Faults> {
-        let mut mechanism = Evaluation { model, values: model.constants()? }.mechanism();
+        Self::with_parameters(model, &[])
+    }
+
+    /// [`Self::new`] with other values of some parameters, which are given by their numbers.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn with_parameters(model: &Model, given: &[(usize, f64)]) -> Result<Self, Faults> {
+        let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
         Ok(mechanism)

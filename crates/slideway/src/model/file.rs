@@ -24,6 +24,8 @@ pub(super) struct ModelFile {
     time: Option<Quantity>,
     /// Named numbers that any expression may use and that `--set name=value` overrides.
     parameters: Option<BTreeMap<String, Quantity>>,
+    /// Functions given by values, which expressions may call: `push(t)` for `[tables.push]`.
+    tables: Option<BTreeMap<String, TableTable>>,
     /// Points in world coordinates [x, y] of the reference drawing.
     points: Option<BTreeMap<String, Components>>,
     /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
@@ -36,6 +38,55 @@ pub(super) struct ModelFile {
     drives: Option<BTreeMap<String, DriveTable>>,
     /// The chosen coordinates: as many as there are degrees of freedom.
     coordinates: Option<BTreeMap<String, CoordinateTable>>,
+    /// What a motion in time is watched for, beside what the joints do.
+    events: Option<BTreeMap<String, EventTable>>,
+}
+
+/// A function of one argument, linear between its values.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct TableTable {
+    /// The arguments, numbers with or without a unit, which must not fall; the value jumps where two are equal.
+    pub(super) argument: Vec<Quantity>,
+    /// The value at each argument.
+    pub(super) value: Vec<Quantity>,
+    /// Outside the arguments: "hold" the first and last value (default), or "repeat" the table.
+    pub(super) beyond: Option<BeyondName>,
+}
+
+/// What a table says outside its arguments.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum BeyondName {
+    /// The first value before them, the last after them.
+    Hold,
+    /// The table again.
+    Repeat,
+}
+
+/// Something that happens when a quantity passes through zero.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct EventTable {
+    /// The quantity, of coordinates, rates and time.
+    pub(super) zero_of: Quantity,
+    /// Whether it happens where the quantity is "rising", "falling" or "both" (default).
+    pub(super) direction: Option<CrossingDirection>,
+    /// `true`: the motion ends there. Default: `false`.
+    pub(super) stops: Option<bool>,
+}
+
+/// In which direction a quantity passes through zero.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum CrossingDirection {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Either.
+    #[default]
+    Both,
 }
 
 /// A rigid body.

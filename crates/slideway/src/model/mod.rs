@@ -40,7 +40,7 @@ mod sections;
 mod settings;
 mod structure;
 
-pub use file::{CarriedBy, ForceFrame, PreloadLine};
+pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
 pub use formula::{Allowed, Formula, Origin};
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
@@ -76,6 +76,8 @@ pub struct Model {
     pub drives: Vec<Drive>,
     /// The chosen coordinates, in the order of the file.
     pub coordinates: Vec<Coordinate>,
+    /// What a motion is watched for, in the order of the file.
+    pub events: Vec<Event>,
     /// Every formula of the model.
     pub formulas: Arc<Vec<Formula>>,
     /// The parameters in an order in which each uses only those before it.
@@ -396,6 +398,21 @@ pub enum CoordinateKind {
     X(Attachment),
     /// Displacement of a point in the direction of y.
     Y(Attachment),
+}
+
+/// Something that happens in a motion when a quantity passes through zero.
+#[derive(Debug, Clone)]
+pub struct Event {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its entry in the file.
+    pub place: Place,
+    /// The quantity, of any dimension.
+    pub zero_of: FormulaId,
+    /// In which direction it passes.
+    pub direction: CrossingDirection,
+    /// Whether the motion ends there.
+    pub stops: bool,
 }
 
 impl CoordinateKind {

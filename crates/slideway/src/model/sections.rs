@@ -2,9 +2,9 @@
 //! faulty entry hides no other.
 
 use super::file::{
-    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, Entry, ForceTable,
-    GuidedSliderTable, HingeTable, PinInSlotTable, SpringTable, TorqueTable, TorsionalDamperTable,
-    TorsionalSpringTable,
+    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, Entry, EventTable, ForceTable,
+    GuidedSliderTable, HingeTable, PinInSlotTable, SpringTable, TableTable, TorqueTable,
+    TorsionalDamperTable, TorsionalSpringTable,
 };
 use super::quantity::{Components, Gravity, Name, Quantity};
 use super::structure::StructureCheck;
@@ -21,12 +21,14 @@ pub(super) struct Sections {
     pub(super) gravity: Option<Gravity>,
     pub(super) time: Option<Quantity>,
     pub(super) parameters: Vec<Entry<Quantity>>,
+    pub(super) tables: Vec<Entry<TableTable>>,
     pub(super) points: Vec<Entry<Components>>,
     pub(super) bodies: Vec<Entry<BodyTable>>,
     pub(super) joints: Vec<Entry<JointContents>>,
     pub(super) loads: Vec<Entry<LoadContents>>,
     pub(super) drives: Vec<Entry<DriveTable>>,
     pub(super) coordinates: Vec<Entry<CoordinateTable>>,
+    pub(super) events: Vec<Entry<EventTable>>,
 }
 
 /// The contents of a joint's table, by its `type`.
@@ -62,12 +64,14 @@ pub(super) fn sections(text: &str) -> (Sections, Faults) {
         gravity: reader.single(&mut root, "gravity"),
         time: reader.single(&mut root, "time"),
         parameters: reader.section(&mut root, "parameters", deserialize),
+        tables: reader.section(&mut root, "tables", deserialize),
         points: reader.section(&mut root, "points", deserialize),
         bodies: reader.section(&mut root, "bodies", deserialize),
         joints: reader.section(&mut root, "joints", joint),
         loads: reader.section(&mut root, "loads", load),
         drives: reader.section(&mut root, "drives", deserialize),
         coordinates: reader.section(&mut root, "coordinates", deserialize),
+        events: reader.section(&mut root, "events", deserialize),
     };
     faults.append(reader.faults);
     faults.append(reader.check.into_faults());

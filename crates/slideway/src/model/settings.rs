@@ -159,7 +159,7 @@ impl Model {
         Ok(())
     }
 
-    /// The value that a parameter or coordinate would have by a setting (SI units), whether or not the model makes sense
+    /// The value that a parameter, coordinate, rate or the time would have by a setting (SI units), whether or not the model makes sense
     /// with it.
     ///
     /// # Errors
@@ -169,6 +169,8 @@ impl Model {
         let wanted = if setting.kind == SettingKind::Parameter {
             let index = parameters.iter().position(|parameter| *parameter.name == *setting.name);
             index.and_then(|index| self.parameter_dimension(index))
+        } else if setting.kind == SettingKind::Time {
+            Some(Dimension::TIME)
         } else {
             let coordinate = coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
             coordinate.map(|found| dimension_of(found, setting.kind == SettingKind::Position))

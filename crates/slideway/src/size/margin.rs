@@ -93,7 +93,7 @@ impl Question<'_> {
 
     /// The factor of static friction at which the mechanism becomes self-locking.
     fn threshold(&self, load: &str, value: f64) -> Result<Option<f64>, Faults> {
-        let (threshold, undecided) = self_locking_factor(&self.varied.with(&format!("{value:e}"))?, load)?;
+        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?.0, load)?;
         if undecided > 0 {
             return Err(Fault::general(FaultKind::UndecidedAtRest { load: load.to_owned() }).into());
         }

@@ -64,7 +64,7 @@ pub struct SizedQuantity {
     /// Its name.
     pub name: String,
     /// Its unit; empty where there is none, or none is known.
-    pub unit: &'static str,
+    pub unit: String,
     /// Where the range begins.
     pub from: f64,
     /// Where it ends.

@@ -2,8 +2,8 @@
 
 use super::report::{MetInterval, SampleKind, SizeReport};
 use super::words::quantity;
-use crate::limits::precise;
 use crate::report::Style;
+use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
 
@@ -46,7 +46,7 @@ impl Page<'_, SizeReport> {
         let report = self.report;
         self.line("");
         self.headline("Margins");
-        let name = match report.vary.unit {
+        let name = match report.vary.unit.as_str() {
             "" => report.vary.name.clone(),
             unit => format!("{} in {unit}", report.vary.name),
         };

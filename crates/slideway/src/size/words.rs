@@ -2,8 +2,8 @@
 
 use super::report::{MarginKind, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Place;
-use crate::limits::precise;
 use crate::report::number::number;
+use crate::report::number::precise;
 
 /// Margins closer than this, relative to the greater one, are the same.
 const SAME: f64 = 1e-9;
@@ -163,7 +163,7 @@ fn wish(report: &SizeReport) -> String {
 
 /// A value of what is varied, with its unit.
 pub(super) fn quantity(report: &SizeReport, value: f64) -> String {
-    match report.vary.unit {
+    match report.vary.unit.as_str() {
         "" => precise(value),
         "rad" => format!("{} rad ({} deg)", precise(value), number(value.to_degrees())),
         unit => format!("{} {unit}", precise(value)),

@@ -24,6 +24,7 @@ mod preload_gap;
 mod properties;
 mod standstill;
 mod symmetries;
+mod tables_and_events;
 mod textbook;
 mod uncertainty;
 mod words;

@@ -1,10 +1,10 @@
 //! Chosen coordinates and drives.
 
-use super::super::file::{CoordinateTable, DriveTable, Entry, ForceFrame};
+use super::super::file::{CoordinateTable, DriveTable, Entry, EventTable, ForceFrame};
 use super::super::quantity::Span;
 use super::super::settings::dimension_of;
-use super::super::{Coordinate, CoordinateKind, Drive, Effort};
-use super::{Reader, Wanted};
+use super::super::{Coordinate, CoordinateKind, Drive, Effort, Event};
+use super::{Allowed, Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace, nearest};
 use crate::ids::{CoordinateId, Frame, JointId};
@@ -97,6 +97,25 @@ impl Reader<'_> {
             self.fault(kind, span);
         }
         CoordinateKind::Slide(JointId(0))
+    }
+
+    /// What a motion is watched for; an event without a formula that can be read is left out.
+    pub(super) fn read_events(&mut self, entries: Vec<Entry<EventTable>>) -> Vec<Event> {
+        let mut events = Vec::new();
+        for entry in entries {
+            self.valid_name("event", &entry.name, &entry.span);
+            let Some(table) = entry.contents else { continue };
+            let what = format!("the quantity of the event {}", entry.name);
+            let zero_of = self.any_formula(&table.zero_of, what, None, Allowed::Any, true);
+            events.push(Event {
+                name: Arc::from(entry.name),
+                place: FaultPlace::model(entry.span),
+                zero_of,
+                direction: table.direction.unwrap_or_default(),
+                stops: table.stops.unwrap_or(false),
+            });
+        }
+        events
     }
 
     pub(super) fn read_drives(&mut self, entries: Vec<Entry<DriveTable>>) -> Vec<Drive> {

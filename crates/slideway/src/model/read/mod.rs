@@ -7,6 +7,7 @@ mod bodies;
 mod coordinates;
 mod joints;
 mod loads;
+mod tables;
 
 use super::formula::{Allowed, Formula, Origin, expression_start};
 use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity, Written};
@@ -128,6 +129,7 @@ impl<'t> Reader<'t> {
             names.coordinate(&entry.name);
         }
         reader.names = names;
+        reader.read_tables(sections);
         reader.zero = reader.number(0.0, &(0..0));
         reader
     }
@@ -143,6 +145,7 @@ impl<'t> Reader<'t> {
         let coordinates = self.read_coordinates(sections.coordinates);
         let loads = self.read_loads(sections.loads);
         let drives = self.read_drives(sections.drives);
+        let events = self.read_events(sections.events);
         Model {
             title: sections.title.map(|title| title.text),
             parameters,
@@ -153,6 +156,7 @@ impl<'t> Reader<'t> {
             loads,
             drives,
             coordinates,
+            events,
             formulas: Arc::new(std::mem::take(&mut self.formulas)),
             evaluation_order: Vec::new(),
         }
@@ -227,11 +231,7 @@ impl<'t> Reader<'t> {
         allowed: Allowed,
         may_move: bool,
     ) -> FormulaId {
-        let origin = Origin {
-            source: Source::Model,
-            span: quantity.span.clone(),
-            expression_start: expression_start(quantity, self.text),
-        };
+        let origin = self.origin(quantity);
         let parsed = match &quantity.written {
             Written::Number(value) if value.is_finite() => {
                 let written = self.text.get(quantity.span.clone()).unwrap_or_default();
@@ -242,8 +242,8 @@ impl<'t> Reader<'t> {
                 None
             }
             Written::Text(text) if self.mended && text == STAND_IN => None,
-            // Only parameters may have any dimension, and a range.
-            Written::Text(text) => match self.parse(text, dimension.is_none()) {
+            // Only parameters have any dimension and no motion; they may have a range.
+            Written::Text(text) => match self.parse(text, dimension.is_none() && !may_move) {
                 Ok(value) => Some(value),
                 Err(faults) => {
                     self.faults.extend(faults.into_iter().map(|fault| origin.fault(fault)));

@@ -77,10 +77,10 @@ impl ModeProblemLine {
         known.len()
     }
 
-    /// Outputs of a pattern's solution; none where its determinant vanishes.
-    pub fn outputs(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
-        let unknowns = self.line(pattern).solution(at)?;
-        Some(unknowns.rows(pattern.len(), unknowns.len() - pattern.len()).into_owned())
+    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs; none where
+    /// its determinant vanishes.
+    pub fn unknowns(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
+        self.line(pattern).solution(at)
     }
 
     /// Signed normal forces of a pattern, 0 in a gap; none where its determinant vanishes.
