@@ -3,7 +3,6 @@
 use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
 use slideway::raw_problem::RawFaults;
-use slideway_pictures::raster::RasterFault;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -43,12 +42,8 @@ pub(crate) enum Failure {
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
-    /// The ending of the file is that of no picture.
-    PictureFormat { path: PathBuf },
     /// There is no solution of the wanted number.
     NoSuchSolution { count: usize },
-    /// The picture cannot be made of pixels.
-    NoPicture(RasterFault),
     /// An answer that is no text would go to a terminal.
     BinaryOnTerminal,
     /// Standard output cannot be written.
@@ -85,13 +80,9 @@ impl Failure {
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }
-            Self::PictureFormat { path } => {
-                format!("the ending of `{}` is that of no picture", path.display())
-            }
             Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
-            Self::NoPicture(fault) => fault.to_string(),
             Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
             Self::StandardOutput { error } => format!("the answer cannot be written: {}", reason(error)),
         }
@@ -109,7 +100,6 @@ impl Failure {
             Self::NoProblem { .. } => {
                 Some("`slideway modes --help` shows what a problem looks like".to_owned())
             }
-            Self::PictureFormat { .. } => Some("pictures are .svg or .png".to_owned()),
             Self::NoSuchSolution { .. } => {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }

@@ -3,6 +3,7 @@
 use crate::arguments::{Destination, ModelArguments, PlotArguments};
 use crate::failure::Failure;
 use crate::output::Output;
+use slideway_pictures::raster::png;
 use std::path::Path;
 
 /// Format of a picture.
@@ -10,9 +11,13 @@ use std::path::Path;
 pub(crate) enum Picture {
     /// Vectors and text.
     Svg,
+    /// Pixels.
+    Png,
 }
 
-const ENDINGS: [&str; 1] = [".svg"];
+const ENDINGS: [&str; 2] = [".svg", ".png"];
+/// Pixels for each unit of a picture, unless its width is given.
+pub(crate) const SHARPNESS: f64 = 2.0;
 
 impl Picture {
     /// The format of a file.
@@ -23,17 +28,31 @@ impl Picture {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         match ending.to_ascii_lowercase().as_str() {
             "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
             _ => Err(Failure::PictureFormat { path: path.to_owned(), known: &ENDINGS }),
         }
     }
 
-    /// Writes a picture that is given as SVG.
+    /// Writes a picture that is given as SVG, with two pixels for each of its units if it is to have pixels.
     ///
     /// # Errors
     /// If it cannot be converted or written.
     pub(crate) fn write(self, svg: &str, output: &Output) -> Result<(), Failure> {
+        self.write_scaled(svg, SHARPNESS, output)
+    }
+
+    /// Writes a picture that is given as SVG, with so many pixels for each of its units if it is to have pixels.
+    ///
+    /// # Errors
+    /// If it cannot be converted or written.
+    pub(crate) fn write_scaled(self, svg: &str, scale: f64, output: &Output) -> Result<(), Failure> {
         match self {
             Self::Svg => output.write_bytes(svg.as_bytes()),
+            Self::Png => {
+                let pixels =
+                    png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?;
+                output.write_bytes(&pixels)
+            }
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::arguments::{DrawArguments, Which};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::picture::{Picture, SHARPNESS};
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
@@ -13,18 +14,14 @@ use slideway::report::Report;
 use slideway::solve::solve;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
-use slideway_pictures::raster::png;
 use slideway_pictures::theme::{DARK, LIGHT};
-use std::path::Path;
-
-/// Pixels of a PNG for each drawing unit, unless a width is wanted.
-const SHARPNESS: f64 = 2.0;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination)?;
     arguments.model.spare(&arguments.destination)?;
-    let is_png = is_png(arguments.destination.output.as_deref())?;
+    let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
@@ -39,12 +36,12 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         let count = report.map_or(0, |report| report.solutions.len());
         return Err(Failure::NoSuchSolution { count });
     };
-    if is_png {
-        let scale = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
-        let picture = png(&written(&sheet, arguments.dark, None), scale).map_err(Failure::NoPicture)?;
-        output.write_bytes(&picture)?;
-    } else {
-        output.write(&written(&sheet, arguments.dark, arguments.width))?;
+    match picture {
+        Picture::Svg => output.write(&written(&sheet, arguments.dark, arguments.width))?,
+        Picture::Png => {
+            let scale = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
+            picture.write_scaled(&written(&sheet, arguments.dark, None), scale, &output)?;
+        }
     }
     Ok(Outcome::Done)
 }
@@ -68,14 +65,4 @@ fn written(sheet: &Sheet, dark: bool, width: Option<f64>) -> String {
         colours: Colours::Theme(if dark { DARK } else { LIGHT }),
     };
     svg::write(&sheet.scene, &frame)
-}
-
-/// Whether the picture is one of pixels, by the ending of its file; SVG on standard output.
-fn is_png(path: Option<&Path>) -> Result<bool, Failure> {
-    let Some(path) = path.filter(|path| path.as_os_str() != "-") else { return Ok(false) };
-    match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
-        Some("svg") => Ok(false),
-        Some("png") => Ok(true),
-        _ => Err(Failure::PictureFormat { path: path.to_owned() }),
-    }
 }

@@ -23,6 +23,8 @@ pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
 pub use sheet::{Caption, Panel, Sheet, Shown, sheet};
 pub use view::View;
 
+pub(crate) use sheet::answer;
+
 use labels::Label;
 use sliders::Slide;
 use slideway::configuration::Configuration;

@@ -192,7 +192,7 @@ fn state_line(state: &[CoordinateState]) -> String {
 }
 
 /// How many solutions there are.
-fn answer(report: &Report) -> String {
+pub(crate) fn answer(report: &Report) -> String {
     let drawn = report.solutions.len() + report.preload_gap_states.len();
     let words = match report.status {
         Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
