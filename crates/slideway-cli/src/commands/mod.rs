@@ -8,6 +8,7 @@ mod limits;
 mod map;
 mod models;
 mod modes;
+mod report;
 mod size;
 mod solve;
 
@@ -19,6 +20,7 @@ pub(crate) use limits::limits;
 pub(crate) use map::map;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
+pub(crate) use report::report;
 pub(crate) use size::size;
 pub(crate) use solve::solve;
 
