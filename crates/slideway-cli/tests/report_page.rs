@@ -55,7 +55,7 @@ fn pages_have_all_parts_and_need_nothing_else() {
         "<table class=\"limits\">",
         "<img src=\"data:image/svg+xml,",
         "# The example of H. J. Klepp",
-        "slideway report models/klepp-2002.toml --vary &quot;mu_1=0..0.8&quot;",
+        "--vary &quot;mu_1=0..0.8&quot;</code>",
     ] {
         assert!(html.contains(part), "{part}");
     }
