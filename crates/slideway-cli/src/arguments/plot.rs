@@ -1,37 +1,31 @@
-//! A plot beside the answer.
+//! A plot beside the answer, and how pictures look.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
 use std::path::PathBuf;
 
 /// A plot beside the answer.
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
-    /// Draw a plot, too; its ending says in which format (.svg or .png).
+    /// Draw a plot, too; its ending says in which format.
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 
-    /// Colours of the picture.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) theme: PictureTheme,
+    #[command(flatten)]
+    pub(crate) look: Look,
 }
 
-/// Colours of a picture.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PictureTheme {
-    /// On white.
-    #[default]
-    Light,
+/// How a picture looks.
+#[derive(Debug, Args)]
+pub(crate) struct Look {
     /// On a dark background.
-    Dark,
+    #[arg(long)]
+    dark: bool,
 }
 
-impl PictureTheme {
-    /// Its colours.
-    pub(crate) fn colours(self) -> &'static Theme {
-        match self {
-            Self::Light => &LIGHT,
-            Self::Dark => &DARK,
-        }
+impl Look {
+    /// The colours of the picture.
+    pub(crate) fn colours(&self) -> &'static Theme {
+        if self.dark { &DARK } else { &LIGHT }
     }
 }
