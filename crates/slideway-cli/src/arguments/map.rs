@@ -1,6 +1,6 @@
 //! `slideway map`
 
-use super::{Look, ModelArguments};
+use super::{ModelArguments, PictureTheme};
 use clap::{Args, ValueEnum};
 use slideway::map::{ColourBy, GREATEST_SIZE};
 use std::path::PathBuf;
@@ -42,8 +42,9 @@ pub(crate) struct MapArguments {
     #[arg(long, value_name = "PIXELS", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) probe: u16,
 
-    #[command(flatten)]
-    pub(crate) look: Look,
+    /// Colours of the picture.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) theme: PictureTheme,
 
     /// The file; its ending says in which format (.svg, .png or .json).
     #[arg(long, short, value_name = "FILE")]

@@ -27,7 +27,7 @@ pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
-pub(crate) use plot::{Look, PlotArguments};
+pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use search::SearchArguments;
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;

@@ -1,31 +1,37 @@
-//! A plot beside the answer, and how pictures look.
+//! A plot beside the answer.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
 use std::path::PathBuf;
 
 /// A plot beside the answer.
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
-    /// Draw a plot, too; its ending says in which format.
+    /// Draw a plot, too; its ending says in which format (.svg or .png).
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 
-    #[command(flatten)]
-    pub(crate) look: Look,
+    /// Colours of the picture.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) theme: PictureTheme,
 }
 
-/// How a picture looks.
-#[derive(Debug, Args)]
-pub(crate) struct Look {
+/// Colours of a picture.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PictureTheme {
+    /// On white.
+    #[default]
+    Light,
     /// On a dark background.
-    #[arg(long)]
-    dark: bool,
+    Dark,
 }
 
-impl Look {
-    /// The colours of the picture.
-    pub(crate) fn colours(&self) -> &'static Theme {
-        if self.dark { &DARK } else { &LIGHT }
+impl PictureTheme {
+    /// Its colours.
+    pub(crate) fn colours(self) -> &'static Theme {
+        match self {
+            Self::Light => &LIGHT,
+            Self::Dark => &DARK,
+        }
     }
 }

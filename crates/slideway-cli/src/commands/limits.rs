@@ -25,7 +25,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         let (report, curves) = limits::limits_with_curves(&model, &options, arguments.quantity.into())
             .map_err(|faults| input.refused(faults))?;
         let figure = limits_figure(&report, &curves);
-        picture.write(&to_svg(&figure, arguments.plot.look.colours()), SHARPNESS, &file)?;
+        picture.write(&to_svg(&figure, arguments.plot.theme.colours()), SHARPNESS, &file)?;
         report
     } else {
         limits::limits(&model, &options).map_err(|faults| input.refused(faults))?

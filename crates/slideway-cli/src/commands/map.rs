@@ -44,7 +44,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = report.unwrap_or_default();
     match picture {
         None => output.write(&to_json(&report))?,
-        Some(picture) => picture.write(&to_svg(&report, arguments.look.colours()), SHARPNESS, &output)?,
+        Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), SHARPNESS, &output)?,
     }
     Ok(Outcome::Done)
 }
