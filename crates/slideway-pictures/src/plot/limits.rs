@@ -129,7 +129,7 @@ fn mode_name(mode: &ModeLimits, stroke: Stroke) -> String {
         Stroke::Dotted => " (preload between the faces)",
         Stroke::DashDotted => " (attainable only with damping, or undecided)",
     };
-    format!("{}:\u{2002}{}{meaning}", signs.join(" "), words.join("; "))
+    format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
 }
 
 fn stroke_of(verdict: Verdict) -> Stroke {
