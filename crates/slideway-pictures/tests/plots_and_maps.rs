@@ -32,7 +32,9 @@ fn attribute<'e>(element: &'e str, name: &str) -> Option<&'e str> {
 }
 
 fn number(element: &str, name: &str) -> f64 {
-    attribute(element, name).and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{name} of {element}"))
+    attribute(element, name)
+        .and_then(|text| text.parse().ok())
+        .unwrap_or_else(|| panic!("{name} of {element}"))
 }
 
 /// The points of path data that has only M, L and Z.
@@ -76,14 +78,21 @@ fn the_paper_s_figures() {
         let left = path.iter().flatten().map(|point| point[0]).fold(f64::INFINITY, f64::min);
         assert!(left > place(frames[0], 2.0 * cotangent + 0.1));
     }
-    for words in ["upper on the lower side of the slot", "threshold, not attainable", "excluded: no solution", "normal force in N"] {
+    for words in [
+        "upper on the lower side of the slot",
+        "threshold, not attainable",
+        "excluded: no solution",
+        "normal force in N",
+    ] {
         assert!(svg.contains(words), "{words}");
     }
 }
 
 #[test]
 fn curves_stay_within_frames_and_do_not_step() {
-    for (name, vary) in [("klepp-2002", "mu_1=0..0.8"), ("slider-crank", "phi=-80 deg..80 deg"), ("drawer", "mu=0..1")] {
+    for (name, vary) in
+        [("klepp-2002", "mu_1=0..0.8"), ("slider-crank", "phi=-80 deg..80 deg"), ("drawer", "mu=0..1")]
+    {
         let svg = plot::to_svg(&figure(&model(name, &[]), vary), &LIGHT);
         let frames = of_class(&svg, "frame");
         for curve in of_class(&svg, "curve") {
