@@ -78,6 +78,7 @@ show stick-slip.txt 0 solve models/stick-slip.toml
 show help.txt 0 --help
 show help-solve.txt 0 solve --help
 show help-limits.txt 0 limits --help
+show help-map.txt 0 map --help
 show help-modes.txt 0 modes --help
 show check-klepp.txt 0 check models/klepp-2002.toml
 show check-bracket.txt 2 check models/bracket-on-pole.toml
