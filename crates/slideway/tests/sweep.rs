@@ -251,9 +251,12 @@ fn the_branches_of_the_paper() {
     assert_eq!((ranges[&1].0, ranges[&1].1, ranges[&1].2), (0.0, 0.8, 801));
     assert_eq!((ranges[&2].0, ranges[&2].1, ranges[&2].2), (0.453, 0.8, 348));
     // Theory, section 9.
-    assert!(breakpoints.iter().any(|(mu, kind)| {
-        (mu - 0.452_653_96).abs() < 1e-8 && *kind == Breakpoint::Locking
-    }), "{breakpoints:?}");
+    assert!(
+        breakpoints
+            .iter()
+            .any(|(mu, kind)| { (mu - 0.452_653_96).abs() < 1e-8 && *kind == Breakpoint::Locking }),
+        "{breakpoints:?}"
+    );
 }
 
 /// With the preload F_20 = m g the first branch passes from (+,-,+) to (+,-,-) at mu_1 = 0.45252578 (theory, section 9,
@@ -270,9 +273,8 @@ fn a_branch_goes_on_where_a_contact_changes_side() {
         .map(|&row| rows.pattern(row))
         .collect();
     assert_eq!(patterns.len(), 2, "{patterns:?}");
-    let change = (0..rows.len()).find(|&row| {
-        rows.heads[row].inserted && (rows.numbers(row)[0] - 0.452_525_78).abs() < 1e-8
-    });
+    let change = (0..rows.len())
+        .find(|&row| rows.heads[row].inserted && (rows.numbers(row)[0] - 0.452_525_78).abs() < 1e-8);
     assert_eq!(rows.heads[change.unwrap()].breakpoint, Breakpoint::SideChange);
     let points = rows.heads.iter().filter(|head| head.branch == 1 && !head.inserted).count();
     assert_eq!(points, 51);
@@ -321,8 +323,7 @@ fn points_without_a_position_are_marked() {
 #[test]
 fn attainability_is_that_of_the_theory() {
     let model = with("klepp-2002", &[("F_20", "0")]);
-    let sweep =
-        Sweep::new(&model, &SweepOptions { attainability: true, ..options(&["mu_1=0.6"]) }).unwrap();
+    let sweep = Sweep::new(&model, &SweepOptions { attainability: true, ..options(&["mu_1=0.6"]) }).unwrap();
     let all = rows(&sweep);
     let rows = &all[0];
     let weight = 9.81;
@@ -354,7 +355,7 @@ fn negative_friction_is_refused_point_by_point() {
 #[case("mu=0..0.8:11:log", "above zero")]
 #[case("mu=0..0.8:11:cubic", "no spacing")]
 #[case("mu=0..abc:11", "unknown name `abc`")]
-#[case("mu=0..1 m:11", "where a number is expected")]
+#[case("mu=0..1 m:11", "a length where")]
 #[case("mu=normal(0.3, 0.1)", "no samples")]
 #[case("nu=0..1:11", "named `nu`")]
 #[case("friction=-1..1:11", "cannot be negative")]
@@ -373,8 +374,7 @@ fn faults_of_axes(#[case] axis: &str, #[case] part: &str) {
 #[case("mu=uniform(0.3, 0.1)", "reversed")]
 fn faults_of_distributions(#[case] axis: &str, #[case] part: &str) {
     let samples = Some(Sampling { count: 10, spread: Spread::Random, seed: 0 });
-    let faults =
-        Sweep::new(&model("drawer"), &SweepOptions { samples, ..options(&[axis]) }).unwrap_err();
+    let faults = Sweep::new(&model("drawer"), &SweepOptions { samples, ..options(&[axis]) }).unwrap_err();
     assert!(faults.to_string().contains(part), "{faults}");
 }
 

@@ -8,6 +8,7 @@ use super::stages::{Stages, Trail};
 use super::told;
 use crate::attainability::ElasticGuides;
 use crate::fault::{FaultKind, Faults};
+use crate::kinetics::KineticEquations;
 use crate::mechanism::{JointKind, Mechanism};
 use crate::model::{Model, PreloadLine};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
@@ -146,12 +147,17 @@ impl<'p> Evaluator<'p> {
                 } else {
                     None
                 };
-                let guides = |problem| ElasticGuides::new(&self.mechanism, &stages.equations, problem);
+                let equations = match &problem {
+                    Some(_) => Some(KineticEquations::new(&self.mechanism, &stages.configuration)?),
+                    None => None,
+                };
+                let guides = problem.as_ref().zip(equations.as_ref());
                 let mut writer = Writer {
                     plan: self.plan,
                     mechanism: &self.mechanism,
                     stages,
-                    guides: problem.as_ref().map(guides),
+                    guides: guides
+                        .map(|(problem, equations)| ElasticGuides::new(&self.mechanism, equations, problem)),
                     outputs: &mut self.outputs,
                     counts: Counts::default(),
                 };
@@ -161,13 +167,9 @@ impl<'p> Evaluator<'p> {
                 }
             }
         }
-        let report = careful_report(
-            &self.mechanism,
-            &stages.configuration,
-            &stages.equations,
-            &stages.influence,
-            &stages.signs,
-        )?;
+        let equations = KineticEquations::new(&self.mechanism, &stages.configuration)?;
+        let Stages { configuration, influence, signs, .. } = stages;
+        let report = careful_report(&self.mechanism, configuration, &equations, influence, signs)?;
         told::write(&report, self.plan, point, rows);
         Ok(())
     }

@@ -222,8 +222,9 @@ impl Sweep {
     /// The rows of some chunks of points, from this one on.
     fn compute(&self, from: u64) -> Vec<Rows> {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
-        let starts: Vec<u64> = (0..chunks as u64)
-            .map(|chunk| (from / CHUNK + chunk) * CHUNK)
+        let first = from.div_ceil(CHUNK);
+        let starts: Vec<u64> = (first..first + chunks as u64)
+            .map(|chunk| chunk * CHUNK)
             .filter(|start| *start < self.points)
             .collect();
         starts.into_par_iter().map(|start| self.chunk(start)).collect()
