@@ -71,8 +71,7 @@ def compare(solutions, mu_1, path):
 
 def main():
     points = int(sys.argv[1]) if len(sys.argv) > 1 else 1_000_000
-    mu_1 = 0.8 * (np.arange(points) / (points - 1))
-    mu_1[-1] = 0.8
+    mu_1 = 0.8 * np.arange(points) / (points - 1)
     times = []
     for _ in range(3):
         start = time.perf_counter()

@@ -172,8 +172,11 @@ fn a_grid_is_what_solve_says(#[case] name: &str, #[case] vary: &str) {
             let count = rows.heads[first..].iter().take_while(|head| head.point == point).count();
             if rows.heads[first].breakpoint == Breakpoint::No {
                 let settings = settings_of(&sweep, 1, &rows.numbers(first)[..1], &model);
-                let report = solve(&model.with(&settings).unwrap()).unwrap();
-                check_point(&sweep, &rows, first..first + count, &report);
+                match solve(&model.with(&settings).unwrap()) {
+                    Ok(report) => check_point(&sweep, &rows, first..first + count, &report),
+                    // At a dead centre sliding stops.
+                    Err(_) => assert_eq!(rows.heads[first].status, PointStatus::Refused),
+                }
             }
             first += count;
         }
@@ -310,7 +313,7 @@ fn points_without_a_position_are_marked() {
                 assert_eq!(head.status, PointStatus::NoPosition, "{phi}");
                 assert!(rows.numbers(row)[1..].iter().all(|value| value.is_nan()));
                 marked += 1;
-            } else if phi.abs() < limit - 1e-2 {
+            } else if phi.abs() < limit - 1e-2 && phi != 0.0 {
                 assert!(head.status.is_solved(), "{phi}");
             }
         }

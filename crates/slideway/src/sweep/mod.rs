@@ -18,7 +18,9 @@
 //! not computed anew: where only coefficients of friction and preloads change, the influence coefficients stay; a position is
 //! reached from those of the last points ([`crate::configuration::Configuration::near`]). Up to 8 contacts all patterns are tried
 //! by elimination. Where that leaves a pattern in doubt, because it is close to a boundary between modes or to locking, and for
-//! more contacts, the point is searched as [`crate::solve`] does, with bounds of rounding that are assumed, not proven.
+//! more contacts, the point is left to [`crate::solve`] itself (with a common factor of friction to its search, with bounds of
+//! rounding that are assumed, not proven). Contacts of one block that both have a preload at the pressed face have
+//! dependent gap states, so that each of their points is one of these.
 //!
 //! # Order
 //! Points are numbered with the last quantity varying fastest. They are computed in chunks of a fixed size, so that nothing
