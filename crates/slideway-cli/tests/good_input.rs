@@ -45,6 +45,7 @@ golden! {
     hold_boom: 1 ["hold", "models/telescopic-boom.toml"];
     hold_cam: 1 ["hold", "models/cam-follower.toml", "--load", "cam"];
     hold_drawer_json: 0 ["hold", "models/drawer.toml", "--drives", "hold", "--format", "json"];
+    help_of_sweep: 0 ["sweep", "--help"];
     help_of_hold: 0 ["hold", "--help"];
     list_of_models: 0 ["models"];
     help: 0 ["--help"];
