@@ -321,6 +321,10 @@ pub enum FaultKind {
     #[error("the joints and contacts have {states} states at rest; at most {limit} are tried")]
     TooManyStates { states: u64, limit: u64 },
 
+    // Motion.
+    #[error("the motion cannot begin in the contact mode that is prescribed")]
+    ContradictoryPhase,
+
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
     TooManyContacts { contacts: usize, limit: usize },

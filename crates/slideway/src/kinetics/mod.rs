@@ -18,7 +18,8 @@ mod system;
 
 pub(crate) use elastic::MasslessMotions;
 pub use loads::Wrench;
-pub(crate) use loads::unit_effort as effort_forces;
+pub(crate) use loads::{Applied, unit_effort as effort_forces};
+pub(crate) use rows::ConstraintRow;
 
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -27,7 +28,6 @@ use crate::interval::Real;
 use crate::mechanism::{JointKind, Mechanism, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
-use rows::ConstraintRow;
 use system::{Factorization, Singular};
 pub(crate) use system::{equilibration, scaled};
 
@@ -51,7 +51,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    fn new<T: Real>(mechanism: &Mechanism<T>) -> Self {
+    /// The layout of the unknowns of a mechanism.
+    pub(crate) fn new<T: Real>(mechanism: &Mechanism<T>) -> Self {
         let mut reactions = Vec::new();
         for (index, joint) in mechanism.joints.iter().enumerate() {
             let id = JointId(index);
@@ -188,7 +189,9 @@ impl<T: Real> Assembled<T> {
         let layout = Layout::new(mechanism);
         let contacts: Vec<ContactGeometry<T>> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
-        let applied = loads::applied(mechanism, configuration)?;
+        let mut applied = Applied::new();
+        applied.fill(mechanism, configuration)?;
+        let applied = applied.wrenches;
         let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
         let coordinate_rows = rows::coordinates(mechanism, configuration);
         let builder = Builder { mechanism, configuration, layout: &layout };
