@@ -91,6 +91,7 @@ at = \"block.C\"
 components = [\"8 N/s * t\", 0]
 ";
     let history = run(&block("0.25", "", force), &SimulateOptions::new(1.0));
+    assert_eq!(history.end, End::Finished);
     assert_eq!(history.events.len(), 2);
     assert!((history.events[1].time - 0.625).abs() < 1e-12, "{}", history.events[1].time);
     let t0: f64 = 0.625;

@@ -38,7 +38,7 @@ impl TryAll {
                         }
                     });
                     sides
-                        && (!instant.stopped[index] || sign * sliding_acceleration(equations, index) > 0.0)
+                        && (!instant.stopped[index] || sign * sliding_acceleration(equations, index) > -1e-12)
                 }
             }
         })
