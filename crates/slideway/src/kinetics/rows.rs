@@ -4,7 +4,7 @@ use super::{Layout, Reaction};
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{CoordinateKind, JointKind, Mechanism, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
 use nalgebra::{DVector, Vector2};
 
 /// One row: entries by the index of the acceleration, and the right-hand side.
@@ -110,6 +110,22 @@ fn no_relative_rotation<T: Real>(mechanism: &Mechanism<T>, joint: JointId) -> Co
     row
 }
 
+/// The row that gives the acceleration of sliding, s'' = u . (a_block - a_guide), both at the place of the block: the
+/// Coriolis term is normal to u.
+pub(super) fn sliding<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    slider: &Slider<T>,
+) -> ConstraintRow<T> {
+    let mut row = ConstraintRow::empty();
+    let slide = configuration.slide(mechanism, slider);
+    let at = Attachment { frame: slider.block, position: slider.at };
+    let place = configuration.position(mechanism, &at);
+    row.add(configuration, slider.block, place, slide.tangent);
+    row.add(configuration, slider.guide, place, -slide.tangent);
+    row
+}
+
 /// The rows that give the accelerations of the coordinates: C a - right-hand side.
 pub(super) fn coordinates<T: Real>(
     mechanism: &Mechanism<T>,
@@ -118,14 +134,9 @@ pub(super) fn coordinates<T: Real>(
     let row = |kind: CoordinateKind<T>| {
         let mut row = ConstraintRow::empty();
         match kind {
-            // s'' = u . (a_block - a_guide), both at the place of the block: the Coriolis term is normal to u.
             CoordinateKind::Slide(joint) => {
                 if let Some(slider) = mechanism.slider(joint) {
-                    let slide = configuration.slide(mechanism, slider);
-                    let at = crate::mechanism::Attachment { frame: slider.block, position: slider.at };
-                    let place = configuration.position(mechanism, &at);
-                    row.add(configuration, slider.block, place, slide.tangent);
-                    row.add(configuration, slider.guide, place, -slide.tangent);
+                    row = sliding(mechanism, configuration, slider);
                 }
             }
             CoordinateKind::Rotation(body, against) => {
