@@ -25,7 +25,7 @@ use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{JointKind, Mechanism, rot90};
+use crate::mechanism::{JointKind, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
 use system::{Factorization, Singular};
@@ -159,6 +159,32 @@ impl KineticEquations {
     /// Accelerations of the chosen coordinates that belong to accelerations of the bodies.
     pub fn coordinate_accelerations(&self, unknowns: &DVector<f64>) -> Vec<f64> {
         self.coordinate_rows.iter().map(|row| row.times(unknowns) - row.right_hand_side).collect()
+    }
+
+    /// Jumps of the rates of the chosen coordinates that belong to jumps of the bodies' velocities.
+    pub(crate) fn coordinate_jumps(&self, unknowns: &DVector<f64>) -> Vec<f64> {
+        self.coordinate_rows.iter().map(|row| row.times(unknowns)).collect()
+    }
+}
+
+/// The row that gives the acceleration of sliding of a joint, the block's material point against the guide's along u.
+#[derive(Debug, Clone)]
+pub(crate) struct SlidingRow(ConstraintRow);
+
+impl SlidingRow {
+    /// The row of a sliding joint in a configuration.
+    pub(crate) fn new(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Self {
+        Self(rows::sliding(mechanism, configuration, slider))
+    }
+
+    /// What these changes of the unknowns add to the acceleration (m/s^2), or to the velocity if they are impulses.
+    pub(crate) fn change(&self, unknowns: &DVector<f64>) -> f64 {
+        self.0.times(unknowns)
+    }
+
+    /// The acceleration of sliding that belongs to the unknowns (m/s^2), the velocities' part included.
+    pub(crate) fn acceleration(&self, unknowns: &DVector<f64>) -> f64 {
+        self.0.times(unknowns) - self.0.right_hand_side
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Layout, Reaction};
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
 use nalgebra::{DVector, Vector2};
 
 /// One row: entries by the index of the acceleration, and the right-hand side.
@@ -62,7 +62,11 @@ impl<T: Real> ConstraintRow<T> {
     ) {
         self.clear();
         match kind {
-            CoordinateKind::Slide(joint) => self.slide(mechanism, configuration, joint),
+            CoordinateKind::Slide(joint) => {
+                if let Some(slider) = mechanism.slider(joint) {
+                    self.add_sliding(mechanism, configuration, slider);
+                }
+            }
             CoordinateKind::Rotation(body, against) => {
                 self.add_rotation(Frame::Body(body), T::one());
                 self.add_rotation(against, -T::one());
@@ -134,16 +138,31 @@ impl<T: Real> ConstraintRow<T> {
         }
     }
 
-    /// s'' = u . (a_block - a_guide), both at the place of the block: the Coriolis term is normal to u.
-    fn slide(&mut self, mechanism: &Mechanism<T>, configuration: &Configuration<T>, joint: JointId) {
-        if let Some(slider) = mechanism.slider(joint) {
-            let tangent = configuration.direction(slider.guide, slider.tangent);
-            let place =
-                configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at });
-            self.add(configuration, slider.block, place, tangent);
-            self.add(configuration, slider.guide, place, -tangent);
-        }
+    /// The row that gives the acceleration of sliding, s'' = u . (a_block - a_guide), both at the place of the block: the
+    /// Coriolis term is normal to u.
+    fn add_sliding(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        slider: &Slider<T>,
+    ) {
+        let tangent = configuration.direction(slider.guide, slider.tangent);
+        let middle = Attachment { frame: slider.block, position: slider.at };
+        let place = configuration.position(mechanism, &middle);
+        self.add(configuration, slider.block, place, tangent);
+        self.add(configuration, slider.guide, place, -tangent);
     }
+}
+
+/// The row of the acceleration of sliding of a joint.
+pub(super) fn sliding<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    slider: &Slider<T>,
+) -> ConstraintRow<T> {
+    let mut row = ConstraintRow::empty();
+    row.add_sliding(mechanism, configuration, slider);
+    row
 }
 
 /// The rows of all reactions, in the order of the layout.

@@ -3,6 +3,7 @@
 //! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is smooth.
 //! An event ends the phase; a [decision](Decisions) says how the motion goes on.
 
+pub mod decision;
 mod energy;
 mod equations;
 mod event;
@@ -27,13 +28,25 @@ pub use history::{
 };
 pub use options::{Crossing, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
-pub use rules::{Decisions, Instant, Jam, Successor};
+pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
+use crate::model::Model;
 use run::Run;
 use std::ops::ControlFlow;
+
+/// The motion of a model from its state on.
+///
+/// # Errors
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Faults> {
+    check(options)?;
+    let mechanism = Mechanism::new(model)?;
+    let configuration = Configuration::new(&mechanism)?;
+    simulate_with(&mechanism, &configuration, options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
+}
 
 /// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told the time after every
 /// step, and ends the simulation when it breaks.

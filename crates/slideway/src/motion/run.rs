@@ -206,7 +206,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.tell(causes, None, Vec::new());
                 return Ok(Some(End::NoContinuation));
             }
-            let jam = self.decisions.jam(&instant)?;
+            let Some(jam) = self.decisions.jam(&instant)? else { break };
             self.smooth.set_velocities(&jam.velocities);
             let before = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
             self.history.impulses.push((time, before + jam.energy_lost));

@@ -298,7 +298,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
     ) -> Result<f64, Failure> {
         let equations = &self.equations;
         if watched == Watched::Sticking {
-            return Ok(decisions.sticking_margin(equations.mechanism, &equations.configuration, phase));
+            let margin =
+                decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
+            return margin.map_err(Failure::Loads);
         }
         let value = self.watch.value(watched, phase, equations);
         value.map_err(|fault| Failure::Loads(Fault::general(FaultKind::Expression(fault.kind)).into()))

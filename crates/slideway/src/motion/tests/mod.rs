@@ -4,7 +4,7 @@
 mod closed_forms;
 mod simple;
 
-use super::{History, SimulateOptions, simulate_with};
+use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
 use crate::configuration::Configuration;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -13,8 +13,16 @@ use std::ops::ControlFlow;
 fn run(text: &str, options: &SimulateOptions) -> History {
     let mechanism = Mechanism::new(&Model::parse(text).unwrap()).unwrap();
     let configuration = Configuration::new(&mechanism).unwrap();
-    simulate_with(&mechanism, &configuration, options, &mut simple::TryAll, &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap()
+    let mut with = |decisions: &mut dyn Decisions| {
+        simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(())).unwrap()
+    };
+    let history = with(&mut Thorough);
+    // Two ways to decide lead to one motion.
+    let other = with(&mut simple::TryAll);
+    assert_eq!(history.end, other.end);
+    assert_eq!(history.events.len(), other.events.len());
+    for (one, other) in history.events.iter().zip(&other.events) {
+        assert!((one.time - other.time).abs() < 1e-9, "{} {}", one.time, other.time);
+    }
+    history
 }

@@ -7,6 +7,7 @@ use crate::kinetics::ConstraintRow;
 use crate::modes::Side;
 use crate::motion::equations::{Equations, sliding_joints};
 use crate::motion::{ContactPhase, Decisions, Instant, Jam, JointPhase, Phase, Successor};
+use crate::report::Verdict;
 use nalgebra::Vector2;
 
 pub(super) struct TryAll;
@@ -107,7 +108,7 @@ impl Decisions for TryAll {
                 let phase = Phase { joints: joints.clone(), contacts };
                 if !redundant && Self::admits(&mut equations, instant, &phase) {
                     let continues = Some(&phase) == instant.previous;
-                    list.push(Successor { phase, verdict: String::new(), continues });
+                    list.push(Successor { phase, verdict: Verdict::NotComputed, continues });
                 }
             }
         }
@@ -115,12 +116,12 @@ impl Decisions for TryAll {
     }
 
     /// Brings everything to rest.
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Jam, Faults> {
+    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults> {
         let rest = Velocity { linear: Vector2::zeros(), angular: 0.0 };
-        Ok(Jam {
+        Ok(Some(Jam {
             velocities: vec![rest; instant.mechanism.bodies.len()],
             energy_lost: crate::motion::energy::kinetic(instant.mechanism, instant.configuration),
-        })
+        }))
     }
 
     fn sticking_margin(
@@ -128,11 +129,11 @@ impl Decisions for TryAll {
         mechanism: &Mechanism,
         configuration: &Configuration,
         phase: &Phase,
-    ) -> f64 {
+    ) -> Result<f64, Faults> {
         let mut equations = Equations::new(mechanism, configuration);
         let state = equations.state_of(configuration);
         equations.enter(phase, configuration.time, &state).unwrap();
-        Self::margin(&equations, phase)
+        Ok(Self::margin(&equations, phase))
     }
 }
 
