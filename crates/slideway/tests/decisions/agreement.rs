@@ -72,7 +72,8 @@ fn sliding_mechanisms_have_the_solutions_of_solve() {
                 found.list.iter().map(|one| (sides(&one.phase), one.state.normal_forces.clone())).collect();
             found_patterns.sort_by(|a, b| a.0.cmp(&b.0));
             let expected = patterns(&report);
-            let names = |list: &[(String, Vec<f64>)]| list.iter().map(|one| one.0.clone()).collect::<Vec<_>>();
+            let names =
+                |list: &[(String, Vec<f64>)]| list.iter().map(|one| one.0.clone()).collect::<Vec<_>>();
             assert_eq!(names(&found_patterns), names(&expected), "{} {}", entry.name, found.list.len());
             for ((pattern, found), (_, expected)) in found_patterns.iter().zip(&expected) {
                 let scale = expected.iter().map(|n| n.abs()).fold(0.0, f64::max);
@@ -138,7 +139,8 @@ fn mechanisms_at_rest_do_what_hold_says() {
             let Some(model) = random_model(entry.text, &mut random) else { continue };
             let Some(state) = at_rest(&model) else { continue };
             let count = slider_count(&state);
-            let Ok(found) = successors(&state.mechanism, &state.configuration, &vec![true; count], None) else {
+            let Ok(found) = successors(&state.mechanism, &state.configuration, &vec![true; count], None)
+            else {
                 continue;
             };
             let report = hold(&model, &options).unwrap_or_else(|faults| panic!("{faults}"));
@@ -164,11 +166,16 @@ fn mechanisms_at_rest_do_what_hold_says() {
                 let name: String = joints_of(one);
                 let within = |release: &slideway::standstill::Release| {
                     slips(release) == name
-                        && release.coordinates.iter().zip(&one.state.coordinate_accelerations).all(|(range, a)| {
-                            let tolerance = 1e-6 * (1.0 + a.abs());
-                            range.acceleration.least.is_none_or(|least| *a >= least - tolerance)
-                                && range.acceleration.greatest.is_none_or(|greatest| *a <= greatest + tolerance)
-                        })
+                        && release.coordinates.iter().zip(&one.state.coordinate_accelerations).all(
+                            |(range, a)| {
+                                let tolerance = 1e-6 * (1.0 + a.abs());
+                                range.acceleration.least.is_none_or(|least| *a >= least - tolerance)
+                                    && range
+                                        .acceleration
+                                        .greatest
+                                        .is_none_or(|greatest| *a <= greatest + tolerance)
+                            },
+                        )
                 };
                 assert!(rests(one) || report.releases.iter().any(within), "{} {name}", entry.name);
             }

@@ -2,7 +2,7 @@
 
 use crate::set_up::{MINUS, PLUS, State, assert_close, joints, phase, sides};
 use slideway::motion::ContactPhase;
-use slideway::motion::JointPhase::{Sliding, Sticking};
+use slideway::motion::JointPhase::Sliding;
 use slideway::motion::decision::{Jam, jam};
 use slideway::report::Verdict;
 
@@ -18,7 +18,9 @@ fn moving_to_the_left_it_jams_above_the_locking_value() {
     let above = example(&[("F_20", "0"), ("direction", "-1"), ("mu_1", "0.45265397")]);
     let found = above.successors(&[false, false], None);
     assert!(found.list.is_empty() && found.tipping.is_empty() && found.unsolved.is_empty());
-    let Jam::Stops(impulses) = jam(&above.mechanism, &above.configuration).unwrap() else { panic!("it stops") };
+    let Jam::Stops(impulses) = jam(&above.mechanism, &above.configuration).unwrap() else {
+        panic!("it stops")
+    };
     for impulse in &impulses {
         // One degree of freedom: everything stops, and the kinetic energy m v^2 / 2 is lost.
         assert_eq!(impulse.at_rest.len(), 2);
@@ -56,7 +58,9 @@ fn balanced(impulse: &slideway::motion::decision::Impulse) {
 #[test]
 fn after_the_jam_it_rests() {
     let state = example(&[("F_20", "0"), ("direction", "-1"), ("mu_1", "0.6")]);
-    let Jam::Stops(impulses) = jam(&state.mechanism, &state.configuration).unwrap() else { panic!("it stops") };
+    let Jam::Stops(impulses) = jam(&state.mechanism, &state.configuration).unwrap() else {
+        panic!("it stops")
+    };
     let after = State { mechanism: state.mechanism, configuration: impulses[0].after.clone() };
     let found = after.successors(&[true, true], None);
     assert_eq!(joints(&found)[0], "oo");
@@ -65,13 +69,15 @@ fn after_the_jam_it_rests() {
 
 #[test]
 fn it_cannot_start_its_return_stroke_above_the_locking_value() {
-    // A force to the left, however great, does not set it going to the left at mu_1 > mu_1*: self-locking.
+    // A force P at the mass centre has no influence on the reactions, so that a great enough one overcomes the friction of
+    // the weight: at mu_1 = 0.45 that is about 0.5/(1 - 0.45/mu_1*) times mu_1 m g, 38 m g. At mu_1 > mu_1* none does:
+    // self-locking. (It may also hold below, with friction that acts against each other at rest.)
     for (mu, starts) in [("0.45", true), ("0.46", false)] {
-        for pull in ["-1*m*g", "-10*m*g"] {
+        for pull in ["-100*m*g", "-1000*m*g"] {
             let state = example(&[("F_20", "0"), ("direction", "0"), ("mu_1", mu), ("P", pull)]);
             let found = joints(&state.successors(&[true, true], None));
             assert_eq!(found.contains(&"--".to_owned()), starts, "{mu} {pull}");
-            assert_eq!(found.contains(&"oo".to_owned()), !starts, "{mu} {pull}");
+            assert!(starts || found == ["oo"], "{mu} {pull}");
         }
     }
 }
@@ -107,8 +113,6 @@ fn a_preload_gap_is_followed() {
     assert!(again.list.len() == 1 && again.list[0].is_present && again.list[0].continues);
 }
 
-/// The coefficient at which the lower contacts go over, as a slow function of time would pass it: the model's friction
-/// cannot depend on time, but a vertical force V at the upper end changes N_1 alone.
 #[test]
 fn both_lower_contacts_change_at_the_double_boundary() {
     // At mu_1 = cot(alpha) = 0.17632698 N_2 and N_3 vanish together (theory, section 9); N_1 carries everything.
@@ -129,5 +133,4 @@ fn both_lower_contacts_change_at_the_double_boundary() {
         assert_close(one.state.normal_forces[0], 9.81, 0.0, 1e-9);
         assert!(one.state.normal_forces[1].abs() < 1e-9 && one.state.normal_forces[2].abs() < 1e-9);
     }
-    let _ = Sticking;
 }

@@ -33,9 +33,14 @@ rate = {rate}
 
 #[test]
 fn a_block_stays_on_an_incline_below_the_angle_of_static_friction() {
-    for (degrees, mu, mu_static) in
-        [(10.0, 0.3, 0.5), (20.0, 0.3, 0.5), (26.0, 0.3, 0.5), (27.0, 0.3, 0.5), (40.0, 0.3, 0.5), (5.0, 0.1, 0.1)]
-    {
+    for (degrees, mu, mu_static) in [
+        (10.0, 0.3, 0.5),
+        (20.0, 0.3, 0.5),
+        (26.0, 0.3, 0.5),
+        (27.0, 0.3, 0.5),
+        (40.0, 0.3, 0.5),
+        (5.0, 0.1, 0.1),
+    ] {
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
         let state = incline(degrees, mu, mu_static, 0.0);
         let found = state.successors(&[true], None);
