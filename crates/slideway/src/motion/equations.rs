@@ -441,7 +441,6 @@ impl<'m> Equations<'m> {
     pub(super) fn project(&mut self, state: &mut [f64]) -> Drift {
         let bodies = 3 * self.mechanism.bodies.len();
         let mut drift = Drift::default();
-        self.place(self.configuration.time, state);
         self.work.fill(0.0);
         for index in 0..self.row_ends.len() {
             let (gap, scale) = self.gap(index);
@@ -491,14 +490,14 @@ impl<'m> Equations<'m> {
                 JointKind::Slider(_) => 0.0,
             },
             Some(Reaction::Normal(contact)) => self.normal_gap(*contact),
-            Some(Reaction::Couple(joint)) => mechanism.slider(*joint).map_or(0.0, |slider| {
-                configuration.angle(slider.block) - configuration.angle(slider.guide)
-            }),
+            Some(Reaction::Couple(joint)) => mechanism
+                .slider(*joint)
+                .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
             None => {
                 let stuck = &self.stuck[index - self.layout.reactions().len()];
-                mechanism.slider(stuck.joint).map_or(0.0, |slider| {
-                    configuration.sliding(mechanism, slider).0 - stuck.displacement
-                })
+                mechanism
+                    .slider(stuck.joint)
+                    .map_or(0.0, |slider| configuration.sliding(mechanism, slider).0 - stuck.displacement)
             }
         };
         (gap, self.gap_scale(index))

@@ -268,4 +268,3 @@ impl Reader<'_> {
         Some(phase)
     }
 }
-

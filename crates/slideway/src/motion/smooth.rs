@@ -20,6 +20,8 @@ const SAME_INSTANT: f64 = 1e-9;
 const ROOT_TOLERANCE: f64 = 1e-13;
 /// A function of the user that is below this multiple of its next value has just passed zero.
 const USER_ZERO: f64 = 1e-9;
+/// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
+const LITTLE_VELOCITY: f64 = 1e-2;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
 
@@ -45,6 +47,8 @@ pub(super) struct Smooth<'o, 'm> {
     next: f64,
     scale: Vec<f64>,
     energy: f64,
+    /// Of all bodies (kg).
+    mass: f64,
     watch: Watch<'o>,
     options: &'o SimulateOptions,
     /// Values of the watched functions at the start of the step, inside, and at its end.
@@ -62,7 +66,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
     ) -> Self {
         let size = state.len();
         let mut smooth = Self {
-            equations,
             time,
             end: time + options.duration,
             longest: options.longest_step.unwrap_or(options.duration / 1000.0).min(options.duration),
@@ -72,11 +75,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
             next: 0.0,
             scale: vec![0.0; size],
             energy: 0.0,
+            mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
             options,
             values: Default::default(),
             inside: vec![0.0; size],
             state,
+            equations,
         };
         smooth.notice_velocity();
         smooth
@@ -114,9 +119,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
     fn first_step(&mut self) -> f64 {
         let size = self.equations.mechanism.size;
         let acceleration = self.equations.accelerations().chunks_exact(3);
-        let greatest = acceleration.fold(0.0, |a: f64, body| {
-            a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size)
-        });
+        let greatest = acceleration
+            .fold(0.0, |a: f64, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
         let velocity = self.watch.magnitudes.velocity.max((greatest * size).sqrt());
         self.watch.magnitudes.velocity = velocity;
         let times = [size / velocity, velocity / greatest];
@@ -127,16 +131,21 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let size = self.equations.mechanism.size;
         let bodies = 3 * self.equations.mechanism.bodies.len();
         let rates = self.state[bodies..2 * bodies].chunks_exact(3);
-        let greatest = rates
-            .fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
+        let greatest =
+            rates.fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
         self.watch.magnitudes.velocity = self.watch.magnitudes.velocity.max(greatest);
         let works = self.state[2 * bodies..].iter();
         self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
     }
 
+    /// Takes note of the greatest force, and of a velocity that it could cause: at rest there is no other scale.
     fn notice_force(&mut self) {
-        let force = self.equations.greatest_force();
-        self.watch.magnitudes.force = self.watch.magnitudes.force.max(force);
+        let magnitudes = &mut self.watch.magnitudes;
+        magnitudes.force = magnitudes.force.max(self.equations.greatest_force());
+        if self.mass > 0.0 {
+            let velocity = (magnitudes.force * self.equations.mechanism.size / self.mass).sqrt();
+            magnitudes.velocity = magnitudes.velocity.max(LITTLE_VELOCITY * velocity);
+        }
     }
 
     /// The errors of the components that are permitted in a step.
@@ -241,8 +250,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         history: &mut History,
     ) -> Result<f64, Failure> {
-        let error =
-            self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
+        let error = self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
         if error <= 1.0 {
             let mut values = std::mem::take(&mut self.values);
             let watched = self.watch_all(phase, decisions, &mut values[3]);
@@ -290,16 +298,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     /// The value of one watched function at the last evaluation.
-    fn value(
-        &self,
-        watched: Watched,
-        phase: &Phase,
-        decisions: &mut dyn Decisions,
-    ) -> Result<f64, Failure> {
+    fn value(&self, watched: Watched, phase: &Phase, decisions: &mut dyn Decisions) -> Result<f64, Failure> {
         let equations = &self.equations;
         if watched == Watched::Sticking {
-            let margin =
-                decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
+            let margin = decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
             return margin.map_err(Failure::Loads);
         }
         let value = self.watch.value(watched, phase, equations);
@@ -326,7 +328,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
             let fallen: Vec<usize> =
                 (0..self.watch.list.len()).filter(|index| self.has_fallen(part, *index)).collect();
             if !fallen.is_empty() {
-                return self.locate(phase, decisions, (dense, step), ([left, right], part, &fallen)).map(Some);
+                return self
+                    .locate(phase, decisions, (dense, step), ([left, right], part, &fallen))
+                    .map(Some);
             }
             left = right;
         }

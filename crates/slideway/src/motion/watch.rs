@@ -85,7 +85,7 @@ pub(super) struct Watch<'o> {
     reaction_limit: Option<f64>,
     /// The determinant at the start of the phase.
     reference: Determinant,
-    /// The least share at which each contact has been flagged.
+    /// The greatest so far.
     pub(super) magnitudes: Magnitudes,
 }
 
@@ -169,7 +169,8 @@ impl<'o> Watch<'o> {
         Ok(match watched {
             Watched::NormalForce(contact) => {
                 let k = contact.index();
-                let sigma = if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
+                let sigma =
+                    if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
                 sigma * equations.normal_force(k)
             }
             Watched::Share(contact, side) => {
