@@ -16,6 +16,8 @@
 //!
 //! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to move.
 //!
+//! [`motion::simulate`] follows a mechanism in time.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 

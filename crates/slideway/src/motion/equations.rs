@@ -214,7 +214,9 @@ impl<'m> Equations<'m> {
             let rest = norm(&left);
             let new = rest > DEPENDENT * length;
             if new {
-                left.iter_mut().for_each(|value| *value /= rest);
+                for value in &mut left {
+                    *value /= rest;
+                }
                 basis.push(left);
             }
             new

@@ -423,13 +423,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 }
 
+/// Two places, and the values of a function there.
+type Bracket = ([f64; 2], [f64; 2]);
+
 /// A part of the way on which a function that begins with zero, or below it within rounding, and ends below zero falls
 /// from above zero; none if it does not rise first.
 fn rising_part(
     [left, mut right]: [f64; 2],
     mut at_right: f64,
     function: &mut impl FnMut(f64) -> Result<f64, Failure>,
-) -> Result<Option<([f64; 2], [f64; 2])>, Failure> {
+) -> Result<Option<Bracket>, Failure> {
     while right - left > SAME_INSTANT {
         let middle = f64::midpoint(left, right);
         let value = function(middle)?;

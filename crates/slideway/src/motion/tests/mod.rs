@@ -24,7 +24,7 @@ fn mechanism_of(text: &str) -> Mechanism {
 fn run(text: &str, options: &SimulateOptions) -> History {
     let mechanism = mechanism_of(text);
     let configuration = Configuration::new(&mechanism).unwrap();
-    let mut with = |decisions: &mut dyn Decisions| {
+    let with = |decisions: &mut dyn Decisions| {
         simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(()))
             .unwrap()
     };
