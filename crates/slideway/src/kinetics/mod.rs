@@ -20,7 +20,8 @@ mod system;
 pub(crate) use elastic::MasslessMotions;
 pub(crate) use influences::{Elimination, Influences};
 pub use loads::Wrench;
-pub(crate) use loads::unit_effort as effort_forces;
+pub(crate) use loads::{Applied, unit_effort as effort_forces};
+pub(crate) use rows::ConstraintRow;
 
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -29,7 +30,6 @@ use crate::interval::Real;
 use crate::mechanism::{JointKind, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
-use rows::ConstraintRow;
 use system::{Factorization, Singular};
 pub(crate) use system::{equilibration, scaled};
 
@@ -217,7 +217,9 @@ impl<T: Real> Assembled<T> {
         let layout = Layout::of(mechanism);
         let contacts: Vec<ContactGeometry<T>> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
-        let applied = loads::applied(mechanism, configuration)?;
+        let mut applied = Applied::new();
+        applied.fill(mechanism, configuration)?;
+        let applied = applied.wrenches;
         let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
         let coordinate_rows = rows::coordinates(mechanism, configuration);
         let builder = Builder { mechanism, configuration, layout: &layout };

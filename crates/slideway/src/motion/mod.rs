@@ -1,8 +1,102 @@
 //! Motion in time, with the contact mode as part of the state (theory, section 8).
 //!
-//! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is smooth.
+//! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is smooth: an explicit
+//! Runge-Kutta method of order 5 follows positions and velocities of all bodies, and every step is projected back on the
+//! joints. An event ends the phase; a [decision](Decisions) says how the motion goes on. Energy is accounted for: work and
+//! dissipation are integrated beside the motion, and the error of the balance is told.
+//!
+//! # What is watched
+//! Within a phase: normal forces, shares in preload gaps, sliding velocities, the determinant of the mode, couples of
+//! guided sliders, how much friction is left to joints that stick, overlaps, travel limits, functions of the user. They
+//! are evaluated at both ends of each step and at its thirds; where one has fallen below zero its zero is found on the
+//! solution within the step. So a function that falls below zero and rises again between two of these places can be
+//! missed: [`SimulateOptions::longest_step`] bounds that.
+//!
+//! ```
+//! use slideway::model::{Model, Settings};
+//! use slideway::motion::{End, SimulateOptions, simulate};
+//!
+//! let crank = Model::parse(slideway::gallery::find("slider-crank").expect("in the gallery").text)?;
+//! let history = simulate(&crank, &SimulateOptions::new(0.05))?;
+//! assert_eq!(history.end, End::Finished);
+//! // The piston reverses at its dead centre.
+//! assert!(history.events.iter().any(|event| event.words.contains("cylinder reverses")));
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
 
 pub mod decision;
+mod energy;
+mod equations;
+mod event;
+mod history;
+mod linear;
+mod options;
 mod phase;
+mod root;
+mod rules;
+mod run;
+mod smooth;
+mod stepper;
+mod watch;
 
+#[cfg(test)]
+mod tests;
+
+pub use equations::Drift;
+pub use event::{Cause, Event};
+pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
+pub use options::{Crossing, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
+pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
+
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use run::Run;
+use std::ops::ControlFlow;
+
+/// The motion of a model from its state on.
+///
+/// # Errors
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Faults> {
+    check(options)?;
+    let mechanism = Mechanism::new(model)?;
+    let configuration = Configuration::new(&mechanism)?;
+    simulate_with(&mechanism, &configuration, options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told the time after every
+/// step, and ends the simulation when it breaks.
+///
+/// # Errors
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+pub fn simulate_with(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    options: &SimulateOptions,
+    decisions: &mut dyn Decisions,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<History, Faults> {
+    check(options)?;
+    Run::new(mechanism, configuration, options, decisions).follow(progress)
+}
+
+fn check(options: &SimulateOptions) -> Result<(), Faults> {
+    let mut faults = Faults::default();
+    let mut positive = |what: &'static str, value: f64| {
+        if !(value > 0.0 && value.is_finite()) {
+            faults.push(Fault::general(FaultKind::OutOfRange {
+                what: what.to_owned(),
+                wanted: "greater than zero",
+                value,
+            }));
+        }
+    };
+    positive("the duration", options.duration);
+    positive("the tolerance", options.tolerance);
+    positive("the longest step", options.longest_step.unwrap_or(1.0));
+    positive("the limit of the normal forces", options.reaction_limit.unwrap_or(1.0));
+    faults.or(())
+}
