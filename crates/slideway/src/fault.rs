@@ -326,8 +326,14 @@ pub enum FaultKind {
     NoLoadAtRest { load: String },
     #[error("`{parameter}` is no parameter of static friction alone")]
     NotOnlyFriction { parameter: String },
-    #[error("the joints and contacts have {states} states at rest; at most {limit} are tried")]
+    #[error("the joints and contacts have {states} states; at most {limit} are tried")]
     TooManyStates { states: u64, limit: u64 },
+    #[error("the mechanism has {expected} {what}, but {found} are given")]
+    WrongCount { what: &'static str, expected: usize, found: usize },
+
+    // Motion.
+    #[error("the motion cannot begin in the contact mode that is prescribed")]
+    ContradictoryPhase,
 
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]

@@ -85,7 +85,13 @@ impl Influence {
 
     /// All unknowns for given friction forces, eqs. (3)-(5).
     pub fn unknowns(&self, friction: &[ContactFriction]) -> DVector<f64> {
-        let mut unknowns = self.frictionless.clone();
+        &self.frictionless + self.of_friction(friction)
+    }
+
+    /// What given friction forces add to all unknowns; for friction impulses the jumps of the velocities and the impulses
+    /// of the reactions.
+    pub fn of_friction(&self, friction: &[ContactFriction]) -> DVector<f64> {
+        let mut unknowns = DVector::zeros(self.frictionless.len());
         for (column, friction) in self.columns.iter().zip(friction) {
             unknowns.axpy(friction.positive_face, &column[0], 1.0);
             unknowns.axpy(friction.negative_face, &column[1], 1.0);

@@ -93,7 +93,7 @@ impl<'p> ElasticGuides<'p> {
     }
 
     /// The attainability of the mode with these sides, without what an unattainable solution separates.
-    fn of(&self, sides: &[Side]) -> Attainability {
+    pub(crate) fn of(&self, sides: &[Side]) -> Attainability {
         if sides.len() > MOST_CONTACTS {
             let reason = format!("more than {MOST_CONTACTS} contacts");
             return Attainability::without_eigenvalues(Verdict::NotComputed, &reason);

@@ -109,6 +109,37 @@ impl<T: Real> Configuration<T> {
         frame.body().map_or(T::zero(), |body| self.velocities[body.index()].angular)
     }
 
+    /// Sets the values of the chosen coordinates and their rates to those of the poses and velocities.
+    pub(crate) fn measure(&mut self, mechanism: &Mechanism<T>) {
+        for (index, coordinate) in mechanism.coordinates.iter().enumerate() {
+            let (moved_by, rate) = match coordinate.kind {
+                CoordinateKind::Slide(joint) => match mechanism.slider(joint) {
+                    Some(slider) => self.sliding(mechanism, slider),
+                    None => continue,
+                },
+                CoordinateKind::Rotation(body, against) => {
+                    let frame = Frame::Body(body);
+                    let rate = self.angular_velocity(frame) - self.angular_velocity(against);
+                    (self.angle(frame) - self.angle(against), rate)
+                }
+                CoordinateKind::Displacement(point, axis) => {
+                    let place = self.position(mechanism, &point);
+                    (axis.dot(&(place - point.position)), axis.dot(&self.velocity_at(point.frame, place)))
+                }
+            };
+            self.coordinates[index] = coordinate.drawn_at + moved_by;
+            self.rates[index] = rate;
+        }
+    }
+
+    /// Displacement of a block against its guide (m), and its rate (m/s): u . (v_block - v_guide).
+    pub(crate) fn sliding(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> (T, T) {
+        let tangent = self.direction(slider.guide, slider.tangent);
+        let [block, guide] = middle_points(slider).map(|point| self.position(mechanism, &point));
+        let relative = self.velocity_at(slider.block, block) - self.velocity_at(slider.guide, block);
+        (tangent.dot(&(block - guide)), tangent.dot(&relative))
+    }
+
     /// A direction of the drawing, turned with a frame.
     pub fn direction(&self, frame: Frame, drawn: Vector2<T>) -> Vector2<T> {
         turned(self.angle(frame), drawn)

@@ -33,28 +33,59 @@ impl<T: Real> Wrench<T> {
 /// Forces (N) and couples (N m) with which every product of the equations stays within the range of floating point.
 const GREATEST: f64 = 1e100;
 
-/// All weights and loads in a configuration.
-pub(super) fn applied<T: Real>(
-    mechanism: &Mechanism<T>,
-    configuration: &Configuration<T>,
-) -> Result<Vec<Wrench<T>>, Faults> {
-    let mut loads = Loads { mechanism, configuration, wrenches: Vec::new() };
-    loads.weights();
-    let mut faults = Faults::default();
-    for load in &mechanism.loads {
-        let first = loads.wrenches.len();
-        if let Err(fault) = loads.load(load) {
-            faults.push(fault);
-        }
-        let is_usual = |wrench: &Wrench<T>| {
-            [wrench.force.x, wrench.force.y, wrench.couple].iter().all(|part| part.magnitude() < GREATEST)
-        };
-        if !loads.wrenches[first..].iter().all(is_usual) {
-            let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
-            faults.push(Fault::new(kind, load.place.clone()));
-        }
+/// Weights and loads in a configuration; it can be filled again and again without new memory.
+#[derive(Debug, Clone)]
+pub(crate) struct Applied<T = f64> {
+    /// The weight of each body, then the loads in their order.
+    pub(crate) wrenches: Vec<Wrench<T>>,
+    /// For each load, how many wrenches there are up to its end.
+    ends: Vec<usize>,
+    weights: usize,
+}
+
+impl<T: Real> Applied<T> {
+    /// Nothing yet.
+    pub(crate) fn new() -> Self {
+        Self { wrenches: Vec::new(), ends: Vec::new(), weights: 0 }
     }
-    faults.or(loads.wrenches)
+
+    /// Replaces what it holds by the weights and loads of a mechanism in a configuration.
+    ///
+    /// # Errors
+    /// Loads without a value or direction.
+    pub(crate) fn fill(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+    ) -> Result<(), Faults> {
+        self.wrenches.clear();
+        self.ends.clear();
+        let mut loads = Loads { mechanism, configuration, wrenches: &mut self.wrenches };
+        loads.weights();
+        self.weights = loads.wrenches.len();
+        let mut faults = Faults::default();
+        for load in &mechanism.loads {
+            let first = loads.wrenches.len();
+            if let Err(fault) = loads.load(load) {
+                faults.push(fault);
+            }
+            let is_usual = |wrench: &Wrench<T>| {
+                [wrench.force.x, wrench.force.y, wrench.couple].iter().all(|part| part.magnitude() < GREATEST)
+            };
+            if !loads.wrenches[first..].iter().all(is_usual) {
+                let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
+                faults.push(Fault::new(kind, load.place.clone()));
+            }
+            self.ends.push(loads.wrenches.len());
+        }
+        faults.or(())
+    }
+
+    /// What a load, counted from 0, puts on the bodies.
+    pub(crate) fn of_load(&self, load: usize) -> &[Wrench<T>] {
+        let first = if load == 0 { self.weights } else { self.ends[load - 1] };
+        &self.wrenches[first..self.ends[load]]
+    }
 }
 
 /// A unit effort of a drive and its reaction.
@@ -62,25 +93,26 @@ pub(crate) fn unit_effort<T: Real>(
     mechanism: &Mechanism<T>,
     configuration: &Configuration<T>,
     effort: &Effort<T>,
-) -> Vec<Wrench<T>> {
-    match *effort {
+) -> impl Iterator<Item = Wrench<T>> {
+    let both = match *effort {
         Effort::Force { at, direction, turns, reaction } => {
             let direction = if turns { configuration.direction(at.frame, direction) } else { direction };
             let place = configuration.position(mechanism, &at);
             let opposite = reaction.map(|frame| Wrench::force(frame, place, -direction));
-            [Wrench::force(at.frame, place, direction)].into_iter().chain(opposite).collect()
+            [Some(Wrench::force(at.frame, place, direction)), opposite]
         }
         Effort::Torque { body, reaction } => {
             let opposite = reaction.map(|frame| Wrench::couple(frame, -T::one()));
-            [Wrench::couple(body, T::one())].into_iter().chain(opposite).collect()
+            [Some(Wrench::couple(body, T::one())), opposite]
         }
-    }
+    };
+    both.into_iter().flatten()
 }
 
 struct Loads<'m, T> {
     mechanism: &'m Mechanism<T>,
     configuration: &'m Configuration<T>,
-    wrenches: Vec<Wrench<T>>,
+    wrenches: &'m mut Vec<Wrench<T>>,
 }
 
 impl<T: Real> Loads<'_, T> {

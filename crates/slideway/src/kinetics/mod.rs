@@ -18,16 +18,16 @@ mod system;
 
 pub(crate) use elastic::MasslessMotions;
 pub use loads::Wrench;
-pub(crate) use loads::unit_effort as effort_forces;
+pub(crate) use loads::{Applied, unit_effort as effort_forces};
+pub(crate) use rows::ConstraintRow;
 
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{JointKind, Mechanism, rot90};
+use crate::mechanism::{JointKind, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
-use rows::ConstraintRow;
 use system::{Factorization, Singular};
 pub(crate) use system::{equilibration, scaled};
 
@@ -51,7 +51,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    fn new<T: Real>(mechanism: &Mechanism<T>) -> Self {
+    /// The layout of the unknowns of a mechanism.
+    pub(crate) fn new<T: Real>(mechanism: &Mechanism<T>) -> Self {
         let mut reactions = Vec::new();
         for (index, joint) in mechanism.joints.iter().enumerate() {
             let id = JointId(index);
@@ -159,6 +160,32 @@ impl KineticEquations {
     pub fn coordinate_accelerations(&self, unknowns: &DVector<f64>) -> Vec<f64> {
         self.coordinate_rows.iter().map(|row| row.times(unknowns) - row.right_hand_side).collect()
     }
+
+    /// Jumps of the rates of the chosen coordinates that belong to jumps of the bodies' velocities.
+    pub(crate) fn coordinate_jumps(&self, unknowns: &DVector<f64>) -> Vec<f64> {
+        self.coordinate_rows.iter().map(|row| row.times(unknowns)).collect()
+    }
+}
+
+/// The row that gives the acceleration of sliding of a joint, the block's material point against the guide's along u.
+#[derive(Debug, Clone)]
+pub(crate) struct SlidingRow(ConstraintRow);
+
+impl SlidingRow {
+    /// The row of a sliding joint in a configuration.
+    pub(crate) fn new(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Self {
+        Self(rows::sliding(mechanism, configuration, slider))
+    }
+
+    /// What these changes of the unknowns add to the acceleration (m/s^2), or to the velocity if they are impulses.
+    pub(crate) fn change(&self, unknowns: &DVector<f64>) -> f64 {
+        self.0.times(unknowns)
+    }
+
+    /// The acceleration of sliding that belongs to the unknowns (m/s^2), the velocities' part included.
+    pub(crate) fn acceleration(&self, unknowns: &DVector<f64>) -> f64 {
+        self.0.times(unknowns) - self.0.right_hand_side
+    }
 }
 
 /// The kinetic equations of a mechanism in a configuration, not factored: rounded, or within intervals.
@@ -188,7 +215,9 @@ impl<T: Real> Assembled<T> {
         let layout = Layout::new(mechanism);
         let contacts: Vec<ContactGeometry<T>> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
-        let applied = loads::applied(mechanism, configuration)?;
+        let mut applied = Applied::new();
+        applied.fill(mechanism, configuration)?;
+        let applied = applied.wrenches;
         let constraints = rows::constraints(mechanism, configuration, &contacts, &layout);
         let coordinate_rows = rows::coordinates(mechanism, configuration);
         let builder = Builder { mechanism, configuration, layout: &layout };

@@ -4,14 +4,16 @@ use super::{Layout, Reaction};
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{CoordinateKind, JointKind, Mechanism, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
 use nalgebra::{DVector, Vector2};
 
 /// One row: entries by the index of the acceleration, and the right-hand side.
+///
+/// Its entries, times the velocities, are also the rate of what the row is about.
 #[derive(Debug, Clone)]
-pub(super) struct ConstraintRow<T = f64> {
-    pub(super) entries: Vec<(usize, T)>,
-    pub(super) right_hand_side: T,
+pub(crate) struct ConstraintRow<T = f64> {
+    pub(crate) entries: Vec<(usize, T)>,
+    pub(crate) right_hand_side: T,
 }
 
 impl ConstraintRow {
@@ -22,8 +24,57 @@ impl ConstraintRow {
 }
 
 impl<T: Real> ConstraintRow<T> {
-    fn empty() -> Self {
+    /// Nothing yet.
+    pub(crate) fn empty() -> Self {
         Self { entries: Vec::new(), right_hand_side: T::zero() }
+    }
+
+    fn clear(&mut self) {
+        self.entries.clear();
+        self.right_hand_side = T::zero();
+    }
+
+    /// Replaces it by the row of a reaction.
+    pub(crate) fn set_constraint(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        contacts: &[ContactGeometry<T>],
+        reaction: Reaction,
+    ) {
+        self.clear();
+        match reaction {
+            Reaction::Hinge(joint, axis) => self.hinge(mechanism, configuration, joint, axis),
+            Reaction::Normal(contact) => {
+                let joint = mechanism.contacts[contact.index()].joint;
+                self.normal(mechanism, configuration, joint, &contacts[contact.index()]);
+            }
+            Reaction::Couple(joint) => self.no_relative_rotation(mechanism, joint),
+        }
+    }
+
+    /// Replaces it by the row that gives the acceleration of a coordinate: C a - right-hand side.
+    pub(crate) fn set_coordinate(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        kind: CoordinateKind<T>,
+    ) {
+        self.clear();
+        match kind {
+            CoordinateKind::Slide(joint) => {
+                if let Some(slider) = mechanism.slider(joint) {
+                    self.add_sliding(mechanism, configuration, slider);
+                }
+            }
+            CoordinateKind::Rotation(body, against) => {
+                self.add_rotation(Frame::Body(body), T::one());
+                self.add_rotation(against, -T::one());
+            }
+            CoordinateKind::Displacement(point, axis) => {
+                self.add(configuration, point.frame, configuration.position(mechanism, &point), axis);
+            }
+        }
     }
 
     /// Adds sign * axis . (acceleration of the material point of `frame` at `place`).
@@ -45,6 +96,73 @@ impl<T: Real> ConstraintRow<T> {
             self.entries.push((3 * body.index() + 2, sign));
         }
     }
+
+    /// Both points of a hinge have the same acceleration.
+    fn hinge(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        joint: JointId,
+        axis: usize,
+    ) {
+        if let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind {
+            let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
+            self.add(configuration, first.frame, configuration.position(mechanism, first), axis);
+            self.add(configuration, second.frame, configuration.position(mechanism, second), -axis);
+        }
+    }
+
+    /// The block's material point stays on the line of the guide: n . (a_block - a_guide) = 2 omega_guide ds.
+    ///
+    /// A contact that is carried by the guide stays on a line of the block; block and guide turn together there, so
+    /// that the row is the same.
+    fn normal(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        joint: JointId,
+        contact: &ContactGeometry<T>,
+    ) {
+        if let Some(slider) = mechanism.slider(joint) {
+            self.add(configuration, slider.block, contact.point, contact.normal);
+            self.add(configuration, slider.guide, contact.point, -contact.normal);
+            self.right_hand_side +=
+                T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.sliding_velocity;
+        }
+    }
+
+    fn no_relative_rotation(&mut self, mechanism: &Mechanism<T>, joint: JointId) {
+        if let Some(slider) = mechanism.slider(joint) {
+            self.add_rotation(slider.block, T::one());
+            self.add_rotation(slider.guide, -T::one());
+        }
+    }
+
+    /// The row that gives the acceleration of sliding, s'' = u . (a_block - a_guide), both at the place of the block: the
+    /// Coriolis term is normal to u.
+    fn add_sliding(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        slider: &Slider<T>,
+    ) {
+        let tangent = configuration.direction(slider.guide, slider.tangent);
+        let middle = Attachment { frame: slider.block, position: slider.at };
+        let place = configuration.position(mechanism, &middle);
+        self.add(configuration, slider.block, place, tangent);
+        self.add(configuration, slider.guide, place, -tangent);
+    }
+}
+
+/// The row of the acceleration of sliding of a joint.
+pub(super) fn sliding<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    slider: &Slider<T>,
+) -> ConstraintRow<T> {
+    let mut row = ConstraintRow::empty();
+    row.add_sliding(mechanism, configuration, slider);
+    row
 }
 
 /// The rows of all reactions, in the order of the layout.
@@ -54,60 +172,12 @@ pub(super) fn constraints<T: Real>(
     contacts: &[ContactGeometry<T>],
     layout: &Layout,
 ) -> Vec<ConstraintRow<T>> {
-    let row = |reaction: &Reaction| match *reaction {
-        Reaction::Hinge(joint, axis) => hinge(mechanism, configuration, joint, axis),
-        Reaction::Normal(contact) => {
-            let joint = mechanism.contacts[contact.index()].joint;
-            normal(mechanism, configuration, joint, &contacts[contact.index()])
-        }
-        Reaction::Couple(joint) => no_relative_rotation(mechanism, joint),
+    let row = |reaction: &Reaction| {
+        let mut row = ConstraintRow::empty();
+        row.set_constraint(mechanism, configuration, contacts, *reaction);
+        row
     };
     layout.reactions().iter().map(row).collect()
-}
-
-/// Both points of a hinge have the same acceleration.
-fn hinge<T: Real>(
-    mechanism: &Mechanism<T>,
-    configuration: &Configuration<T>,
-    joint: JointId,
-    axis: usize,
-) -> ConstraintRow<T> {
-    let mut row = ConstraintRow::empty();
-    if let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind {
-        let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
-        row.add(configuration, first.frame, configuration.position(mechanism, first), axis);
-        row.add(configuration, second.frame, configuration.position(mechanism, second), -axis);
-    }
-    row
-}
-
-/// The block's material point stays on the line of the guide: n . (a_block - a_guide) = 2 omega_guide ds.
-///
-/// A contact that is carried by the guide stays on a line of the block; block and guide turn together there, so
-/// that the row is the same.
-fn normal<T: Real>(
-    mechanism: &Mechanism<T>,
-    configuration: &Configuration<T>,
-    joint: JointId,
-    contact: &ContactGeometry<T>,
-) -> ConstraintRow<T> {
-    let mut row = ConstraintRow::empty();
-    if let Some(slider) = mechanism.slider(joint) {
-        row.add(configuration, slider.block, contact.point, contact.normal);
-        row.add(configuration, slider.guide, contact.point, -contact.normal);
-        row.right_hand_side +=
-            T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.sliding_velocity;
-    }
-    row
-}
-
-fn no_relative_rotation<T: Real>(mechanism: &Mechanism<T>, joint: JointId) -> ConstraintRow<T> {
-    let mut row = ConstraintRow::empty();
-    if let Some(slider) = mechanism.slider(joint) {
-        row.add_rotation(slider.block, T::one());
-        row.add_rotation(slider.guide, -T::one());
-    }
-    row
 }
 
 /// The rows that give the accelerations of the coordinates: C a - right-hand side.
@@ -117,25 +187,7 @@ pub(super) fn coordinates<T: Real>(
 ) -> Vec<ConstraintRow<T>> {
     let row = |kind: CoordinateKind<T>| {
         let mut row = ConstraintRow::empty();
-        match kind {
-            // s'' = u . (a_block - a_guide), both at the place of the block: the Coriolis term is normal to u.
-            CoordinateKind::Slide(joint) => {
-                if let Some(slider) = mechanism.slider(joint) {
-                    let slide = configuration.slide(mechanism, slider);
-                    let at = crate::mechanism::Attachment { frame: slider.block, position: slider.at };
-                    let place = configuration.position(mechanism, &at);
-                    row.add(configuration, slider.block, place, slide.tangent);
-                    row.add(configuration, slider.guide, place, -slide.tangent);
-                }
-            }
-            CoordinateKind::Rotation(body, against) => {
-                row.add_rotation(Frame::Body(body), T::one());
-                row.add_rotation(against, -T::one());
-            }
-            CoordinateKind::Displacement(point, axis) => {
-                row.add(configuration, point.frame, configuration.position(mechanism, &point), axis);
-            }
-        }
+        row.set_coordinate(mechanism, configuration, kind);
         row
     };
     mechanism.coordinates.iter().map(|coordinate| row(coordinate.kind)).collect()

@@ -408,11 +408,13 @@ impl<T: Real> Mechanism<T> {
     ) -> Result<T, Fault> {
         match quantity {
             Quantity::Constant(value) => Ok(value),
-            Quantity::Varying(id) => {
-                let values = Values { parameters: &self.parameters, coordinates, rates, time };
-                self.formulas[id.index()].value(&values)
-            }
+            Quantity::Varying(id) => self.formulas[id.index()].value(&self.values(coordinates, rates, time)),
         }
+    }
+
+    /// What the names in an expression stand for in a state.
+    pub(crate) fn values<'a>(&'a self, coordinates: &'a [T], rates: &'a [T], time: T) -> Values<'a, T> {
+        Values { parameters: &self.parameters, coordinates, rates, time }
     }
 }
 

@@ -1,7 +1,83 @@
 //! Motion in time, with the contact mode as part of the state (theory, section 8).
 //!
 //! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is smooth.
+//! An event ends the phase; a [decision](Decisions) says how the motion goes on.
 
+pub mod decision;
+mod energy;
+mod equations;
+mod event;
+mod history;
+mod linear;
+mod options;
 mod phase;
+mod root;
+mod rules;
+mod run;
+mod smooth;
+mod stepper;
+mod watch;
 
+#[cfg(test)]
+mod tests;
+
+pub use equations::Drift;
+pub use event::{Cause, Event};
+pub use history::{
+    ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics,
+};
+pub use options::{Crossing, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
+pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
+
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use run::Run;
+use std::ops::ControlFlow;
+
+/// The motion of a model from its state on.
+///
+/// # Errors
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Faults> {
+    check(options)?;
+    let mechanism = Mechanism::new(model)?;
+    let configuration = Configuration::new(&mechanism)?;
+    simulate_with(&mechanism, &configuration, options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told the time after every
+/// step, and ends the simulation when it breaks.
+///
+/// # Errors
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+pub fn simulate_with(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    options: &SimulateOptions,
+    decisions: &mut dyn Decisions,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<History, Faults> {
+    check(options)?;
+    Run::new(mechanism, configuration, options, decisions).follow(progress)
+}
+
+fn check(options: &SimulateOptions) -> Result<(), Faults> {
+    let mut faults = Faults::default();
+    let mut positive = |what: &'static str, value: f64| {
+        if !(value > 0.0 && value.is_finite()) {
+            faults.push(Fault::general(FaultKind::OutOfRange {
+                what: what.to_owned(),
+                wanted: "greater than zero",
+                value,
+            }));
+        }
+    };
+    positive("the duration", options.duration);
+    positive("the tolerance", options.tolerance);
+    positive("the longest step", options.longest_step.unwrap_or(1.0));
+    positive("the limit of the normal forces", options.reaction_limit.unwrap_or(1.0));
+    faults.or(())
+}

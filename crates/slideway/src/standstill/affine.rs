@@ -9,17 +9,17 @@ const CONSISTENT: f64 = 1e-10;
 
 /// The solutions `x = particular + directions z` for every `z`.
 #[derive(Debug, Clone)]
-pub(super) struct AffineSet {
+pub(crate) struct AffineSet {
     /// One solution.
-    pub(super) particular: DVector<f64>,
+    pub(crate) particular: DVector<f64>,
     /// What may be added, one direction in each column.
-    pub(super) directions: DMatrix<f64>,
+    pub(crate) directions: DMatrix<f64>,
 }
 
 impl AffineSet {
     /// The solutions of `matrix` x = `right_hand_side`, by Gauss-Jordan elimination with complete pivoting; nothing
     /// where the equations contradict each other.
-    pub(super) fn of(mut matrix: DMatrix<f64>, mut right_hand_side: DVector<f64>) -> Option<Self> {
+    pub(crate) fn of(mut matrix: DMatrix<f64>, mut right_hand_side: DVector<f64>) -> Option<Self> {
         let pivots = reduce(&mut matrix, &mut right_hand_side);
         if right_hand_side.rows(pivots.len(), matrix.nrows() - pivots.len()).amax() > CONSISTENT {
             return None;

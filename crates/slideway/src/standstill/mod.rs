@@ -29,7 +29,7 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
-mod affine;
+pub(crate) mod affine;
 mod reactions;
 mod region;
 mod release;

@@ -1,0 +1,110 @@
+//! Attainability of phases (theory, section 7): sticking joints are taken as locks.
+
+use super::instant::Instant;
+use crate::attainability::ElasticGuides;
+use crate::configuration::Configuration;
+use crate::ids::CoordinateId;
+use crate::influence::Influence;
+use crate::kinetics::KineticEquations;
+use crate::mechanism::{Attachment, Coordinate, CoordinateKind, Drive, Effort, Mechanism, Quantity, Slider};
+use crate::modes::Side;
+use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::report::{Attainability, Verdict};
+use crate::solve::mode_problem;
+use nalgebra::DVector;
+
+const STICKS: &str = "every joint sticks: no friction follows the normal forces";
+const IN_GAP: &str = "a contact is between its faces";
+
+/// The attainability of a phase whose sides are known, without what an unattainable phase separates.
+///
+/// Joints that stick are locked in the middle of the block, as far as the locks are independent, and their contacts
+/// are without friction there.
+pub(super) fn attainability(
+    instant: &Instant<'_>,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Attainability {
+    let not_computed = |reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason);
+    let sticks = |joint: usize| phase.joints[joint] == JointPhase::Sticking;
+    if !phase.joints.is_empty() && (0..phase.joints.len()).all(sticks) {
+        return not_computed(STICKS);
+    }
+    let sliding_gap = (0..phase.contacts.len()).any(|k| {
+        phase.contacts[k] == ContactPhase::PreloadGap
+            && instant.joint_of(k).is_some_and(|joint| !sticks(joint))
+    });
+    if sliding_gap {
+        return not_computed(IN_GAP);
+    }
+    let stuck = (0..phase.joints.len()).filter(|&joint| sticks(joint));
+    let (mechanism, equations) = locked(instant, configuration, stuck);
+    let influence = Influence::new(&equations);
+    let signs =
+        DVector::from_fn(phase.contacts.len(), |k, _| match instant.joint_of(k).map(|j| phase.joints[j]) {
+            Some(JointPhase::Sliding(sign)) => sign,
+            _ => 0.0,
+        });
+    let Ok(problem) = mode_problem(&mechanism, &influence, &signs) else {
+        return not_computed("a coefficient is beyond the range of floating point");
+    };
+    let sides: Vec<Side> = phase
+        .contacts
+        .iter()
+        .map(|contact| match contact {
+            ContactPhase::Pressed(side) => *side,
+            ContactPhase::PreloadGap => Side::Positive,
+        })
+        .collect();
+    ElasticGuides::new(&mechanism, &equations, &problem).of(&sides)
+}
+
+/// The mechanism with these joints locked, as far as the locks are independent.
+fn locked(
+    instant: &Instant<'_>,
+    configuration: &Configuration,
+    stuck: impl Iterator<Item = usize>,
+) -> (Mechanism, KineticEquations) {
+    let mut found = (instant.mechanism.clone(), instant.equations.clone());
+    for joint in stuck {
+        let id = instant.joints[joint].id;
+        let Some(slider) = instant.mechanism.slider(id) else { continue };
+        let mut mechanism = found.0.clone();
+        lock(&mut mechanism, slider, &instant.mechanism.joints[id.index()], id);
+        if let Ok(equations) = KineticEquations::new(&mechanism, configuration) {
+            found = (mechanism, equations);
+        }
+    }
+    found
+}
+
+/// Holds a sliding joint by a force between block and guide along the centre line.
+fn lock(
+    mechanism: &mut Mechanism,
+    slider: &Slider,
+    joint: &crate::mechanism::Joint,
+    id: crate::ids::JointId,
+) {
+    let coordinate = CoordinateId(mechanism.coordinates.len());
+    mechanism.coordinates.push(Coordinate {
+        name: joint.name.clone(),
+        place: joint.place.clone(),
+        kind: CoordinateKind::Slide(id),
+        drawn_at: 0.0,
+        value: 0.0,
+        rate: 0.0,
+    });
+    mechanism.drives.push(Drive {
+        name: joint.name.clone(),
+        place: joint.place.clone(),
+        coordinate,
+        acceleration: Quantity::Constant(0.0),
+        effort: Effort::Force {
+            // A point of the guide on its centre line, so that the direction turns with the guide.
+            at: Attachment { frame: slider.guide, position: slider.at },
+            direction: -slider.tangent,
+            turns: true,
+            reaction: Some(slider.block),
+        },
+    });
+}

@@ -1,0 +1,180 @@
+//! Whether a phase that starts at one of its bounds moves away from it: short steps along its own motion.
+
+use super::assessment::{Assessment, Decisive, assess};
+use super::instant::Instant;
+use super::state::state;
+use super::system::{Question, Subject};
+use super::{BOUNDARY, Limit, Standing};
+use crate::configuration::{Configuration, Pose, Velocity};
+use crate::fault::Faults;
+use crate::ids::{ContactId, JointId};
+use crate::mechanism::Mechanism;
+use crate::motion::Phase;
+use nalgebra::{DVector, Vector2};
+
+/// Length of a step, as a part of the time in which something of the motion can change.
+const STEP: f64 = 1e-4;
+/// Rates of slacks below this, per unit of that time, are zero: they are accurate to about 1e-8.
+const NO_RATE: f64 = 1e-6;
+/// Second derivatives of slacks below this, likewise: they are accurate to about 1e-4.
+const NO_CURVATURE: f64 = 2e-3;
+
+/// Accelerations of bodies and coordinates.
+struct Accelerations {
+    bodies: DVector<f64>,
+    coordinates: Vec<f64>,
+}
+
+/// How a phase stands to its bounds; nothing if it violates one at once.
+///
+/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
+/// differences over two steps of Heun's method.
+pub(super) fn standing(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
+) -> Option<Standing> {
+    if assessment.least() < -BOUNDARY {
+        return None;
+    }
+    let bounds: Vec<usize> =
+        (0..assessment.slacks.len()).filter(|&index| assessment.slacks[index].value <= BOUNDARY).collect();
+    if bounds.is_empty() {
+        return Some(Standing::Inside);
+    }
+    let limits = |indices: &[usize]| -> Vec<Limit> {
+        indices.iter().map(|&index| limit(instant, assessment.slacks[index].subject)).collect()
+    };
+    let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped };
+    let scale = time_scale(instant, configuration);
+    let Ok(Some(later)) = flow.slacks(configuration, (instant, question, assessment), STEP * scale) else {
+        return Some(Standing::Undecided(limits(&bounds)));
+    };
+    let mut constant = Vec::new();
+    for &index in &bounds {
+        let first = assessment.slacks[index];
+        let at = |step: usize| later[step].get(index).filter(|slack| slack.subject == first.subject);
+        let (Some(second), Some(third)) = (at(0), at(1)) else {
+            constant.push(index);
+            continue;
+        };
+        let rate = (-3.0 * first.value + 4.0 * second.value - third.value) / (2.0 * STEP);
+        let curvature = (first.value - 2.0 * second.value + third.value) / (STEP * STEP);
+        if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
+            return None;
+        }
+        if rate <= NO_RATE && curvature <= NO_CURVATURE {
+            constant.push(index);
+        }
+    }
+    Some(if constant.is_empty() {
+        Standing::Leaves(limits(&bounds))
+    } else {
+        Standing::Undecided(limits(&constant))
+    })
+}
+
+fn limit(instant: &Instant<'_>, subject: Decisive) -> Limit {
+    match subject {
+        Decisive::One(Subject::Pressure(k)) => Limit::NormalForce(ContactId(k)),
+        Decisive::One(Subject::Share(k)) => Limit::PreloadShare(ContactId(k)),
+        Decisive::One(Subject::Couple(k)) => Limit::Couple(ContactId(k)),
+        Decisive::One(Subject::Friction(_)) | Decisive::Open => Limit::Sticking,
+        Decisive::One(Subject::Slip(joint)) => {
+            Limit::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
+        }
+    }
+}
+
+/// The time in which accelerations or velocities go through the whole mechanism (s).
+fn time_scale(instant: &Instant<'_>, configuration: &Configuration) -> f64 {
+    let length = instant.units.length;
+    let speeds = configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * length));
+    let speed = speeds.fold(0.0, f64::max);
+    (length / instant.units.acceleration).sqrt().min(if speed > 0.0 { length / speed } else { f64::INFINITY })
+}
+
+/// The motion of a phase.
+struct Flow<'f> {
+    mechanism: &'f Mechanism,
+    phase: &'f Phase,
+    stopped: &'f [bool],
+}
+
+type Slacks = Vec<super::assessment::Slack>;
+
+impl Flow<'_> {
+    /// The slacks after one step and after two; nothing if the phase has no accelerations there.
+    fn slacks(
+        &self,
+        configuration: &Configuration,
+        (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
+        step: f64,
+    ) -> Result<Option<[Slacks; 2]>, Faults> {
+        let Some(start) = accelerations(instant, question, assessment) else { return Ok(None) };
+        let Some((next, next_accelerations, first)) = self.step(configuration, &start, step)? else {
+            return Ok(None);
+        };
+        let second = self.step(&next, &next_accelerations, step)?;
+        Ok(second.map(|(_, _, second)| [first, second]))
+    }
+
+    /// A step of Heun's method: the configuration after it, its accelerations and slacks.
+    fn step(
+        &self,
+        from: &Configuration,
+        start: &Accelerations,
+        step: f64,
+    ) -> Result<Option<(Configuration, Accelerations, Slacks)>, Faults> {
+        let predicted = advanced(from, start, start, step);
+        let Some((end, _)) = self.at(&predicted)? else { return Ok(None) };
+        let corrected = advanced(from, start, &end, step);
+        Ok(self.at(&corrected)?.map(|(accelerations, slacks)| (corrected, accelerations, slacks)))
+    }
+
+    fn at(&self, configuration: &Configuration) -> Result<Option<(Accelerations, Slacks)>, Faults> {
+        let instant = Instant::new(self.mechanism, configuration)?;
+        let question = instant.question(self.stopped);
+        let Ok(Some(assessment)) = assess(&instant, &question, self.phase, BOUNDARY) else { return Ok(None) };
+        let found = accelerations(&instant, &question, &assessment);
+        Ok(found.map(|accelerations| (accelerations, assessment.slacks)))
+    }
+}
+
+fn accelerations(
+    instant: &Instant<'_>,
+    question: &Question<'_>,
+    assessment: &Assessment,
+) -> Option<Accelerations> {
+    let state = state(instant, question, assessment)?;
+    let bodies = state.unknowns.rows(0, 3 * instant.mechanism.bodies.len()).into_owned();
+    Some(Accelerations { bodies, coordinates: state.coordinate_accelerations })
+}
+
+/// The configuration after a step in which accelerations go from `start` to `end` in proportion to time.
+fn advanced(from: &Configuration, start: &Accelerations, end: &Accelerations, step: f64) -> Configuration {
+    let way = |velocity: f64, a: f64, b: f64| step * (velocity + step * (2.0 * a + b) / 6.0);
+    let gain = |a: f64, b: f64| step * f64::midpoint(a, b);
+    let part = |accelerations: &Accelerations, body: usize| -> [f64; 3] {
+        [0, 1, 2].map(|axis| accelerations.bodies[3 * body + axis])
+    };
+    let pose = |(body, (pose, velocity)): (usize, (&Pose, &Velocity))| {
+        let ([ax, ay, at], [bx, by, bt]) = (part(start, body), part(end, body));
+        let moved = Vector2::new(way(velocity.linear.x, ax, bx), way(velocity.linear.y, ay, by));
+        Pose { position: pose.position + moved, angle: pose.angle + way(velocity.angular, at, bt) }
+    };
+    let velocity = |(body, velocity): (usize, &Velocity)| {
+        let ([ax, ay, at], [bx, by, bt]) = (part(start, body), part(end, body));
+        let linear = velocity.linear + Vector2::new(gain(ax, bx), gain(ay, by));
+        Velocity { linear, angular: velocity.angular + gain(at, bt) }
+    };
+    let coordinates = from.coordinates.iter().zip(&from.rates);
+    let both = start.coordinates.iter().zip(&end.coordinates);
+    Configuration {
+        poses: from.poses.iter().zip(&from.velocities).enumerate().map(pose).collect(),
+        velocities: from.velocities.iter().enumerate().map(velocity).collect(),
+        coordinates: coordinates.zip(both.clone()).map(|((q, qd), (a, b))| q + way(*qd, *a, *b)).collect(),
+        rates: from.rates.iter().zip(both).map(|(qd, (a, b))| qd + gain(*a, *b)).collect(),
+        time: from.time + step,
+    }
+}

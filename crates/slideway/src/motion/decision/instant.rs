@@ -1,0 +1,265 @@
+//! A mechanism at one instant: how normal forces, sliding accelerations and couples answer to friction.
+
+use super::system::Question;
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{ContactId, JointId};
+use crate::influence::Influence;
+use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
+use crate::mechanism::{Contact, JointKind, Mechanism};
+use crate::model::{PreloadLine, SliderKind};
+use crate::motion::Phase;
+use nalgebra::{DMatrix, DVector};
+
+/// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
+const NO_INFLUENCE: f64 = 1e-13;
+/// Versions of an influence column that differ by less than this multiple of it are the same.
+const SAME: f64 = 1e-12;
+
+/// Units in which the numbers of a decision are of order one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Units {
+    /// N, or N s for impulses.
+    pub(super) force: f64,
+    /// m
+    pub(super) length: f64,
+    /// m/s^2, or m/s for impulses.
+    pub(super) acceleration: f64,
+}
+
+/// A sliding joint at the instant.
+#[derive(Debug, Clone)]
+pub(super) struct SlidingJoint {
+    /// Which joint it is.
+    pub(super) id: JointId,
+    /// Its contacts.
+    pub(super) contacts: Vec<usize>,
+    /// Half the length of the pressed face of a guided slider, and the place of its couple among the unknowns.
+    pub(super) couple: Option<(f64, usize)>,
+    /// Its acceleration of sliding.
+    pub(super) row: SlidingRow,
+    /// Its sliding velocity (m/s).
+    pub(super) velocity: f64,
+    /// Whether any friction could make it stick.
+    pub(super) has_friction: bool,
+}
+
+/// What is asked of all unknowns, as it answers to the friction forces: normal forces of the contacts, accelerations
+/// of the sliding joints, couples of the guided sliders, in units.
+#[derive(Debug, Clone)]
+pub(super) struct Outputs {
+    /// Without friction.
+    pub(super) base: DVector<f64>,
+    /// Added by a unit of friction at the faces of positive and of negative normal force; a column for each contact.
+    pub(super) columns: [DMatrix<f64>; 2],
+}
+
+/// A mechanism at one instant.
+#[derive(Debug, Clone)]
+pub(super) struct Instant<'m> {
+    /// The mechanism.
+    pub(super) mechanism: &'m Mechanism,
+    /// Its kinetic equations.
+    pub(super) equations: KineticEquations,
+    /// How its unknowns answer to friction.
+    pub(super) influence: Influence,
+    /// Its sliding joints.
+    pub(super) joints: Vec<SlidingJoint>,
+    /// Units of forces and accelerations.
+    pub(super) units: Units,
+    /// What is asked of forces and accelerations.
+    pub(super) outputs: Outputs,
+    /// For each contact, whether the right-hand side jumps with its side.
+    pub(super) has_jump: Vec<bool>,
+}
+
+impl<'m> Instant<'m> {
+    /// A mechanism in a configuration.
+    ///
+    /// # Errors
+    /// Whatever [`KineticEquations::new`] refuses.
+    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
+        let equations = KineticEquations::new(mechanism, configuration)?;
+        let influence = Influence::new(&equations);
+        let joints = sliding_joints(mechanism, configuration, &equations);
+        let units = units(mechanism, &influence, &equations);
+        let outputs = outputs(mechanism, &influence, &joints, units);
+        let has_jump = (0..mechanism.contacts.len())
+            .map(|k| {
+                let contact = &mechanism.contacts[k];
+                let [plus, minus] = [0, 1].map(|side| outputs.columns[side].column(k));
+                contact.preload_line == PreloadLine::Pressed
+                    && contact.preload.iter().any(|preload| *preload > 0.0)
+                    && plus != minus
+            })
+            .collect();
+        Ok(Self { mechanism, equations, influence, joints, units, outputs, has_jump })
+    }
+
+    /// The question for accelerations, with joints whose velocity is zero.
+    pub(super) fn question<'q>(&'q self, stopped: &'q [bool]) -> Question<'q> {
+        Question {
+            outputs: &self.outputs,
+            wanted: vec![0.0; self.joints.len()],
+            preload: Some(self.units.force),
+            stopped,
+            opposes: None,
+        }
+    }
+
+    /// # Errors
+    /// A fault if a list does not have one entry for each sliding joint.
+    pub(super) fn check_joints(&self, found: usize) -> Result<(), Faults> {
+        wrong_count("sliding joints", self.joints.len(), found)
+    }
+
+    /// # Errors
+    /// A fault if a phase is not one of this mechanism.
+    pub(super) fn check(&self, phase: &Phase) -> Result<(), Faults> {
+        self.check_joints(phase.joints.len())?;
+        wrong_count("contacts", self.mechanism.contacts.len(), phase.contacts.len())
+    }
+
+    /// The answer to friction impulses alone, without loads.
+    pub(super) fn impulse_outputs(&self) -> Outputs {
+        Outputs { base: DVector::zeros(self.outputs.base.len()), columns: self.outputs.columns.clone() }
+    }
+
+    /// The mass by which forces and accelerations, or impulses and velocities, are related in these units (kg).
+    pub(super) fn mass_unit(&self) -> f64 {
+        self.units.force / self.units.acceleration
+    }
+
+    /// A contact by its number.
+    pub(super) fn contact(&self, k: usize) -> &'m Contact {
+        &self.mechanism.contacts[k]
+    }
+
+    /// The sliding joint of a contact.
+    pub(super) fn joint_of(&self, k: usize) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.contacts.contains(&k))
+    }
+
+    /// Where the acceleration of a sliding joint stands among the outputs.
+    pub(super) fn sliding_output(&self, joint: usize) -> usize {
+        self.mechanism.contacts.len() + joint
+    }
+
+    /// Where the couple of each guided slider stands among the outputs.
+    pub(super) fn couple_outputs(&self) -> impl Iterator<Item = (usize, &SlidingJoint)> {
+        let first = self.mechanism.contacts.len() + self.joints.len();
+        let guided = self.joints.iter().filter(|joint| joint.couple.is_some());
+        guided.enumerate().map(move |(index, joint)| (first + index, joint))
+    }
+}
+
+fn wrong_count(what: &'static str, expected: usize, found: usize) -> Result<(), Faults> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(Fault::general(FaultKind::WrongCount { what, expected, found }).into())
+}
+
+/// The sliding joints of a mechanism, in the order of its joints.
+fn sliding_joints(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    equations: &KineticEquations,
+) -> Vec<SlidingJoint> {
+    let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
+        let JointKind::Slider(slider) = &joint.kind else { return None };
+        let id = JointId(index);
+        let contacts: Vec<usize> =
+            slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect();
+        let place = equations.layout.reaction(Reaction::Couple(id));
+        let first = contacts.first().map(|&k| equations.contacts[k].sliding_velocity);
+        let has_friction = contacts.iter().any(|&k| {
+            let contact = &mechanism.contacts[k];
+            !contact.is_frictionless() || contact.mu_static != [0.0; 2]
+        });
+        Some(SlidingJoint {
+            id,
+            contacts,
+            couple: place.map(|place| (slider.length / 2.0, place)),
+            row: SlidingRow::new(mechanism, configuration, slider),
+            velocity: first.unwrap_or(0.0),
+            has_friction,
+        })
+    };
+    mechanism.joints.iter().enumerate().filter_map(one).collect()
+}
+
+/// The greatest of all loads, preloads and forces of inertia, and the acceleration that it gives the greatest mass.
+fn units(mechanism: &Mechanism, influence: &Influence, equations: &KineticEquations) -> Units {
+    let length = mechanism.size;
+    let masses = mechanism.bodies.iter().map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
+    let mass = masses.fold(0.0, f64::max);
+    let loads = equations.applied.iter().map(|wrench| wrench.force.norm().max(wrench.couple.abs() / length));
+    let preloads = mechanism.contacts.iter().flat_map(|contact| contact.preload);
+    let inertia = mechanism.bodies.iter().enumerate().flat_map(|(index, body)| {
+        let [x, y, turn] = [0, 1, 2].map(|part| influence.frictionless[3 * index + part]);
+        [body.mass * x, body.mass * y, body.moment_of_inertia * turn / length]
+    });
+    let force = loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max);
+    let force = if force > 0.0 && force.is_finite() { force } else { 1.0 };
+    Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }
+}
+
+fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[SlidingJoint], units: Units) -> Outputs {
+    let contacts = mechanism.contacts.len();
+    let couples: Vec<usize> =
+        joints.iter().filter_map(|joint| joint.couple.map(|(_, place)| place)).collect();
+    let rows = contacts + joints.len() + couples.len();
+    let per_force = |row: usize| match row.checked_sub(contacts + joints.len()) {
+        Some(_) => 1.0 / units.length,
+        None if row >= contacts => units.force / units.acceleration,
+        None => 1.0,
+    };
+    let of = |unknowns: &DVector<f64>, normals: &DVector<f64>, row: usize| {
+        if row < contacts {
+            normals[row]
+        } else if row < contacts + joints.len() {
+            joints[row - contacts].row.change(unknowns)
+        } else {
+            unknowns[couples[row - contacts - joints.len()]]
+        }
+    };
+    let normals = influence.normal_forces();
+    let base = DVector::from_fn(rows, |row, _| {
+        let value = match row.checked_sub(contacts) {
+            Some(joint) if joint < joints.len() => joints[joint].row.acceleration(&influence.frictionless),
+            _ => of(&influence.frictionless, &normals, row),
+        };
+        value * per_force(row) / units.force
+    });
+    let mut columns = [0, 1].map(|side| {
+        let mut columns = DMatrix::zeros(rows, contacts);
+        for (k, column) in influence.columns.iter().enumerate() {
+            let normals = influence.normal_part(&column[side]);
+            for row in 0..rows {
+                let value = of(&column[side], &normals, row) * per_force(row);
+                columns[(row, k)] = if value.abs() <= NO_INFLUENCE { 0.0 } else { value };
+            }
+        }
+        columns
+    });
+    make_equal(mechanism, &mut columns);
+    Outputs { base, columns }
+}
+
+/// Makes both versions of a column equal where they are so in theory: for guided sliders, whose couple takes up the
+/// moment of friction, and wherever that has no influence.
+fn make_equal(mechanism: &Mechanism, columns: &mut [DMatrix<f64>; 2]) {
+    let [positive, negative] = columns;
+    for (k, contact) in mechanism.contacts.iter().enumerate() {
+        let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
+        let contacts = mechanism.contacts.len();
+        let [plus, minus] = [&*positive, &*negative].map(|matrix| matrix.column(k).into_owned());
+        let all = (&plus - &minus).amax() <= SAME * plus.amax();
+        for row in 0..plus.len() {
+            if all || (guided && row < contacts) {
+                negative[(row, k)] = positive[(row, k)];
+            }
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! Dynamic jamming: the impulse that stops a mechanism which has no admissible acceleration (theory, section 8).
+
+use super::assessment::{Assessment, assess, side_options, system_of};
+use super::instant::{Instant, Outputs};
+use super::successors::combinations;
+use super::system::Question;
+use super::{BOUNDARY, MOST_STATES};
+use crate::configuration::{Configuration, Velocity};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::JointId;
+use crate::influence::ContactFriction;
+use crate::mechanism::Mechanism;
+use crate::motion::{ContactPhase, JointPhase, Phase};
+use nalgebra::Vector2;
+
+/// Sliding velocities below this multiple of the greatest are zero.
+const AT_REST: f64 = 1e-9;
+
+/// What an impulse that ends a jam does.
+#[derive(Debug, Clone)]
+pub struct Impulse {
+    /// The joint that stops; its tangential impulse is a reaction.
+    pub stopped: JointId,
+    /// All sliding joints without velocity afterwards, that one included.
+    pub at_rest: Vec<JointId>,
+    /// The sides at which the contacts are pressed during the impulse.
+    pub sides: Vec<ContactPhase>,
+    /// Impulse of the normal force of each contact, with its sign (N s).
+    pub normal_impulses: Vec<f64>,
+    /// Impulse of the friction of each contact, positive along -u on the block (N s).
+    pub friction_impulses: Vec<ContactFriction>,
+    /// The mechanism afterwards: the same positions, new velocities.
+    pub after: Configuration,
+    /// Velocity of each sliding joint afterwards (m/s), exactly zero where it has stopped.
+    pub sliding_velocities: Vec<f64>,
+    /// Kinetic energy before less kinetic energy afterwards (J).
+    pub energy_lost: f64,
+    /// The least slack of the inequalities, as a part of the greatest impulse of the state.
+    pub margin: f64,
+}
+
+/// All impulses that can end a jam.
+#[derive(Debug, Clone)]
+pub enum Jam {
+    /// These impulses, the one with the greatest margin first.
+    Stops(Vec<Impulse>),
+    /// No impulse is consistent: with every joint that could stop first, friction is not great enough to stop it, or
+    /// another sliding velocity would reverse before, or a guided slider would tip.
+    NoImpulse {
+        /// Patterns in which only another velocity would reverse.
+        reversing: usize,
+        /// Patterns of which a linear program was not solved.
+        unsolved: usize,
+    },
+    /// No joint with friction slides: nothing can jam dynamically. A mechanism at rest that cannot be started is held
+    /// by self-locking, which is another thing.
+    AtRest,
+}
+
+/// The impulses that can act when there is no admissible acceleration though joints slide: dynamic jamming.
+///
+/// Reactions grow beyond all bounds for a short time, until the first sliding velocity reaches zero. For every joint
+/// `j` that slides the mode problem of impulses is solved, without loads and preloads:
+///
+/// ```text
+/// M dv - G^T Lambda - B U - sum_k W_k Phi_k = 0      G dv = 0      C dv = 0      jump of the sliding velocity of j = -ds_j
+/// Phi_k = mu_k |Lambda_k| s_k of the joints that go on sliding
+/// 0 <= Phi_k s_k <= mu_static_k |Lambda_k| of joint j
+/// ```
+///
+/// A solution counts if no other sliding velocity has reversed. Joints that were at rest stay so within static
+/// friction, or are set going against kinetic friction. With one degree of freedom everything stops. The distribution
+/// between the contacts of joint `j` is indeterminate; the one with the greatest margin is told. Whether the
+/// mechanism is jammed is not asked: that is an empty list of [`successors`](super::successors). Afterwards ask for them
+/// again, with the joints that have stopped.
+///
+/// # Errors
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are tried.
+pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, Faults> {
+    let instant = Instant::new(mechanism, configuration)?;
+    let speed = instant.joints.iter().map(|joint| joint.velocity.abs()).fold(0.0, f64::max);
+    let moves = |joint: &usize| {
+        let joint = &instant.joints[*joint];
+        joint.has_friction && joint.velocity.abs() > AT_REST * speed
+    };
+    let moving: Vec<usize> = (0..instant.joints.len()).filter(moves).collect();
+    if moving.is_empty() {
+        return Ok(Jam::AtRest);
+    }
+    let outputs = instant.impulse_outputs();
+    let search = Search { configuration, instant: &instant, outputs: &outputs, speed };
+    let mut found = Found::default();
+    for &joint in &moving {
+        search.stop(joint, &mut found)?;
+    }
+    if found.impulses.is_empty() {
+        return Ok(Jam::NoImpulse { reversing: found.reversing, unsolved: found.unsolved });
+    }
+    found.impulses.sort_by(|one, other| other.margin.total_cmp(&one.margin));
+    Ok(Jam::Stops(found.impulses))
+}
+
+#[derive(Default)]
+struct Found {
+    impulses: Vec<Impulse>,
+    reversing: usize,
+    unsolved: usize,
+}
+
+struct Search<'s> {
+    configuration: &'s Configuration,
+    instant: &'s Instant<'s>,
+    outputs: &'s Outputs,
+    speed: f64,
+}
+
+impl Search<'_> {
+    /// Looks for impulses that stop this joint first.
+    fn stop(&self, joint: usize, found: &mut Found) -> Result<(), Faults> {
+        let stopped = vec![false; self.instant.joints.len()];
+        let velocity = self.instant.joints[joint].velocity;
+        let mut wanted = vec![0.0; self.instant.joints.len()];
+        wanted[joint] = -velocity / self.speed;
+        let question = Question {
+            outputs: self.outputs,
+            wanted,
+            preload: None,
+            stopped: &stopped,
+            opposes: Some((joint, velocity.signum())),
+        };
+        for phase in self.patterns(joint)? {
+            match assess(self.instant, &question, &phase, BOUNDARY) {
+                Err(_) => found.unsolved += 1,
+                Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => {
+                    match self.impulse(joint, &question, &assessment) {
+                        Some(impulse) => found.impulses.push(impulse),
+                        None => found.reversing += 1,
+                    }
+                }
+                Ok(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// States of the other joints, with all sides of the contacts that slide.
+    fn patterns(&self, stopping: usize) -> Result<Vec<Phase>, Faults> {
+        let joints: Vec<Vec<JointPhase>> =
+            (0..self.instant.joints.len()).map(|joint| self.options(joint, stopping)).collect();
+        let contacts: Vec<usize> = (0..self.outputs.columns[0].ncols()).collect();
+        let sides = contacts.iter().map(|_| 2);
+        let counts = joints.iter().map(Vec::len).chain(sides);
+        let states = counts.fold(1_u64, |product, count| product.saturating_mul(count as u64));
+        if states > MOST_STATES {
+            return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
+        }
+        let mut all = Vec::new();
+        for joints in combinations(&joints) {
+            let sides = |k: &usize| {
+                let pressed = &side_options(self.instant, *k)[..2];
+                let sticks =
+                    self.instant.joint_of(*k).is_some_and(|joint| joints[joint] == JointPhase::Sticking);
+                if sticks { pressed[..1].to_vec() } else { pressed.to_vec() }
+            };
+            let options: Vec<Vec<ContactPhase>> = contacts.iter().map(sides).collect();
+            let phases = combinations(&options).into_iter();
+            all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts }));
+        }
+        Ok(all)
+    }
+
+    fn options(&self, joint: usize, stopping: usize) -> Vec<JointPhase> {
+        let SlidingState { moves, sign, has_friction } = self.sliding(joint);
+        if joint == stopping {
+            vec![JointPhase::Sticking]
+        } else if moves || !has_friction {
+            vec![JointPhase::Sliding(sign)]
+        } else {
+            vec![JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)]
+        }
+    }
+
+    fn sliding(&self, joint: usize) -> SlidingState {
+        let joint = &self.instant.joints[joint];
+        SlidingState {
+            moves: joint.velocity.abs() > AT_REST * self.speed,
+            sign: if joint.velocity < 0.0 { -1.0 } else { 1.0 },
+            has_friction: joint.has_friction,
+        }
+    }
+
+    /// The impulse of an admissible state, unless a sliding velocity would have reversed.
+    fn impulse(&self, joint: usize, question: &Question<'_>, assessment: &Assessment) -> Option<Impulse> {
+        let system = system_of(self.instant, question, assessment)?;
+        let unit = self.instant.mass_unit() * self.speed;
+        let scaled = |friction: ContactFriction| ContactFriction {
+            positive_face: friction.positive_face * unit,
+            negative_face: friction.negative_face * unit,
+        };
+        let frictions: Vec<ContactFriction> =
+            system.frictions(&assessment.open).into_iter().map(scaled).collect();
+        let jumps = self.instant.influence.of_friction(&frictions);
+        let mut sliding_velocities = Vec::new();
+        for (index, phase) in assessment.phase.joints.iter().enumerate() {
+            let after = self.instant.joints[index].velocity + self.instant.joints[index].row.change(&jumps);
+            let is_zero = *phase == JointPhase::Sticking || after.abs() <= AT_REST * self.speed;
+            let reversed = matches!(phase, JointPhase::Sliding(sign) if sign * after < 0.0);
+            if reversed && !is_zero && self.instant.joints[index].has_friction {
+                return None;
+            }
+            sliding_velocities.push(if is_zero { 0.0 } else { after });
+        }
+        let rest = self.instant.joints.iter().zip(&sliding_velocities).filter(|(_, after)| **after == 0.0);
+        let after = self.after(&jumps);
+        Some(Impulse {
+            stopped: self.instant.joints[joint].id,
+            at_rest: rest.map(|(joint, _)| joint.id).collect(),
+            sides: assessment.phase.contacts.clone(),
+            normal_impulses: system.normal_forces(&assessment.open).into_iter().map(|n| n * unit).collect(),
+            friction_impulses: frictions,
+            energy_lost: self.kinetic_energy(self.configuration) - self.kinetic_energy(&after),
+            after,
+            sliding_velocities,
+            margin: assessment.least(),
+        })
+    }
+
+    /// The configuration with these jumps of the velocities; what is left of a velocity by rounding is zero.
+    fn after(&self, jumps: &nalgebra::DVector<f64>) -> Configuration {
+        let mut after = self.configuration.clone();
+        for (body, velocity) in after.velocities.iter_mut().enumerate() {
+            let [x, y, turn] = [0, 1, 2].map(|axis| jumps[3 * body + axis]);
+            *velocity = Velocity {
+                linear: Vector2::new(sum(velocity.linear.x, x), sum(velocity.linear.y, y)),
+                angular: sum(velocity.angular, turn),
+            };
+        }
+        let rates = self.instant.equations.coordinate_jumps(jumps);
+        for (rate, jump) in after.rates.iter_mut().zip(rates) {
+            *rate = sum(*rate, jump);
+        }
+        after
+    }
+
+    fn kinetic_energy(&self, configuration: &Configuration) -> f64 {
+        let bodies = self.instant.mechanism.bodies.iter().zip(&configuration.velocities);
+        let one = |(body, velocity): (&crate::mechanism::Body, &Velocity)| {
+            let turning = body.moment_of_inertia * velocity.angular * velocity.angular;
+            (body.mass * velocity.linear.norm_squared() + turning) / 2.0
+        };
+        bodies.map(one).sum()
+    }
+}
+
+struct SlidingState {
+    moves: bool,
+    sign: f64,
+    has_friction: bool,
+}
+
+/// A sum that is exactly zero where its terms cancel within rounding.
+fn sum(velocity: f64, jump: f64) -> f64 {
+    let sum = velocity + jump;
+    if sum.abs() <= AT_REST * velocity.abs() { 0.0 } else { sum }
+}

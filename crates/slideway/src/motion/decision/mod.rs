@@ -1,0 +1,78 @@
+//! Decisions at events: which phases can follow, how long joints can stick, what a jam does (theory, section 8).
+//!
+//! A phase is a state of every sliding joint, sticking or sliding one way or the other, and of every contact, pressed
+//! to one side or in its preload gap. All of them are tried; each is a system of linear equations and inequalities:
+//!
+//! ```text
+//! slides   F_k = (mu_k |N_k| + F_k0) s_k                s_k = sign of the sliding velocity, of the acceleration at rest
+//! sticks   |F_k| <= mu_static_k |N_k| + F_k0            sliding acceleration s'' = 0
+//! in both  |N_k| >= 0,  |C| <= |N| L/2 of guided sliders, 0 <= share <= 1 in a preload gap
+//! ```
+//!
+//! Bodies may move while a joint sticks: its guide may move, and the equations hold the velocities' part of the
+//! accelerations. Friction of joints that stick is statically indeterminate; it is enough that *some* distribution is
+//! admissible, and the one that leaves most slack is told. Since that also decides on which side a sticking contact is
+//! pressed, and nothing changes in the motion when it goes over to the other, phases are told apart by the sides of
+//! the contacts that slide alone.
+//!
+//! # At a boundary
+//! Right after an event some slack is zero: a normal force at its change of side, the friction of a joint that begins
+//! to slip, the acceleration of a joint that has just stopped. Such a phase counts only if the slack grows from zero
+//! along the phase's own motion. This is decided by the first and then the second derivative of the slack, from two
+//! short steps of that motion. (For one `y_k` and no jump it is the rule that `p(sigma)` has the same sign on both
+//! sides; for several it solves the local mode problem among them.) Where both derivatives vanish the phase is kept and
+//! says so, [`Standing::Undecided`].
+//!
+//! # Accuracy
+//! Slacks are in units of the greatest force (load, preload or inertia) or of the acceleration that it gives the
+//! greatest mass. A slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6
+//! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
+
+mod assessment;
+mod elastic;
+mod growth;
+mod instant;
+mod jam;
+mod program;
+mod state;
+mod sticking;
+mod successors;
+mod system;
+
+pub use jam::{Impulse, Jam, jam};
+pub use state::PhaseState;
+pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
+pub use successors::{Successor, Successors, Tipping, successors};
+
+use crate::ids::{ContactId, JointId};
+
+/// Slacks closer to zero than this are at the boundary.
+const BOUNDARY: f64 = 1e-8;
+/// More states of joints and contacts are refused.
+const MOST_STATES: u64 = 100_000;
+
+/// How a phase stands to what bounds it at the instant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Standing {
+    /// Nothing is at a boundary.
+    Inside,
+    /// It starts at a boundary and moves away from it.
+    Leaves(Vec<Limit>),
+    /// It stays at a boundary to second order, so that rounding would decide whether it lasts.
+    Undecided(Vec<Limit>),
+}
+
+/// What bounds a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// A normal force that is zero.
+    NormalForce(ContactId),
+    /// A share of the preload that is 0 or 1.
+    PreloadShare(ContactId),
+    /// The couple of a guided slider, given by its contact, beyond which it tips.
+    Couple(ContactId),
+    /// The friction of joints that stick.
+    Sticking,
+    /// The acceleration of a joint that begins to slip.
+    Slip(JointId),
+}

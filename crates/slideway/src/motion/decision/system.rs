@@ -1,0 +1,406 @@
+//! One pattern of sticking and slipping joints and of sides as linear equations and inequalities.
+
+use super::instant::{Instant, Outputs};
+use super::program::Affine;
+use crate::influence::ContactFriction;
+use crate::model::PreloadLine;
+use crate::modes::Side;
+use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::standstill::affine::AffineSet;
+use nalgebra::{DMatrix, DVector};
+
+/// Coefficients below this are rounding errors of terms of order one.
+const NO_COEFFICIENT: f64 = 1e-12;
+
+/// An affine expression of the unknowns of a pattern.
+#[derive(Debug, Clone, Default)]
+struct Expression {
+    terms: Vec<(usize, f64)>,
+    constant: f64,
+}
+
+impl Expression {
+    fn unknown(index: usize, factor: f64) -> Self {
+        Self { terms: vec![(index, factor)], constant: 0.0 }
+    }
+
+    fn plus(mut self, factor: f64, other: &Self) -> Self {
+        self.terms.extend(other.terms.iter().map(|(index, value)| (*index, factor * value)));
+        self.constant += factor * other.constant;
+        self
+    }
+
+    fn shifted(mut self, constant: f64) -> Self {
+        self.constant += constant;
+        self
+    }
+}
+
+/// What an inequality of a pattern is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// |N_k| >= 0.
+    Pressure(usize),
+    /// The share of a contact in its preload gap is at least 0 and at most 1.
+    Share(usize),
+    /// |C| <= |N| L/2 of a guided slider.
+    Couple(usize),
+    /// |F_k| <= mu_static_k |N_k| + F_k0 of a contact that sticks.
+    Friction(usize),
+    /// A joint that begins to slip does so in the direction against which its friction acts.
+    Slip(usize),
+}
+
+/// An inequality `slack >= 0`.
+#[derive(Debug, Clone)]
+pub(super) struct Inequality {
+    /// What it is about.
+    pub(super) subject: Subject,
+    /// Its slack, as a function of what the equations leave open, in units.
+    pub(super) slack: Affine,
+}
+
+/// What is asked for: accelerations, or the impulses that stop a joint.
+#[derive(Debug, Clone)]
+pub(super) struct Question<'q> {
+    /// How normal forces, sliding accelerations and couples answer to friction.
+    pub(super) outputs: &'q Outputs,
+    /// The sliding acceleration (or jump of the sliding velocity) of every joint that sticks, in units.
+    pub(super) wanted: Vec<f64>,
+    /// The unit of force in which preloads are counted; nothing if they are left out.
+    pub(super) preload: Option<f64>,
+    /// Joints whose velocity is zero: those of them that slide have just begun to.
+    pub(super) stopped: &'q [bool],
+    /// A joint that sticks only at the end, and the sign of the sliding velocity that its friction opposes.
+    pub(super) opposes: Option<(usize, f64)>,
+}
+
+/// A pattern with its equations solved as far as they go.
+pub(super) struct System<'s> {
+    instant: &'s Instant<'s>,
+    question: &'s Question<'s>,
+    phase: &'s Phase,
+    /// Friction of each contact at both faces.
+    friction: Vec<[Expression; 2]>,
+    /// |N_k|, nothing in a preload gap.
+    pressure: Vec<Option<usize>>,
+    /// Unknown frictions of contacts that stick: at the faces, and in the middle between them.
+    sticking: Vec<[Option<usize>; 3]>,
+    /// Share of the positive face in a preload gap that slips.
+    share: Vec<Option<usize>>,
+    unknowns: usize,
+    solutions: AffineSet,
+}
+
+impl<'s> System<'s> {
+    /// The pattern of a phase with its equations; nothing where they contradict each other.
+    pub(super) fn new(
+        instant: &'s Instant<'s>,
+        question: &'s Question<'s>,
+        phase: &'s Phase,
+    ) -> Option<Self> {
+        let contacts = phase.contacts.len();
+        let mut system = Self {
+            instant,
+            question,
+            phase,
+            friction: Vec::with_capacity(contacts),
+            pressure: vec![None; contacts],
+            sticking: vec![[None; 3]; contacts],
+            share: vec![None; contacts],
+            unknowns: 0,
+            solutions: AffineSet { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) },
+        };
+        for k in 0..contacts {
+            let friction = system.friction_of(k);
+            system.friction.push(friction);
+        }
+        let (matrix, right_hand_side) = system.equations();
+        system.solutions = AffineSet::of(matrix, right_hand_side)?;
+        Some(system)
+    }
+
+    /// Dimension of what the equations leave open.
+    pub(super) fn dimension(&self) -> usize {
+        self.solutions.directions.ncols()
+    }
+
+    fn joint(&self, k: usize) -> JointPhase {
+        self.instant.joint_of(k).map_or(JointPhase::Sticking, |joint| self.phase.joints[joint])
+    }
+
+    fn preload(&self, k: usize) -> [f64; 2] {
+        match self.question.preload {
+            Some(unit) => self.instant.contact(k).preload.map(|preload| preload / unit),
+            None => [0.0; 2],
+        }
+    }
+
+    fn new_unknown(&mut self) -> usize {
+        self.unknowns += 1;
+        self.unknowns - 1
+    }
+
+    fn friction_of(&mut self, k: usize) -> [Expression; 2] {
+        match (self.joint(k), self.phase.contacts[k]) {
+            (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) => self.sliding(k, sign, side),
+            (JointPhase::Sliding(sign), ContactPhase::PreloadGap) => {
+                let share = self.new_unknown();
+                self.share[k] = Some(share);
+                // (share F_0^+ W^+ + (1 - share) F_0^- W^-) s
+                let [plus, minus] = self.preload(k).map(|preload| preload * sign);
+                [Expression::unknown(share, plus), Expression::unknown(share, -minus).shifted(minus)]
+            }
+            (JointPhase::Sticking, ContactPhase::Pressed(side)) => self.held(k, side),
+            (JointPhase::Sticking, ContactPhase::PreloadGap) => {
+                let preload = self.preload(k);
+                let mut faces = [Expression::default(), Expression::default()];
+                for face in [0, 1] {
+                    if preload[face] > 0.0 {
+                        let unknown = self.new_unknown();
+                        self.sticking[k][face] = Some(unknown);
+                        faces[face] = Expression::unknown(unknown, 1.0);
+                    }
+                }
+                faces
+            }
+        }
+    }
+
+    /// F_k = (mu_k |N_k| + F_k0) s_k, eq. (2).
+    fn sliding(&mut self, k: usize, sign: f64, side: Side) -> [Expression; 2] {
+        let face = face(side);
+        let pressure = self.new_unknown();
+        self.pressure[k] = Some(pressure);
+        let contact = self.instant.contact(k);
+        let preload = self.preload(k)[face] * sign;
+        let mut faces = [Expression::default(), Expression::default()];
+        if contact.mu[face] != 0.0 {
+            faces[face] = Expression::unknown(pressure, contact.mu[face] * sign);
+        }
+        match contact.preload_line {
+            PreloadLine::Pressed => faces[face].constant += preload,
+            PreloadLine::Centre => {
+                for both in &mut faces {
+                    both.constant += preload / 2.0;
+                }
+            }
+        }
+        faces
+    }
+
+    /// The unknown friction of a contact that sticks.
+    fn held(&mut self, k: usize, side: Side) -> [Expression; 2] {
+        let face = face(side);
+        self.pressure[k] = Some(self.new_unknown());
+        let contact = self.instant.contact(k);
+        let preload = self.preload(k)[face];
+        let centred = contact.preload_line == PreloadLine::Centre;
+        let mut faces = [Expression::default(), Expression::default()];
+        if contact.mu_static[face] > 0.0 || (preload > 0.0 && !centred) {
+            let unknown = self.new_unknown();
+            self.sticking[k][face] = Some(unknown);
+            faces[face] = Expression::unknown(unknown, 1.0);
+        }
+        if preload > 0.0 && centred {
+            let unknown = self.new_unknown();
+            self.sticking[k][2] = Some(unknown);
+            faces = faces.map(|both| both.plus(0.5, &Expression::unknown(unknown, 1.0)));
+        }
+        faces
+    }
+
+    /// An output as an expression of the unknowns.
+    fn output(&self, row: usize) -> Expression {
+        let outputs = self.question.outputs;
+        let mut expression = Expression::default().shifted(outputs.base[row]);
+        for (k, faces) in self.friction.iter().enumerate() {
+            for (face, friction) in faces.iter().enumerate() {
+                let factor = outputs.columns[face][(row, k)];
+                if factor != 0.0 {
+                    expression = expression.plus(factor, friction);
+                }
+            }
+        }
+        expression
+    }
+
+    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that sticks.
+    fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let stuck = self.stuck_joints();
+        let contacts = self.pressure.len();
+        let mut matrix = DMatrix::zeros(contacts + stuck.len(), self.unknowns);
+        let mut right_hand_side = DVector::zeros(contacts + stuck.len());
+        for k in 0..contacts {
+            let normal = self.normal_force(k);
+            self.write(k, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
+        }
+        for (index, &joint) in stuck.iter().enumerate() {
+            let acceleration = self.output(self.instant.sliding_output(joint));
+            let equation = acceleration.shifted(-self.question.wanted[joint]);
+            self.write(contacts + index, &equation, &mut matrix, &mut right_hand_side);
+        }
+        (matrix, right_hand_side)
+    }
+
+    fn write(
+        &self,
+        row: usize,
+        expression: &Expression,
+        matrix: &mut DMatrix<f64>,
+        right_hand_side: &mut DVector<f64>,
+    ) {
+        for &(column, value) in &expression.terms {
+            matrix[(row, column)] += value;
+        }
+        let greatest = matrix.row(row).amax();
+        let factor = if greatest > 0.0 { 1.0 / greatest } else { 1.0 };
+        matrix.row_mut(row).scale_mut(factor);
+        right_hand_side[row] = -expression.constant * factor;
+    }
+
+    fn stuck_joints(&self) -> Vec<usize> {
+        let joints = self.phase.joints.iter().enumerate();
+        joints.filter(|(_, joint)| **joint == JointPhase::Sticking).map(|(index, _)| index).collect()
+    }
+
+    fn normal_force(&self, k: usize) -> Expression {
+        match (self.phase.contacts[k], self.pressure[k]) {
+            (ContactPhase::Pressed(side), Some(pressure)) => Expression::unknown(pressure, side.sign()),
+            _ => Expression::default(),
+        }
+    }
+
+    /// An expression as a function of what the equations leave open.
+    fn function(&self, expression: &Expression) -> Affine {
+        let mut coefficients = vec![0.0; self.dimension()];
+        let mut constant = expression.constant;
+        for &(column, factor) in &expression.terms {
+            constant += factor * self.solutions.particular[column];
+            for (index, coefficient) in coefficients.iter_mut().enumerate() {
+                *coefficient += factor * self.solutions.directions[(column, index)];
+            }
+        }
+        for coefficient in &mut coefficients {
+            if coefficient.abs() <= NO_COEFFICIENT {
+                *coefficient = 0.0;
+            }
+        }
+        Affine { coefficients, constant }
+    }
+
+    /// Every inequality of the pattern.
+    pub(super) fn inequalities(&self) -> Vec<Inequality> {
+        let mut all = Vec::new();
+        let mut add = |subject: Subject, slack: Expression| {
+            all.push(Inequality { subject, slack: self.function(&slack) });
+        };
+        for k in 0..self.pressure.len() {
+            if let Some(pressure) = self.pressure[k] {
+                add(Subject::Pressure(k), Expression::unknown(pressure, 1.0));
+            }
+            if let Some(share) = self.share[k] {
+                add(Subject::Share(k), Expression::unknown(share, 1.0));
+                add(Subject::Share(k), Expression::unknown(share, -1.0).shifted(1.0));
+            }
+            for slack in self.cone(k) {
+                add(Subject::Friction(k), slack);
+            }
+        }
+        for (row, joint) in self.instant.couple_outputs() {
+            let (Some((half, _)), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
+            let half = half / self.instant.units.length;
+            let pressure =
+                self.pressure[*k].map_or_else(Expression::default, |p| Expression::unknown(p, half));
+            for sign in [1.0, -1.0] {
+                add(Subject::Couple(*k), pressure.clone().plus(sign, &self.output(row)));
+            }
+        }
+        for (joint, phase) in self.phase.joints.iter().enumerate() {
+            if let JointPhase::Sliding(sign) = phase
+                && self.question.stopped[joint]
+                && self.instant.joints[joint].has_friction
+            {
+                let acceleration = self.output(self.instant.sliding_output(joint));
+                add(Subject::Slip(joint), Expression::default().plus(*sign, &acceleration));
+            }
+        }
+        all
+    }
+
+    /// |F_k| <= mu_static |N_k| + F_k0 of a contact that sticks.
+    fn cone(&self, k: usize) -> Vec<Expression> {
+        let preload = self.preload(k);
+        let opposes = self.question.opposes;
+        let opposed =
+            opposes.filter(|(joint, _)| self.instant.joint_of(k) == Some(*joint)).map(|(_, sign)| sign);
+        let both = |unknown: usize, limit: &Expression| match opposed {
+            None => [1.0, -1.0].map(|sign| limit.clone().plus(sign, &Expression::unknown(unknown, 1.0))),
+            Some(sign) => [
+                Expression::unknown(unknown, sign),
+                limit.clone().plus(-sign, &Expression::unknown(unknown, 1.0)),
+            ],
+        };
+        match (self.phase.contacts[k], self.sticking[k]) {
+            (ContactPhase::PreloadGap, [Some(plus), Some(minus), _]) => {
+                // F^+/F_0^+ + F^-/F_0^- <= 1 for all signs, in units of the lesser preload.
+                let least = preload[0].min(preload[1]);
+                let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+                let corner = |(first, second): (f64, f64)| {
+                    Expression::unknown(plus, first * least / preload[0])
+                        .plus(second * least / preload[1], &Expression::unknown(minus, 1.0))
+                        .shifted(least)
+                };
+                signs.into_iter().map(corner).collect()
+            }
+            (ContactPhase::PreloadGap, faces) => {
+                let found = (0..2).filter_map(|face| faces[face].map(|unknown| (unknown, preload[face])));
+                found
+                    .flat_map(|(unknown, limit)| both(unknown, &Expression::default().shifted(limit)))
+                    .collect()
+            }
+            (ContactPhase::Pressed(side), faces) => {
+                let contact = self.instant.contact(k);
+                let centred = contact.preload_line == PreloadLine::Centre;
+                let mu = contact.mu_static[face(side)];
+                let preload = preload[face(side)];
+                let pressure =
+                    self.pressure[k].map_or_else(Expression::default, |p| Expression::unknown(p, mu));
+                let at_face = pressure.shifted(if centred { 0.0 } else { preload });
+                let at_centre = Expression::default().shifted(preload);
+                let face = faces[face(side)].map(|unknown| both(unknown, &at_face));
+                let centre = faces[2].map(|unknown| both(unknown, &at_centre));
+                face.into_iter().chain(centre).flatten().collect()
+            }
+        }
+    }
+
+    fn value(&self, expression: &Expression, z: &[f64]) -> f64 {
+        self.function(expression).at(z)
+    }
+
+    /// Friction of every contact at both faces, in units.
+    pub(super) fn frictions(&self, z: &[f64]) -> Vec<ContactFriction> {
+        let one = |faces: &[Expression; 2]| {
+            let [positive_face, negative_face] = [0, 1].map(|face| self.value(&faces[face], z));
+            ContactFriction { positive_face, negative_face }
+        };
+        self.friction.iter().map(one).collect()
+    }
+
+    /// Normal forces in units, exactly zero in a preload gap.
+    pub(super) fn normal_forces(&self, z: &[f64]) -> Vec<f64> {
+        (0..self.pressure.len()).map(|k| self.value(&self.normal_force(k), z)).collect()
+    }
+
+    /// Shares of the positive faces of contacts in their preload gaps that slide.
+    pub(super) fn shares(&self, z: &[f64]) -> Vec<Option<f64>> {
+        let one = |share: &Option<usize>| share.map(|share| self.value(&Expression::unknown(share, 1.0), z));
+        self.share.iter().map(one).collect()
+    }
+}
+
+/// Which of two versions belongs to a side.
+pub(super) fn face(side: Side) -> usize {
+    usize::from(side == Side::Negative)
+}

@@ -1,0 +1,93 @@
+//! Energies, and the powers whose integrals the balance needs.
+
+use super::equations::Equations;
+use crate::configuration::Configuration;
+use crate::ids::DriveId;
+use crate::kinetics::{Wrench, effort_forces};
+use crate::mechanism::{Load, LoadKind, Mechanism, Quantity, length};
+
+/// Kinetic energy (J): sum of m v^2 / 2 + J omega^2 / 2.
+pub(super) fn kinetic(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+    let bodies = mechanism.bodies.iter().zip(&configuration.velocities);
+    let one = |(body, velocity): (&crate::mechanism::Body, &crate::configuration::Velocity)| {
+        let turning = body.moment_of_inertia * velocity.angular.powi(2);
+        f64::midpoint(body.mass * velocity.linear.norm_squared(), turning)
+    };
+    bodies.map(one).sum()
+}
+
+/// Potential energy of weights, springs and torsional springs with constant properties (J); weights count from the
+/// origin.
+pub(super) fn potential(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+    let bodies = mechanism.bodies.iter().zip(&configuration.poses);
+    let weights: f64 = bodies.map(|(body, pose)| -body.mass * mechanism.gravity.dot(&pose.position)).sum();
+    let springs: f64 = mechanism.loads.iter().map(|load| elastic(mechanism, configuration, load)).sum();
+    weights + springs
+}
+
+/// k (length - free length)^2 / 2
+fn elastic(mechanism: &Mechanism, configuration: &Configuration, load: &Load) -> f64 {
+    let (stiffness, stretch) = match &load.kind {
+        LoadKind::Spring {
+            between,
+            stiffness: Quantity::Constant(stiffness),
+            free_length: Quantity::Constant(free_length),
+        } => {
+            let [first, second] = between.each_ref().map(|end| configuration.position(mechanism, end));
+            (*stiffness, length(second - first) - free_length)
+        }
+        LoadKind::TorsionalSpring {
+            between: [first, second],
+            stiffness: Quantity::Constant(stiffness),
+            free_angle: Quantity::Constant(free_angle),
+        } => (*stiffness, configuration.angle(*first) - configuration.angle(*second) - free_angle),
+        _ => return 0.0,
+    };
+    stiffness * stretch.powi(2) / 2.0
+}
+
+/// Whether the work of a load is counted as potential energy: a spring that does not change.
+pub(super) fn is_conservative(load: &Load) -> bool {
+    let constant = |quantity: &Quantity| matches!(quantity, Quantity::Constant(_));
+    match &load.kind {
+        LoadKind::Spring { stiffness, free_length, .. } => constant(stiffness) && constant(free_length),
+        LoadKind::TorsionalSpring { stiffness, free_angle, .. } => {
+            constant(stiffness) && constant(free_angle)
+        }
+        _ => false,
+    }
+}
+
+/// Whether what a load takes from the motion is counted as dissipated.
+pub(super) fn is_damper(load: &Load) -> bool {
+    matches!(load.kind, LoadKind::Damper { .. } | LoadKind::TorsionalDamper { .. })
+}
+
+/// Power of the friction of every contact (W, what it dissipates is positive), then of every load and drive.
+pub(super) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
+    let (contacts, others) = powers.split_at_mut(equations.contacts.len());
+    let (loads, drives) = others.split_at_mut(equations.mechanism.loads.len());
+    for (k, power) in contacts.iter_mut().enumerate() {
+        let friction = equations.friction_force(k).unwrap_or(0.0);
+        *power = friction * equations.contacts[k].sliding_velocity;
+    }
+    for (index, power) in loads.iter_mut().enumerate() {
+        *power = if equations.conservative[index] {
+            0.0
+        } else {
+            let wrenches = equations.applied.of_load(index).iter();
+            wrenches.map(|wrench| power_of(&equations.configuration, wrench)).sum()
+        };
+    }
+    for (index, power) in drives.iter_mut().enumerate() {
+        let effort = &equations.mechanism.drives[index].effort;
+        let units = effort_forces(equations.mechanism, &equations.configuration, effort);
+        let unit: f64 = units.map(|wrench| power_of(&equations.configuration, &wrench)).sum();
+        *power = equations.effort(DriveId(index)) * unit;
+    }
+}
+
+fn power_of(configuration: &Configuration, wrench: &Wrench) -> f64 {
+    let velocity = configuration.velocity_at(wrench.frame, wrench.place);
+    wrench.force.dot(&velocity) + wrench.couple * configuration.angular_velocity(wrench.frame)
+}

@@ -1,0 +1,221 @@
+//! What happens between the phases of a motion, and in words.
+
+use super::phase::{ContactPhase, JointPhase, Phase};
+use super::rules::Successor;
+use super::watch::Watched;
+use crate::configuration::Configuration;
+use crate::ids::{ContactId, JointId};
+use crate::mechanism::Mechanism;
+use crate::modes::Side;
+use crate::report::number::number;
+use crate::solve::mode_in_words;
+
+/// Why a phase ends, or what is told.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Cause {
+    /// The motion begins.
+    Start,
+    /// The normal force of a contact has reached zero.
+    NormalForceZero(ContactId),
+    /// A contact leaves its preload gap, towards this side.
+    PreloadGapEnds(ContactId, Side),
+    /// The sliding velocity of a joint has reached zero.
+    Stops(JointId),
+    /// The joints that stick cannot do so any longer.
+    Slips,
+    /// The determinant of the mode has reached zero.
+    Locks,
+    /// The normal force of a contact has reached the limit.
+    ReactionLimit(ContactId),
+    /// The couple of a guided slider has reached what its pressure can give.
+    Tips(JointId),
+    /// A block leaves its guide.
+    OverlapVanishes(JointId),
+    /// A sliding joint has reached a limit of its travel: the greatest, or the least.
+    TravelLimit {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the greatest displacement.
+        greatest: bool,
+    },
+    /// A function of the user has passed zero; its number and its name.
+    User(usize, String),
+    /// The mechanism could not go on moving: an impulse has stopped it, at a loss of kinetic energy (J).
+    Jams {
+        /// J
+        energy_lost: f64,
+    },
+}
+
+impl Cause {
+    pub(super) fn of(watched: Watched, sliders: &[JointId], names: impl Fn(usize) -> String) -> Self {
+        match watched {
+            Watched::NormalForce(contact) => Self::NormalForceZero(contact),
+            // The share of the positive face has vanished: the negative one presses.
+            Watched::Share(contact, Side::Positive) => Self::PreloadGapEnds(contact, Side::Negative),
+            Watched::Share(contact, Side::Negative) => Self::PreloadGapEnds(contact, Side::Positive),
+            Watched::Velocity(index, _) => Self::Stops(sliders[index]),
+            Watched::Determinant => Self::Locks,
+            Watched::ReactionLimit(contact) => Self::ReactionLimit(contact),
+            Watched::Couple(joint) => Self::Tips(joint),
+            Watched::Sticking => Self::Slips,
+            Watched::Overlap(joint) => Self::OverlapVanishes(joint),
+            Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
+            Watched::User(index, _) => Self::User(index, names(index)),
+        }
+    }
+
+    /// Whether the phase cannot simply go on.
+    pub(super) fn ends_phase(&self) -> bool {
+        !matches!(self, Self::User(..))
+    }
+}
+
+/// Something that happened at an instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// When (s).
+    pub time: f64,
+    /// Everything that came together.
+    pub causes: Vec<Cause>,
+    /// The phase that follows; nothing where the motion ends.
+    pub phase: Option<Phase>,
+    /// The phases that were possible besides, in their order.
+    pub alternatives: Vec<Successor>,
+    /// What happened, as a sentence.
+    pub words: String,
+}
+
+/// Tells events of a mechanism.
+pub(super) struct Words<'a> {
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) configuration: &'a Configuration,
+    pub(super) sliders: &'a [JointId],
+}
+
+impl Words<'_> {
+    /// What happens at an event between two phases.
+    pub(super) fn event(&self, causes: &[Cause], before: Option<&Phase>, after: Option<&Phase>) -> String {
+        let mut parts: Vec<String> = causes.iter().filter_map(|cause| self.cause(cause, after)).collect();
+        if let Some(after) = after {
+            match before {
+                Some(before) => parts.extend(self.changes(causes, before, after)),
+                None => parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
+                    format!("{} {}", self.name(*joint), self.state(index, *joint, after))
+                })),
+            }
+        }
+        let time = number(self.configuration.time);
+        if parts.is_empty() {
+            return format!("at {time} s it goes on as before");
+        }
+        format!("at {time} s {}", parts.join("; "))
+    }
+
+    fn cause(&self, cause: &Cause, after: Option<&Phase>) -> Option<String> {
+        let told = match cause {
+            Cause::Start | Cause::PreloadGapEnds(..) => return None,
+            // The change of side is told instead.
+            Cause::NormalForceZero(contact) => match after {
+                Some(_) => return None,
+                None => format!("the normal force of {} vanishes", self.contact(*contact)),
+            },
+            Cause::Stops(joint) => match after {
+                Some(_) => return None,
+                None => format!("{} stops", self.name(*joint)),
+            },
+            Cause::Slips => match after {
+                Some(_) => return None,
+                None => "what sticks can stick no longer".to_owned(),
+            },
+            Cause::Locks => "the contact mode locks: its determinant vanishes".to_owned(),
+            Cause::ReactionLimit(contact) => {
+                format!("the normal force of {} reaches its limit", self.contact(*contact))
+            }
+            Cause::Tips(joint) => format!("{} begins to tip in its guide", self.name(*joint)),
+            Cause::OverlapVanishes(joint) => format!("{} leaves its guide", self.name(*joint)),
+            Cause::TravelLimit { joint, greatest } => {
+                let end = if *greatest { "greatest" } else { "least" };
+                format!("{} reaches the {end} displacement of its travel", self.name(*joint))
+            }
+            Cause::User(_, name) => format!("{name} passes zero"),
+            Cause::Jams { energy_lost } => {
+                format!("it jams: an impulse stops it and takes {} J", number(*energy_lost))
+            }
+        };
+        Some(told)
+    }
+
+    /// What differs between two phases, joint by joint.
+    fn changes(&self, causes: &[Cause], before: &Phase, after: &Phase) -> Vec<String> {
+        let one = |(index, joint): (usize, &JointId)| {
+            let name = self.name(*joint);
+            let stops = causes.contains(&Cause::Stops(*joint));
+            let told = match (before.joints[index], after.joints[index]) {
+                (JointPhase::Sliding(_), JointPhase::Sticking) => format!("{name} stops and sticks"),
+                (JointPhase::Sticking, JointPhase::Sliding(_)) => {
+                    format!("{name} starts to slide: it {}", self.state(index, *joint, after))
+                }
+                (JointPhase::Sliding(old), JointPhase::Sliding(new)) if old != new => {
+                    format!("{name} reverses: it {}", self.state(index, *joint, after))
+                }
+                (JointPhase::Sliding(_), JointPhase::Sliding(_)) => {
+                    let slider = self.mechanism.slider(*joint)?;
+                    let changed = slider
+                        .contacts
+                        .iter()
+                        .any(|k| before.contacts[k.index()] != after.contacts[k.index()]);
+                    if changed {
+                        format!("{name} changes side: it {}", self.state(index, *joint, after))
+                    } else if stops {
+                        format!("{name} stands for an instant and slides on")
+                    } else {
+                        return None;
+                    }
+                }
+                (JointPhase::Sticking, JointPhase::Sticking) => return None,
+            };
+            Some(told)
+        };
+        self.sliders.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// What a sliding joint does: "is now on the upper side of the slot".
+    fn state(&self, index: usize, joint: JointId, phase: &Phase) -> String {
+        let Some(slider) = self.mechanism.slider(joint) else { return String::new() };
+        if phase.joints[index] == JointPhase::Sticking {
+            return "sticks".to_owned();
+        }
+        let contacts: Vec<ContactPhase> = slider.contacts.iter().map(|k| phase.contacts[k.index()]).collect();
+        let signs: Vec<i8> = contacts
+            .iter()
+            .map(|contact| match contact {
+                ContactPhase::Pressed(Side::Positive) => 1,
+                ContactPhase::Pressed(Side::Negative) => -1,
+                ContactPhase::PreloadGap => 0,
+            })
+            .collect();
+        let tangent = self.configuration.slide(self.mechanism, slider).tangent;
+        let gaps: Vec<&str> = slider
+            .contacts
+            .iter()
+            .filter(|k| phase.contacts[k.index()] == ContactPhase::PreloadGap)
+            .map(|k| self.contact(*k))
+            .collect();
+        let mode = format!("is now {}", mode_in_words(slider, tangent, &signs));
+        if gaps.is_empty() {
+            mode
+        } else {
+            format!("{mode}, with the preload of {} between both faces", gaps.join(" and "))
+        }
+    }
+
+    fn name(&self, joint: JointId) -> &str {
+        &self.mechanism.joints[joint.index()].name
+    }
+
+    fn contact(&self, contact: ContactId) -> &str {
+        &self.mechanism.contacts[contact.index()].name
+    }
+}

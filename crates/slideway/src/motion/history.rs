@@ -1,0 +1,271 @@
+//! The result of a simulation: the motion at any time, its events and phases, and how good it is.
+
+use super::energy::{kinetic, potential};
+use super::equations::{Drift, Equations};
+use super::event::Event;
+use super::phase::Phase;
+use super::stepper::{DENSE, within};
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::{ContactId, DriveId, JointId};
+use crate::mechanism::Mechanism;
+
+/// A motion in time.
+#[derive(Debug, Clone)]
+pub struct History {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// What happened, in its order.
+    pub events: Vec<Event>,
+    /// The phases, one after the other.
+    pub phases: Vec<PhaseInterval>,
+    /// Why it ends.
+    pub end: End,
+    /// How far the joints were violated before each projection: the greatest.
+    pub drift: Drift,
+    /// The greatest error of the energy balance at any step (J).
+    pub energy_error: f64,
+    /// The greatest of kinetic energy, work and dissipation (J), to compare that error with.
+    pub energy_scale: f64,
+    /// What it cost.
+    pub statistics: Statistics,
+    pub(super) steps: Vec<Step>,
+    /// The solution within each step.
+    pub(super) dense: Vec<f64>,
+    /// Components of the state.
+    pub(super) size: usize,
+    /// Energy lost in impulses: when, and how much up to then.
+    pub(super) impulses: Vec<(f64, f64)>,
+    pub(super) initial: Configuration,
+    pub(super) last: (f64, Vec<f64>),
+}
+
+/// A phase and when it holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PhaseInterval {
+    /// The phase.
+    pub phase: Phase,
+    /// Its start (s).
+    pub from: f64,
+    /// Its end (s).
+    pub to: f64,
+}
+
+/// A step of the solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Step {
+    pub(super) time: f64,
+    pub(super) length: f64,
+    pub(super) phase: usize,
+}
+
+/// What a simulation cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Steps that were accepted.
+    pub steps: usize,
+    /// Steps that were repeated with a shorter length.
+    pub rejected: usize,
+    /// Evaluations of the equations.
+    pub evaluations: u64,
+}
+
+/// Why a simulation ends.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum End {
+    /// The duration is over.
+    Finished,
+    /// A sliding joint has reached a limit of its travel.
+    TravelLimit(JointId),
+    /// A block has left its guide.
+    OverlapVanished(JointId),
+    /// The normal force of a contact has reached the limit that was given.
+    ReactionLimit(ContactId),
+    /// A function of the user has passed zero; its number.
+    UserEvent(usize),
+    /// At rest neither sticking nor sliding is possible.
+    NoContinuation,
+    /// Impulses do not bring it into a state from which it can go on.
+    Jammed,
+    /// Events come closer and closer together, or phases take no time.
+    Accumulation,
+    /// As many steps as were permitted.
+    StepLimit,
+    /// As many events as were permitted.
+    EventLimit,
+    /// A load, a drive or a function of the user has no value from here on.
+    NoValue(Faults),
+    /// What follows cannot be decided.
+    Undecided(Faults),
+    /// The progress function has ended it.
+    Interrupted,
+}
+
+/// A motion at one time.
+#[derive(Debug, Clone)]
+pub struct Sample {
+    /// Number of the phase.
+    pub phase: usize,
+    /// Positions, velocities, coordinates, time.
+    pub configuration: Configuration,
+    /// Accelerations (x, y, angle) of every body.
+    pub accelerations: Vec<[f64; 3]>,
+    /// The contacts.
+    pub contacts: Vec<ContactSample>,
+    /// Effort of every drive (N or N m).
+    pub efforts: Vec<f64>,
+    /// Energies.
+    pub energy: Energy,
+}
+
+/// A contact at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSample {
+    /// N. While the joint sticks the two ends of a block share it as if friction acted on the centre line.
+    pub normal_force: f64,
+    /// N; nothing while the joint sticks, where friction is a range.
+    pub friction_force: Option<f64>,
+    /// m/s
+    pub sliding_velocity: f64,
+    /// In a preload gap the share of the face of positive normal force.
+    pub share: Option<f64>,
+}
+
+/// Energies up to one time (J).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Energy {
+    /// Of motion.
+    pub kinetic: f64,
+    /// Of weights and springs.
+    pub potential: f64,
+    /// Dissipated by the friction of each contact.
+    pub friction: Vec<f64>,
+    /// Work of each load; zero for springs whose energy is potential, negative for dampers.
+    pub loads: Vec<f64>,
+    /// Work of each drive.
+    pub drives: Vec<f64>,
+    /// Lost in impulses.
+    pub impulses: f64,
+}
+
+impl Energy {
+    /// What stays constant: energy and dissipation less work.
+    pub fn total(&self) -> f64 {
+        let dissipated: f64 = self.friction.iter().sum::<f64>() + self.impulses;
+        let work: f64 = self.loads.iter().chain(&self.drives).sum();
+        self.kinetic + self.potential + dissipated - work
+    }
+
+    /// Energies at a state.
+    pub(super) fn of(
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        state: &[f64],
+        impulses: f64,
+    ) -> Self {
+        let works = &state[6 * mechanism.bodies.len()..];
+        let (friction, others) = works.split_at(mechanism.contacts.len());
+        let (loads, drives) = others.split_at(mechanism.loads.len());
+        Self {
+            kinetic: kinetic(mechanism, configuration),
+            potential: potential(mechanism, configuration),
+            friction: friction.to_vec(),
+            loads: loads.to_vec(),
+            drives: drives.to_vec(),
+            impulses,
+        }
+    }
+}
+
+impl History {
+    /// When it begins (s).
+    pub fn start(&self) -> f64 {
+        self.initial.time
+    }
+
+    /// When it ends (s).
+    pub fn stop(&self) -> f64 {
+        self.last.0
+    }
+
+    /// The times of the solver's steps, the end included (s).
+    pub fn times(&self) -> impl Iterator<Item = f64> + '_ {
+        self.steps.iter().map(|step| step.time).chain([self.last.0])
+    }
+
+    /// A reader of the motion at any time; it is quickest when asked in order.
+    pub fn reader(&self) -> Reader<'_> {
+        Reader {
+            history: self,
+            equations: Equations::new(&self.mechanism, &self.initial),
+            state: vec![0.0; self.size],
+            entered: None,
+        }
+    }
+}
+
+/// Reads a history at any time.
+pub struct Reader<'h> {
+    history: &'h History,
+    equations: Equations<'h>,
+    state: Vec<f64>,
+    entered: Option<usize>,
+}
+
+impl Reader<'_> {
+    /// Positions and velocities at a time; nothing outside the history. At an event what follows it.
+    pub fn configuration(&mut self, time: f64) -> Option<&Configuration> {
+        self.locate(time)?;
+        Some(&self.equations.configuration)
+    }
+
+    /// Everything at a time; nothing outside the history. At an event what follows it.
+    pub fn at(&mut self, time: f64) -> Option<Sample> {
+        let phase = self.locate(time)?;
+        if self.entered != Some(phase) {
+            let entry = &self.history.phases[phase];
+            self.equations.enter(&entry.phase, time, &self.state).ok()?;
+            self.entered = Some(phase);
+        }
+        self.equations.evaluate(time, &self.state).ok()?;
+        let equations = &self.equations;
+        let contact = |k: usize| ContactSample {
+            normal_force: equations.normal_force(k),
+            friction_force: equations.friction_force(k),
+            sliding_velocity: equations.contacts[k].sliding_velocity,
+            share: equations.share(k),
+        };
+        let impulses = self.history.impulses.iter().rfind(|(when, _)| *when <= time);
+        let impulses = impulses.map_or(0.0, |(_, lost)| *lost);
+        let accelerations = equations.accelerations().chunks_exact(3);
+        Some(Sample {
+            phase,
+            accelerations: accelerations.map(|body| [body[0], body[1], body[2]]).collect(),
+            contacts: (0..equations.contacts.len()).map(contact).collect(),
+            efforts: (0..equations.mechanism.drives.len()).map(|d| equations.effort(DriveId(d))).collect(),
+            energy: Energy::of(&self.history.mechanism, &equations.configuration, &self.state, impulses),
+            configuration: equations.configuration.clone(),
+        })
+    }
+
+    /// Places the equations at a time; returns the number of the phase.
+    fn locate(&mut self, time: f64) -> Option<usize> {
+        let history = self.history;
+        let (end, last) = &history.last;
+        let phase = if time == *end {
+            self.state.copy_from_slice(last);
+            history.phases.len().checked_sub(1)?
+        } else {
+            let index = history.steps.partition_point(|step| step.time <= time).checked_sub(1)?;
+            let step = history.steps.get(index).filter(|_| time < *end)?;
+            let first = index * DENSE * history.size;
+            let dense = &history.dense[first..first + DENSE * history.size];
+            within(dense, (time - step.time) / step.length, &mut self.state);
+            step.phase
+        };
+        self.equations.place(time, &self.state);
+        Some(phase)
+    }
+}
+

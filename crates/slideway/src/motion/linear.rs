@@ -1,0 +1,231 @@
+//! Small dense linear systems, solved again and again without new memory.
+
+/// A square matrix, its factors (LU with partial pivoting) and its determinant.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LinearSystem {
+    size: usize,
+    /// Row by row: the matrix, and after factorization the factors of `diag(rows) matrix diag(columns)`.
+    entries: Vec<f64>,
+    /// Powers of two that bring rows and columns to order one.
+    row_scale: Vec<f64>,
+    column_scale: Vec<f64>,
+    /// The row that stands at each place after the exchanges.
+    order: Vec<usize>,
+    work: Vec<f64>,
+    determinant: Determinant,
+}
+
+/// A number of any magnitude: `mantissa * 2^(512 exponent)`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Determinant {
+    mantissa: f64,
+    exponent: i32,
+}
+
+/// 2^512: products of two numbers below it stay finite.
+const BASE: f64 = 1.340_780_792_994_259_7e154;
+
+impl Determinant {
+    const ONE: Self = Self { mantissa: 1.0, exponent: 0 };
+
+    fn times(mut self, factor: f64) -> Self {
+        self.mantissa *= factor;
+        let magnitude = self.mantissa.abs();
+        if magnitude >= BASE {
+            self.mantissa /= BASE;
+            self.exponent += 1;
+        } else if magnitude <= 1.0 / BASE && magnitude > 0.0 {
+            self.mantissa *= BASE;
+            self.exponent -= 1;
+        }
+        self
+    }
+
+    /// This number divided by another one; zero or infinite where the quotient is beyond the range.
+    pub(super) fn relative_to(self, other: Self) -> f64 {
+        let quotient = self.mantissa / other.mantissa;
+        match self.exponent - other.exponent {
+            0 => quotient,
+            1 => quotient * BASE,
+            -1 => quotient / BASE,
+            more if more > 0 => quotient * f64::INFINITY,
+            _ => quotient * 0.0,
+        }
+    }
+}
+
+impl LinearSystem {
+    /// A system of this many unknowns, unscaled, all zero.
+    pub(super) fn new(size: usize) -> Self {
+        Self {
+            size,
+            entries: vec![0.0; size * size],
+            row_scale: vec![1.0; size],
+            column_scale: vec![1.0; size],
+            order: vec![0; size],
+            work: vec![0.0; size],
+            determinant: Determinant::default(),
+        }
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Sets every entry to zero, to begin a new matrix.
+    pub(super) fn clear(&mut self) {
+        self.entries.fill(0.0);
+    }
+
+    /// Adds to an entry of the matrix.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.entries[row * self.size + column] += value;
+    }
+
+    /// Sets every entry of a column to zero.
+    pub(super) fn clear_column(&mut self, column: usize) {
+        for row in 0..self.size {
+            self.entries[row * self.size + column] = 0.0;
+        }
+    }
+
+    /// An entry of the matrix, as long as it is not factored.
+    pub(super) fn entry(&self, row: usize, column: usize) -> f64 {
+        self.entries[row * self.size + column]
+    }
+
+    /// The powers of two by which rows and columns are multiplied before factorization, from now on.
+    pub(super) fn set_scales(&mut self, rows: &[f64], columns: &[f64]) {
+        self.row_scale.copy_from_slice(rows);
+        self.column_scale.copy_from_slice(columns);
+    }
+
+    /// Replaces the matrix by its factors; returns the ratio of the greatest to the least pivot, infinite if the
+    /// matrix is singular or not finite.
+    pub(super) fn factor(&mut self) -> f64 {
+        let size = self.size;
+        for (row, scale) in self.entries.chunks_exact_mut(size.max(1)).zip(&self.row_scale) {
+            for (entry, column) in row.iter_mut().zip(&self.column_scale) {
+                *entry *= scale * column;
+            }
+        }
+        for (place, row) in self.order.iter_mut().enumerate() {
+            *row = place;
+        }
+        self.determinant = Determinant::ONE;
+        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+        for step in 0..size {
+            let pivot = self.bring_pivot(step);
+            self.determinant = self.determinant.times(pivot);
+            if pivot == 0.0 || !pivot.is_finite() {
+                return f64::INFINITY;
+            }
+            (least, greatest) = (least.min(pivot.abs()), greatest.max(pivot.abs()));
+            let (upper, lower) = self.entries.split_at_mut((step + 1) * size);
+            let pivot_row = &upper[step * size + step + 1..];
+            for row in lower.chunks_exact_mut(size) {
+                let factor = row[step] / pivot;
+                if factor != 0.0 {
+                    row[step] = factor;
+                    for (entry, above) in row[step + 1..].iter_mut().zip(pivot_row) {
+                        *entry -= factor * above;
+                    }
+                }
+            }
+        }
+        if size == 0 { 1.0 } else { greatest / least }
+    }
+
+    /// Exchanges rows so that the greatest entry of the column stands on the diagonal, which is returned.
+    fn bring_pivot(&mut self, step: usize) -> f64 {
+        let size = self.size;
+        let mut best = step;
+        for row in step + 1..size {
+            if self.entries[row * size + step].abs() > self.entries[best * size + step].abs() {
+                best = row;
+            }
+        }
+        if best != step {
+            let (upper, lower) = self.entries.split_at_mut(best * size);
+            upper[step * size..(step + 1) * size].swap_with_slice(&mut lower[..size]);
+            self.order.swap(step, best);
+            self.determinant = self.determinant.times(-1.0);
+        }
+        self.entries[step * size + step]
+    }
+
+    /// The determinant of the factored matrix, of its scaled form.
+    pub(super) fn determinant(&self) -> Determinant {
+        self.determinant
+    }
+
+    /// Replaces a right-hand side by the solution.
+    pub(super) fn solve(&mut self, right_hand_side: &mut [f64]) {
+        let size = self.size;
+        for (place, row) in self.order.iter().enumerate() {
+            self.work[place] = right_hand_side[*row] * self.row_scale[*row];
+        }
+        for row in 1..size {
+            let factors = &self.entries[row * size..row * size + row];
+            let sum: f64 = factors.iter().zip(&self.work).map(|(factor, value)| factor * value).sum();
+            self.work[row] -= sum;
+        }
+        for row in (0..size).rev() {
+            let factors = &self.entries[row * size + row..(row + 1) * size];
+            let later = factors[1..].iter().zip(&self.work[row + 1..]);
+            let sum: f64 = later.map(|(factor, value)| factor * value).sum();
+            self.work[row] = (self.work[row] - sum) / factors[0];
+        }
+        for (unknown, (value, scale)) in
+            right_hand_side.iter_mut().zip(self.work.iter().zip(&self.column_scale))
+        {
+            *unknown = value * scale;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn system(rows: &[&[f64]]) -> LinearSystem {
+        let mut system = LinearSystem::new(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                system.add(i, j, *value);
+            }
+        }
+        system
+    }
+
+    #[test]
+    fn solves_with_row_exchanges_and_scales() {
+        // Solution chosen: (1, -2, 3).
+        let rows: [&[f64]; 3] = [&[0.0, 2.0, 1.0], &[1.0, 0.0, -1.0], &[4.0, 1.0, 0.5]];
+        let mut system = system(&rows);
+        system.set_scales(&[0.5, 1.0, 0.25], &[1.0, 2.0, 1.0]);
+        assert!(system.factor().is_finite());
+        let mut right_hand_side = [-1.0, -2.0, 3.5];
+        system.solve(&mut right_hand_side);
+        for (found, expected) in right_hand_side.iter().zip([1.0, -2.0, 3.0]) {
+            assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+        }
+        // Expanded by hand along the first row: det = -2 (0.5 + 4) + 1 (1) = -8; scales multiply it by 0.25.
+        let determinant = system.determinant().relative_to(Determinant::ONE);
+        assert!((determinant + 2.0).abs() < 1e-15, "{determinant}");
+    }
+
+    #[test]
+    fn tells_a_singular_matrix() {
+        assert!(system(&[&[1.0, 2.0], &[2.0, 4.0]]).factor().is_infinite());
+        assert!(system(&[&[f64::NAN]]).factor().is_infinite());
+    }
+
+    #[test]
+    fn determinants_of_any_magnitude_can_be_compared() {
+        let small = (0..100).fold(Determinant::ONE, |product, _| product.times(1e-20));
+        let twice = small.times(-2.0);
+        assert_eq!(twice.relative_to(small), -2.0);
+        assert_eq!(small.relative_to(Determinant::ONE), 0.0);
+    }
+}

@@ -1,0 +1,84 @@
+//! What a simulation is asked for, and what it may cost.
+
+use super::phase::Phase;
+use crate::configuration::Configuration;
+use crate::expression::{Expression, ExpressionFault};
+use crate::mechanism::Mechanism;
+
+/// What a simulation is asked for, and what it may cost.
+#[derive(Debug, Clone)]
+pub struct SimulateOptions {
+    /// How long the mechanism is followed (s).
+    pub duration: f64,
+    /// Relative error of each step: of positions against the size of the mechanism, of velocities against the greatest.
+    pub tolerance: f64,
+    /// The longest step (s); a thousandth of the duration if nothing is given. What happens and is undone within a third
+    /// of a step can be missed.
+    pub longest_step: Option<f64>,
+    /// Steps after which the simulation ends.
+    pub most_steps: usize,
+    /// Events after which the simulation ends.
+    pub most_events: usize,
+    /// Normal force (N) from which on the mechanism counts as locked.
+    pub reaction_limit: Option<f64>,
+    /// Functions of coordinates, rates and time that are watched.
+    pub events: Vec<UserEvent>,
+    /// The phase to begin with, where several are possible.
+    pub initial: Option<Phase>,
+    /// Which of the possible phases is taken at each branching, in their order, counted from 0; the first where the
+    /// list ends.
+    pub branches: Vec<usize>,
+}
+
+impl SimulateOptions {
+    /// The defaults for a duration: tolerance 1e-8, at most 1 000 000 steps and 100 000 events.
+    pub fn new(duration: f64) -> Self {
+        Self {
+            duration,
+            tolerance: 1e-8,
+            longest_step: None,
+            most_steps: 1_000_000,
+            most_events: 100_000,
+            reaction_limit: None,
+            events: Vec::new(),
+            initial: None,
+            branches: Vec::new(),
+        }
+    }
+}
+
+/// In which direction a function of the user passes zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Crossing {
+    /// Either.
+    #[default]
+    Any,
+    /// From below.
+    Rising,
+    /// From above.
+    Falling,
+}
+
+/// A function of coordinates, rates and time whose zeros are events.
+#[derive(Debug, Clone)]
+pub struct UserEvent {
+    /// Its name.
+    pub name: String,
+    /// The function.
+    pub expression: Expression,
+    /// Which zeros count.
+    pub crossing: Crossing,
+    /// Whether the simulation ends there.
+    pub ends: bool,
+}
+
+impl UserEvent {
+    pub(super) fn value(
+        &self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+    ) -> Result<f64, ExpressionFault> {
+        let Configuration { coordinates, rates, time, .. } = configuration;
+        self.expression.evaluate(&mechanism.values(coordinates, rates, *time))
+    }
+}

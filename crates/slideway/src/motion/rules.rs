@@ -1,0 +1,104 @@
+//! What the simulation asks at an event: how the motion can go on.
+
+use super::decision;
+use super::phase::Phase;
+use crate::configuration::{Configuration, Velocity};
+use crate::fault::Faults;
+use crate::mechanism::Mechanism;
+use crate::report::Verdict;
+
+/// A mechanism at the instant of an event.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// Its state.
+    pub configuration: &'a Configuration,
+    /// For each sliding joint, whether its sliding velocity is zero.
+    pub stopped: &'a [bool],
+    /// The phase that has just ended; nothing at the start and after an impulse.
+    pub previous: Option<&'a Phase>,
+}
+
+/// A phase in which the motion can go on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Successor {
+    /// The phase.
+    pub phase: Phase,
+    /// Whether a real mechanism can take it (theory, section 7).
+    pub verdict: Verdict,
+    /// Whether it continues the present motion without a jump of forces.
+    pub continues: bool,
+}
+
+/// An impulse that ends a dynamic jam.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jam {
+    /// The velocities after it.
+    pub velocities: Vec<Velocity>,
+    /// The kinetic energy that is lost (J).
+    pub energy_lost: f64,
+}
+
+/// Decides how a motion goes on (theory, section 8).
+pub trait Decisions {
+    /// The phases in which the motion can go on, the one to be taken first; none if there is none.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces at the instant from being computed.
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults>;
+
+    /// The impulse of a mechanism that cannot go on moving; nothing if there is none.
+    ///
+    /// # Errors
+    /// Whatever keeps the impulse from being computed.
+    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults>;
+
+    /// At least zero while the joints that stick in the phase can stick.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces at the instant from being computed.
+    fn sticking_margin(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        phase: &Phase,
+    ) -> Result<f64, Faults>;
+}
+
+/// The decisions of [`decision`]: every state of joints and contacts is tried.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Thorough;
+
+impl Decisions for Thorough {
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
+        let Instant { mechanism, configuration, stopped, previous } = *instant;
+        let found = decision::successors(mechanism, configuration, stopped, previous)?;
+        let one = |successor: decision::Successor| Successor {
+            phase: successor.phase,
+            verdict: successor.attainability.verdict,
+            continues: successor.continues,
+        };
+        Ok(found.list.into_iter().map(one).collect())
+    }
+
+    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults> {
+        let decision::Jam::Stops(impulses) = decision::jam(instant.mechanism, instant.configuration)? else {
+            return Ok(None);
+        };
+        let first = impulses.into_iter().next();
+        Ok(first.map(|impulse| Jam {
+            velocities: impulse.after.velocities,
+            energy_lost: impulse.energy_lost,
+        }))
+    }
+
+    fn sticking_margin(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        phase: &Phase,
+    ) -> Result<f64, Faults> {
+        decision::sticking_margin(mechanism, configuration, phase)
+    }
+}

@@ -1,0 +1,300 @@
+//! The loop: a phase, an event, a decision, and so on.
+
+use super::equations::{Drift, Equations, Failure};
+use super::event::{Cause, Event, Words};
+use super::history::{End, Energy, History, PhaseInterval, Statistics, Step};
+use super::options::SimulateOptions;
+use super::phase::{JointPhase, Phase};
+use super::rules::{Decisions, Instant, Successor};
+use super::smooth::{Ended, Smooth};
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use std::ops::ControlFlow;
+
+/// Sliding velocities below this multiple of the greatest velocity count as zero.
+const AT_REST: f64 = 1e-10;
+/// So many impulses at one instant are tried.
+const MOST_IMPULSES: usize = 16;
+/// So many events in a row within a short time are an accumulation, ...
+const CROWD: usize = 40;
+/// ... and this part of the duration is a short time.
+const SHORT: f64 = 1e-7;
+
+/// A simulation under way.
+pub(super) struct Run<'a, 'm> {
+    options: &'a SimulateOptions,
+    decisions: &'a mut dyn Decisions,
+    smooth: Smooth<'a, 'm>,
+    phase: Option<Phase>,
+    history: History,
+    branchings: usize,
+}
+
+impl<'a, 'm> Run<'a, 'm> {
+    /// A simulation at its start.
+    pub(super) fn new(
+        mechanism: &'m Mechanism,
+        configuration: &Configuration,
+        options: &'a SimulateOptions,
+        decisions: &'a mut dyn Decisions,
+    ) -> Self {
+        let equations = Equations::new(mechanism, configuration);
+        let state = equations.state_of(configuration);
+        let history = History {
+            mechanism: mechanism.clone(),
+            events: Vec::new(),
+            phases: Vec::new(),
+            end: End::Finished,
+            drift: Drift::default(),
+            energy_error: 0.0,
+            energy_scale: 0.0,
+            statistics: Statistics::default(),
+            steps: Vec::new(),
+            dense: Vec::new(),
+            size: state.len(),
+            impulses: Vec::new(),
+            initial: configuration.clone(),
+            last: (configuration.time, state.clone()),
+        };
+        let smooth = Smooth::new(equations, state, configuration.time, options);
+        Self { options, decisions, smooth, phase: None, history, branchings: 0 }
+    }
+
+    /// Follows the mechanism to the end.
+    ///
+    /// # Errors
+    /// A state from which it cannot begin.
+    pub(super) fn follow(
+        mut self,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<History, Faults> {
+        let total = self.energy().total();
+        let end = match self.decide(vec![Cause::Start]) {
+            Ok(None) => self.phases(progress, total),
+            Ok(Some(End::Undecided(faults) | End::NoValue(faults))) => return Err(faults),
+            Ok(Some(end)) => end,
+            Err(faults) => return Err(faults),
+        };
+        self.history.end = end;
+        self.history.last = (self.smooth.time, self.smooth.state.clone());
+        self.history.statistics.evaluations = self.smooth.equations.evaluations;
+        if let Some(interval) = self.history.phases.last_mut() {
+            interval.to = self.smooth.time;
+        }
+        Ok(self.history)
+    }
+
+    /// Phase after phase.
+    fn phases(&mut self, progress: &mut dyn FnMut(f64) -> ControlFlow<()>, total: f64) -> End {
+        loop {
+            let Some(phase) = self.phase.clone() else { return End::NoContinuation };
+            let causes = match self.phase(&phase, progress, total) {
+                Ended::Event(causes) => causes,
+                Ended::End(end) => return end,
+            };
+            if let Some(end) = self.terminal(&causes) {
+                self.tell(causes, None, Vec::new());
+                return end;
+            }
+            if !causes.iter().any(Cause::ends_phase) {
+                self.tell(causes, Some(phase), Vec::new());
+            } else {
+                match self.decide(causes) {
+                    Ok(None) => {}
+                    Ok(Some(end)) => return end,
+                    Err(faults) => return End::Undecided(faults),
+                }
+            }
+            if self.history.events.len() >= self.options.most_events {
+                return End::EventLimit;
+            }
+            if self.accumulates() {
+                return End::Accumulation;
+            }
+        }
+    }
+
+    /// One phase, until it ends.
+    fn phase(
+        &mut self,
+        phase: &Phase,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+        total: f64,
+    ) -> Ended {
+        match self.smooth.enter(phase, self.decisions) {
+            Ok(()) => {}
+            Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
+            Err(Failure::Singular) => return Ended::End(End::Jammed),
+        }
+        loop {
+            if self.smooth.is_over() {
+                return Ended::End(End::Finished);
+            }
+            if self.history.statistics.steps >= self.options.most_steps {
+                return Ended::End(End::StepLimit);
+            }
+            let from = self.smooth.time;
+            let step = self.smooth.step(phase, self.decisions, &mut self.history);
+            let to = self.smooth.time;
+            if to > from {
+                let phase = self.history.phases.len() - 1;
+                self.history.steps.push(Step { time: from, length: to - from, phase });
+                self.history.statistics.steps += 1;
+                self.balance(total);
+            }
+            if let Some(ended) = step {
+                return ended;
+            }
+            if progress(to).is_break() {
+                return Ended::End(End::Interrupted);
+            }
+        }
+    }
+
+    fn energy(&self) -> Energy {
+        let lost = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
+        let equations = &self.smooth.equations;
+        Energy::of(equations.mechanism, &equations.configuration, &self.smooth.state, lost)
+    }
+
+    /// Takes note of the error of the energy balance.
+    fn balance(&mut self, total: f64) {
+        self.smooth.equations.place(self.smooth.time, &self.smooth.state);
+        let energy = self.energy();
+        let works = energy.friction.iter().chain(&energy.loads).chain(&energy.drives);
+        let scale = works.fold(energy.kinetic, |scale, work| scale.max(work.abs()));
+        self.history.energy_scale = self.history.energy_scale.max(scale);
+        self.history.energy_error = self.history.energy_error.max((energy.total() - total).abs());
+    }
+
+    /// Why the simulation ends with these causes, if it does.
+    fn terminal(&self, causes: &[Cause]) -> Option<End> {
+        causes.iter().find_map(|cause| match cause {
+            Cause::TravelLimit { joint, .. } => Some(End::TravelLimit(*joint)),
+            Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
+            Cause::ReactionLimit(contact) => Some(End::ReactionLimit(*contact)),
+            Cause::User(index, _) => self.options.events[*index].ends.then_some(End::UserEvent(*index)),
+            _ => None,
+        })
+    }
+
+    /// Decides how the motion goes on, after impulses if it must; returns why it ends, if it does.
+    fn decide(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
+        let mut previous = self.phase.clone();
+        for _ in 0..MOST_IMPULSES {
+            let stopped = self.stopped(&causes, previous.as_ref());
+            if let Some(previous) = &previous {
+                self.smooth.settle(previous, &stopped);
+            }
+            let (time, state) = (self.smooth.time, &self.smooth.state);
+            self.smooth.equations.place(time, state);
+            let configuration = self.smooth.equations.configuration.clone();
+            let instant = Instant {
+                mechanism: self.smooth.equations.mechanism,
+                configuration: &configuration,
+                stopped: &stopped,
+                previous: previous.as_ref(),
+            };
+            let successors = self.decisions.successors(&instant)?;
+            let successors = without_held(successors, &causes, previous.as_ref());
+            if let Some((taken, alternatives)) = self.choose(successors)? {
+                self.tell(causes, Some(taken.phase), alternatives);
+                return Ok(None);
+            }
+            if stopped.iter().all(|stopped| *stopped) {
+                self.tell(causes, None, Vec::new());
+                return Ok(Some(End::NoContinuation));
+            }
+            let Some(jam) = self.decisions.jam(&instant)? else { break };
+            self.smooth.set_velocities(&jam.velocities);
+            let before = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
+            self.history.impulses.push((time, before + jam.energy_lost));
+            causes.retain(|cause| !matches!(cause, Cause::Stops(_)));
+            causes.push(Cause::Jams { energy_lost: jam.energy_lost });
+            previous = None;
+        }
+        self.tell(causes, None, Vec::new());
+        Ok(Some(End::Jammed))
+    }
+
+    /// The phase that is taken, and the others.
+    fn choose(
+        &mut self,
+        mut successors: Vec<Successor>,
+    ) -> Result<Option<(Successor, Vec<Successor>)>, Faults> {
+        if successors.is_empty() {
+            return Ok(None);
+        }
+        let mut chosen = 0;
+        if self.phase.is_none()
+            && let Some(initial) = &self.options.initial
+        {
+            let found = successors.iter().position(|successor| successor.phase == *initial);
+            chosen = found.ok_or_else(|| Fault::general(FaultKind::ContradictoryPhase))?;
+        } else if successors.len() > 1 {
+            let wanted = self.options.branches.get(self.branchings).copied().unwrap_or(0);
+            chosen = wanted.min(successors.len() - 1);
+            self.branchings += 1;
+        }
+        let taken = successors.remove(chosen);
+        Ok(Some((taken, successors)))
+    }
+
+    /// Which sliding joints have no sliding velocity.
+    fn stopped(&self, causes: &[Cause], previous: Option<&Phase>) -> Vec<bool> {
+        let equations = &self.smooth.equations;
+        let greatest = self.smooth.greatest_velocity();
+        let one = |(index, joint): (usize, &crate::ids::JointId)| {
+            let sticks = previous.is_some_and(|phase| phase.joints[index] == JointPhase::Sticking);
+            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
+            let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
+            sticks || causes.contains(&Cause::Stops(*joint)) || velocity.abs() <= AT_REST * greatest
+        };
+        equations.sliders.iter().enumerate().map(one).collect()
+    }
+
+    /// Records an event, and begins the phase that follows.
+    fn tell(&mut self, causes: Vec<Cause>, phase: Option<Phase>, alternatives: Vec<Successor>) {
+        let time = self.smooth.time;
+        let equations = &self.smooth.equations;
+        let words = Words {
+            mechanism: equations.mechanism,
+            configuration: &equations.configuration,
+            sliders: &equations.sliders,
+        };
+        let words = words.event(&causes, self.phase.as_ref(), phase.as_ref());
+        self.history.events.push(Event { time, causes, phase: phase.clone(), alternatives, words });
+        if phase != self.phase {
+            if let Some(interval) = self.history.phases.last_mut() {
+                interval.to = time;
+            }
+            if let Some(phase) = &phase {
+                let phase = phase.clone();
+                self.history.phases.push(PhaseInterval { phase, from: time, to: time });
+            }
+        }
+        self.phase = phase;
+    }
+
+    /// Whether the last events came within a very short time.
+    fn accumulates(&self) -> bool {
+        let events = &self.history.events;
+        let Some(first) = events.len().checked_sub(CROWD) else { return false };
+        self.smooth.time - events[first].time < SHORT * self.options.duration
+    }
+}
+
+/// Without the phases in which all joints stick that have just found that they cannot.
+fn without_held(
+    mut successors: Vec<Successor>,
+    causes: &[Cause],
+    previous: Option<&Phase>,
+) -> Vec<Successor> {
+    if let Some(previous) = previous
+        && causes.contains(&Cause::Slips)
+    {
+        successors.retain(|successor| successor.phase.joints != previous.joints);
+    }
+    successors
+}

@@ -1,0 +1,415 @@
+//! The motion within a phase: steps, projections, and where the phase ends.
+
+use super::equations::{Equations, Failure};
+use super::event::Cause;
+use super::history::{End, History};
+use super::options::SimulateOptions;
+use super::phase::{JointPhase, Phase};
+use super::root::falling_root;
+use super::rules::Decisions;
+use super::stepper::{DENSE, StepControl, Stepper, within};
+use super::watch::{Needs, Watch, Watched};
+use crate::configuration::Velocity;
+use crate::fault::{Fault, FaultKind};
+
+/// Fractions of a step at which watched functions are evaluated, besides its ends.
+const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
+/// Part of a step within which zeros count as one event.
+const SAME_INSTANT: f64 = 1e-9;
+/// Accuracy of a zero, as part of a step.
+const ROOT_TOLERANCE: f64 = 1e-13;
+/// A function of the user that is below this multiple of its next value has just passed zero.
+const USER_ZERO: f64 = 1e-9;
+/// Energies below this part of the greatest force times the size of the mechanism do not count.
+const LITTLE_ENERGY: f64 = 1e-2;
+
+/// Why a phase is over.
+pub(super) enum Ended {
+    /// Something happened.
+    Event(Vec<Cause>),
+    /// The simulation ends.
+    End(End),
+}
+
+/// A motion within a phase.
+pub(super) struct Smooth<'o, 'm> {
+    pub(super) equations: Equations<'m>,
+    pub(super) time: f64,
+    pub(super) state: Vec<f64>,
+    end: f64,
+    longest: f64,
+    tolerance: f64,
+    stepper: Stepper,
+    control: StepControl,
+    /// The length that is tried next (s).
+    next: f64,
+    scale: Vec<f64>,
+    energy: f64,
+    watch: Watch<'o>,
+    options: &'o SimulateOptions,
+    /// Values of the watched functions at the start of the step, inside, and at its end.
+    values: [Vec<f64>; 4],
+    inside: Vec<f64>,
+}
+
+impl<'o, 'm> Smooth<'o, 'm> {
+    /// A motion at its start, not yet in a phase.
+    pub(super) fn new(
+        equations: Equations<'m>,
+        state: Vec<f64>,
+        time: f64,
+        options: &'o SimulateOptions,
+    ) -> Self {
+        let size = state.len();
+        let mut smooth = Self {
+            equations,
+            time,
+            end: time + options.duration,
+            longest: options.longest_step.unwrap_or(options.duration / 1000.0).min(options.duration),
+            tolerance: options.tolerance,
+            stepper: Stepper::new(size),
+            control: StepControl::new(),
+            next: 0.0,
+            scale: vec![0.0; size],
+            energy: 0.0,
+            watch: Watch::new(&options.events, options.reaction_limit),
+            options,
+            values: Default::default(),
+            inside: vec![0.0; size],
+            state,
+        };
+        smooth.notice_velocity();
+        smooth
+    }
+
+    /// Whether the duration is over.
+    pub(super) fn is_over(&self) -> bool {
+        self.time >= self.end
+    }
+
+    /// The greatest velocity so far (m/s), rotations times the size of the mechanism.
+    pub(super) fn greatest_velocity(&self) -> f64 {
+        self.watch.magnitudes.velocity
+    }
+
+    /// Enters a phase.
+    ///
+    /// # Errors
+    /// Equations that cannot be solved.
+    pub(super) fn enter(&mut self, phase: &Phase, decisions: &mut dyn Decisions) -> Result<(), Failure> {
+        self.equations.enter(phase, self.time, &self.state)?;
+        self.watch.begin(phase, &self.equations);
+        self.stepper.start(&mut self.equations, self.time, &self.state)?;
+        self.notice_force();
+        let mut values = std::mem::take(&mut self.values);
+        self.watch_all(phase, decisions, &mut values[0])?;
+        self.values = values;
+        if self.next == 0.0 {
+            self.next = self.first_step();
+        }
+        Ok(())
+    }
+
+    /// A step within which neither positions nor velocities change much.
+    fn first_step(&mut self) -> f64 {
+        let size = self.equations.mechanism.size;
+        let acceleration = self.equations.accelerations().chunks_exact(3);
+        let greatest = acceleration.fold(0.0, |a: f64, body| {
+            a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size)
+        });
+        let velocity = self.watch.magnitudes.velocity.max((greatest * size).sqrt());
+        self.watch.magnitudes.velocity = velocity;
+        let times = [size / velocity, velocity / greatest];
+        0.02 * times.into_iter().filter(|time| *time > 0.0).fold(self.longest, f64::min)
+    }
+
+    fn notice_velocity(&mut self) {
+        let size = self.equations.mechanism.size;
+        let bodies = 3 * self.equations.mechanism.bodies.len();
+        let rates = self.state[bodies..2 * bodies].chunks_exact(3);
+        let greatest = rates
+            .fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
+        self.watch.magnitudes.velocity = self.watch.magnitudes.velocity.max(greatest);
+        let works = self.state[2 * bodies..].iter();
+        self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
+    }
+
+    fn notice_force(&mut self) {
+        let force = self.equations.greatest_force();
+        self.watch.magnitudes.force = self.watch.magnitudes.force.max(force);
+    }
+
+    /// The errors of the components that are permitted in a step.
+    fn set_scale(&mut self) {
+        let size = self.equations.mechanism.size;
+        let bodies = 3 * self.equations.mechanism.bodies.len();
+        let velocity = self.watch.magnitudes.velocity.max(f64::MIN_POSITIVE / self.tolerance);
+        let energy = self.energy.max(LITTLE_ENERGY * self.watch.magnitudes.force * size);
+        let energy = energy.max(f64::MIN_POSITIVE / self.tolerance);
+        for (index, scale) in self.scale.iter_mut().enumerate() {
+            let greatest = match index {
+                _ if index >= 2 * bodies => energy,
+                _ if index >= bodies && index % 3 == 2 => velocity / size,
+                _ if index >= bodies => velocity,
+                _ if index % 3 == 2 => 1.0,
+                _ => size,
+            };
+            *scale = self.tolerance * greatest;
+        }
+    }
+
+    /// One step, shorter if something happens; returns what.
+    pub(super) fn step(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        history: &mut History,
+    ) -> Option<Ended> {
+        self.set_scale();
+        let (step, error) = match self.accepted_step(phase, decisions, history) {
+            Ok(accepted) => accepted,
+            Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
+            Err(Failure::Singular) => return Some(Ended::Event(vec![Cause::Locks])),
+        };
+        let first = history.dense.len() - DENSE * self.state.len();
+        match self.first_event(phase, decisions, &history.dense[first..], step) {
+            Ok(None) => {
+                self.next = step * self.control.accepted(error);
+                self.advance(step);
+                self.values.swap(0, 3);
+                None
+            }
+            Ok(Some((fraction, causes))) => {
+                history.dense.truncate(first);
+                self.next = step;
+                match self.stop_at(fraction * step, history) {
+                    Ok(()) => Some(Ended::Event(causes)),
+                    Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
+                    Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
+                }
+            }
+            Err(Failure::Loads(faults)) => {
+                history.dense.truncate(first);
+                Some(Ended::End(End::NoValue(faults)))
+            }
+            Err(Failure::Singular) => {
+                history.dense.truncate(first);
+                Some(Ended::Event(vec![Cause::Locks]))
+            }
+        }
+    }
+
+    /// Tries steps until one is accurate, projects its end, evaluates what is watched there, and describes it.
+    fn accepted_step(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        history: &mut History,
+    ) -> Result<(f64, f64), Failure> {
+        loop {
+            let rest = self.end - self.time;
+            let wanted = self.next.min(self.longest);
+            // No tiny last step.
+            let step = if wanted >= rest {
+                rest
+            } else if wanted > 0.5 * rest {
+                rest / 2.0
+            } else {
+                wanted
+            };
+            let least = 4.0 * f64::EPSILON * self.time.abs().max(self.end.abs());
+            let attempt = self.try_step(step, phase, decisions, history);
+            match attempt {
+                Ok(error) if error <= 1.0 => {
+                    let state = &self.state;
+                    self.stepper.describe(step, state, &mut history.dense);
+                    return Ok((step, error));
+                }
+                Ok(error) if step > least => self.next = step * self.control.rejected(error),
+                Err(_) if step > least => self.next = step * self.control.rejected(f64::INFINITY),
+                Ok(_) => return Err(Failure::Singular),
+                Err(failure) => return Err(failure),
+            }
+            history.statistics.rejected += 1;
+        }
+    }
+
+    fn try_step(
+        &mut self,
+        step: f64,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        history: &mut History,
+    ) -> Result<f64, Failure> {
+        let error =
+            self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
+        if error <= 1.0 {
+            let mut values = std::mem::take(&mut self.values);
+            let watched = self.watch_all(phase, decisions, &mut values[3]);
+            self.values = values;
+            watched?;
+            self.notice_force();
+            let drift = self.equations.project(&mut self.stepper.end);
+            history.drift = history.drift.max(drift);
+        }
+        Ok(error)
+    }
+
+    /// Ends the step at an event: a step of that length is more accurate than the solution within a longer one.
+    fn stop_at(&mut self, step: f64, history: &mut History) -> Result<(), Failure> {
+        if step <= 0.0 {
+            return Ok(());
+        }
+        self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
+        let drift = self.equations.project(&mut self.stepper.end);
+        history.drift = history.drift.max(drift);
+        self.stepper.describe(step, &self.state, &mut history.dense);
+        self.advance(step);
+        Ok(())
+    }
+
+    fn advance(&mut self, step: f64) {
+        let rest = self.end - self.time;
+        self.time = if step >= rest { self.end } else { self.time + step };
+        self.stepper.advance(&mut self.state);
+        self.notice_velocity();
+    }
+
+    /// Values of all watched functions at the last evaluation.
+    fn watch_all(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Failure> {
+        values.clear();
+        for index in 0..self.watch.list.len() {
+            values.push(self.value(self.watch.list[index], phase, decisions)?);
+        }
+        Ok(())
+    }
+
+    /// The value of one watched function at the last evaluation.
+    fn value(
+        &self,
+        watched: Watched,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<f64, Failure> {
+        let equations = &self.equations;
+        if watched == Watched::Sticking {
+            let margin =
+                decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
+            return margin.map_err(Failure::Loads);
+        }
+        let value = self.watch.value(watched, phase, equations);
+        value.map_err(|fault| Failure::Loads(Fault::general(FaultKind::Expression(fault.kind)).into()))
+    }
+
+    /// The first instant within the step at which something falls through zero, as a fraction, and all that does.
+    fn first_event(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        dense: &[f64],
+        step: f64,
+    ) -> Result<Option<(f64, Vec<Cause>)>, Failure> {
+        let mut left = 0.0;
+        for (part, right) in INSIDE.into_iter().chain([1.0]).enumerate() {
+            if part < INSIDE.len() {
+                self.evaluate_within(dense, right, step, Needs::Forces)?;
+                let mut values = std::mem::take(&mut self.values);
+                let watched = self.watch_all(phase, decisions, &mut values[part + 1]);
+                self.values = values;
+                watched?;
+            }
+            let fallen: Vec<usize> =
+                (0..self.watch.list.len()).filter(|index| self.has_fallen(part, *index)).collect();
+            if !fallen.is_empty() {
+                return self.locate(phase, decisions, (dense, step), ([left, right], part, &fallen)).map(Some);
+            }
+            left = right;
+        }
+        Ok(None)
+    }
+
+    /// Whether a function is below zero behind a part of the step, beyond rounding where it was not above zero before.
+    fn has_fallen(&self, part: usize, index: usize) -> bool {
+        let (before, after) = (self.values[part][index], self.values[part + 1][index]);
+        if let Watched::User(..) = self.watch.list[index] {
+            // It may be below zero; just behind one of its zeros it is zero within rounding.
+            return after <= 0.0 && before > USER_ZERO * after.abs();
+        }
+        let tolerance = self.watch.tolerance(self.watch.list[index], &self.equations);
+        if before > tolerance { after <= 0.0 } else { after < -tolerance && after < before }
+    }
+
+    /// The least of the zeros between two fractions, and everything that vanishes there.
+    fn locate(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        (dense, step): (&[f64], f64),
+        (ends, part, fallen): ([f64; 2], usize, &[usize]),
+    ) -> Result<(f64, Vec<Cause>), Failure> {
+        let mut zeros = Vec::with_capacity(fallen.len());
+        for &index in fallen {
+            let watched = self.watch.list[index];
+            let values = [self.values[part][index], self.values[part + 1][index]];
+            let zero = if values[0] > 0.0 {
+                falling_root(ends, values, ROOT_TOLERANCE, |fraction| {
+                    self.evaluate_within(dense, fraction, step, watched.needs())?;
+                    self.value(watched, phase, decisions)
+                })?
+            } else {
+                ends[0]
+            };
+            zeros.push((zero, watched));
+        }
+        let first = zeros.iter().map(|(zero, _)| *zero).fold(f64::INFINITY, f64::min);
+        let same = zeros.iter().filter(|(zero, _)| *zero <= first + SAME_INSTANT);
+        let name = |index: usize| self.options.events[index].name.clone();
+        Ok((first, same.map(|(_, watched)| Cause::of(*watched, &self.equations.sliders, name)).collect()))
+    }
+
+    /// Puts the equations at a fraction of the step.
+    fn evaluate_within(
+        &mut self,
+        dense: &[f64],
+        fraction: f64,
+        step: f64,
+        needs: Needs,
+    ) -> Result<(), Failure> {
+        within(dense, fraction, &mut self.inside);
+        let time = self.time + fraction * step;
+        if needs == Needs::Forces {
+            self.equations.evaluate(time, &self.inside)
+        } else {
+            self.equations.place(time, &self.inside);
+            Ok(())
+        }
+    }
+
+    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines would.
+    pub(super) fn settle(&mut self, phase: &Phase, stopped: &[bool]) {
+        if !stopped.contains(&true) {
+            return;
+        }
+        let mut held = phase.clone();
+        for (joint, stopped) in held.joints.iter_mut().zip(stopped) {
+            if *stopped {
+                *joint = JointPhase::Sticking;
+            }
+        }
+        if self.equations.enter(&held, self.time, &self.state).is_ok() {
+            self.equations.project(&mut self.state);
+        }
+    }
+
+    /// Velocities after an impulse.
+    pub(super) fn set_velocities(&mut self, velocities: &[Velocity]) {
+        let bodies = 3 * velocities.len();
+        let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
+        self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
+    }
+}

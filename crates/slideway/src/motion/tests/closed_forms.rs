@@ -1,0 +1,102 @@
+use super::run;
+use crate::motion::{Cause, End, SimulateOptions};
+
+/// A block of 2 kg on a horizontal guide, g = 10 m/s^2.
+fn block(mu: &str, start: &str, more: &str) -> String {
+    format!(
+        r#"
+gravity = "10 m/s^2"
+[points]
+C = [0, 0]
+W = [-3, 0]
+[bodies.block]
+points = ["C"]
+mass = "2 kg"
+centre_of_mass = "C"
+shape = {{ rectangle = ["0.2 m", "0.1 m"] }}
+[joints.guide]
+type = "block_slider"
+block = "block"
+at = "C"
+along = "0 deg"
+length = "0.2 m"
+mu = {mu}
+[coordinates.x]
+slide = "guide"
+{start}
+{more}
+"#
+    )
+}
+
+/// v = v0 - mu g t: it stops at t = v0 / (mu g) = 2 / 2.5 = 0.8 s, at x = v0^2 / (2 mu g) = 0.8 m, and stays.
+#[test]
+fn a_block_slides_to_rest() {
+    let history = run(&block("0.25", "rate = 2", ""), &SimulateOptions::new(2.0));
+    assert_eq!(history.end, End::Finished);
+    assert_eq!(history.events.len(), 2);
+    let stop = &history.events[1];
+    assert!(matches!(stop.causes[..], [Cause::Stops(_)]));
+    assert!((stop.time - 0.8).abs() < 1e-12, "{}", stop.time);
+    assert_eq!(stop.words, "at 0.8 s guide stops and sticks");
+    let mut reader = history.reader();
+    for (time, place, velocity) in [(0.3, 0.6 - 0.1125, 1.25), (0.8, 0.8, 0.0), (2.0, 0.8, 0.0)] {
+        let sample = reader.at(time).unwrap();
+        assert!((sample.configuration.coordinates[0] - place).abs() < 1e-12);
+        assert!((sample.configuration.rates[0] - velocity).abs() < 1e-12);
+    }
+    // It dissipates m v0^2 / 2 = 4 J, each end of the block half of it.
+    let energy = reader.at(2.0).unwrap().energy;
+    assert!(energy.friction.iter().all(|part| (part - 2.0).abs() < 1e-11), "{energy:?}");
+    assert!(history.energy_error < 1e-11 && history.drift.position < 1e-13);
+}
+
+/// Spring k = 50 N/m, mu m g = 0.05 * 20 = 1 N, static friction the same: released at x = 0.33 m the turning points
+/// are 2 mu m g / k = 0.04 m nearer each half cycle of pi sqrt(m/k), until |x| <= mu m g / k = 0.02 m:
+/// 0.33, -0.29, 0.25, -0.21, 0.17, -0.13, 0.09, -0.05, 0.01: there it stays.
+#[test]
+fn a_frictional_oscillator_loses_a_fixed_part_each_half_cycle() {
+    let spring = r#"
+[loads.spring]
+type = "spring"
+between = ["block.C", "ground.W"]
+stiffness = "50 N/m"
+"#;
+    let history = run(&block("0.05", "value = 0.33", spring), &SimulateOptions::new(8.0));
+    let half = std::f64::consts::PI * 0.2;
+    let stops: Vec<_> =
+        history.events.iter().filter(|e| matches!(e.causes[..], [Cause::Stops(_)])).collect();
+    assert_eq!(stops.len(), 8, "{:#?}", history.events.iter().map(|e| &e.words).collect::<Vec<_>>());
+    let mut reader = history.reader();
+    for (index, stop) in stops.iter().enumerate() {
+        let count = (index + 1) as f64;
+        assert!((stop.time - count * half).abs() < 2e-8, "{} {}", stop.time, count * half);
+        let turning = (0.33 - 0.04 * count) * if index % 2 == 0 { -1.0 } else { 1.0 };
+        let place = reader.at(stop.time).unwrap().configuration.coordinates[0];
+        assert!((place - turning).abs() < 1e-8, "{place} {turning}");
+    }
+    let last = reader.at(8.0).unwrap();
+    assert!((last.configuration.coordinates[0] - 0.01).abs() < 1e-8);
+    assert!(last.configuration.rates[0].abs() < 1e-14);
+}
+
+/// A force of 8 N/s t moves a block at rest when it exceeds mu m g = 5 N, at t = 0.625 s; then
+/// m v' = 8 t - 5, so x = (8/6 (t^3 - t0^3) - 5/2 (t^2 - t0^2) - (4 t0^2 - 5 t0)(t - t0)) / 2.
+#[test]
+fn a_growing_force_starts_a_block() {
+    let force = "
+[loads.force]
+type = \"force\"
+at = \"block.C\"
+components = [\"8 N/s * t\", 0]
+";
+    let history = run(&block("0.25", "", force), &SimulateOptions::new(1.0));
+    assert_eq!(history.end, End::Finished);
+    assert_eq!(history.events.len(), 2);
+    assert!((history.events[1].time - 0.625).abs() < 1e-12, "{}", history.events[1].time);
+    let t0: f64 = 0.625;
+    let x = (8.0 / 6.0 * (1.0 - t0.powi(3)) - 2.5 * (1.0 - t0 * t0) - (4.0 * t0 * t0 - 5.0 * t0) * (1.0 - t0))
+        / 2.0;
+    let found = history.reader().at(1.0).unwrap().configuration.coordinates[0];
+    assert!((found - x).abs() < 1e-12, "{found} {x}");
+}

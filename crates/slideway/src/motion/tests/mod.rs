@@ -1,0 +1,28 @@
+//! Motions that are known in closed form.
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
+mod closed_forms;
+mod simple;
+
+use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
+use crate::configuration::Configuration;
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use std::ops::ControlFlow;
+
+fn run(text: &str, options: &SimulateOptions) -> History {
+    let mechanism = Mechanism::new(&Model::parse(text).unwrap()).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let mut with = |decisions: &mut dyn Decisions| {
+        simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(())).unwrap()
+    };
+    let history = with(&mut Thorough);
+    // Two ways to decide lead to one motion.
+    let other = with(&mut simple::TryAll);
+    assert_eq!(history.end, other.end);
+    assert_eq!(history.events.len(), other.events.len());
+    for (one, other) in history.events.iter().zip(&other.events) {
+        assert!((one.time - other.time).abs() < 1e-9, "{} {}", one.time, other.time);
+    }
+    history
+}

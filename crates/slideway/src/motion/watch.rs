@@ -1,0 +1,222 @@
+//! What is watched within a phase: functions that end it, or are told, when they fall through zero.
+
+use super::equations::Equations;
+use super::linear::Determinant;
+use super::options::{Crossing, UserEvent};
+use super::phase::{ContactPhase, JointPhase, Phase};
+use crate::expression::ExpressionFault;
+use crate::ids::{ContactId, JointId};
+use crate::kinetics::Reaction;
+use crate::model::SliderKind;
+use crate::modes::Side;
+
+/// Forces below this multiple of the greatest so far are rounding.
+const FORCE_TOLERANCE: f64 = 1e-9;
+/// Velocities, likewise.
+const VELOCITY_TOLERANCE: f64 = 1e-10;
+/// Lengths below this multiple of the size are rounding.
+const LENGTH_TOLERANCE: f64 = 1e-12;
+/// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as locked.
+const LOCKED: f64 = 1e-7;
+
+/// A function that is watched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Watched {
+    /// The normal force of a contact, towards its side.
+    NormalForce(ContactId),
+    /// The share of a face in a preload gap: of the positive one, or of the negative one.
+    Share(ContactId, Side),
+    /// The sliding velocity of a joint, counted in its direction; the joint's number among the sliding ones.
+    Velocity(usize, f64),
+    /// The determinant of the mode, relative to the start of the phase.
+    Determinant,
+    /// How much the normal force of a contact may still grow.
+    ReactionLimit(ContactId),
+    /// |N| L/2 - |C| of a guided slider.
+    Couple(JointId),
+    /// By how much the sticking joints can still stick.
+    Sticking,
+    /// The supported length of a block slider.
+    Overlap(JointId),
+    /// Distance to the least (-1) or greatest (1) displacement of a sliding joint.
+    Travel(JointId, f64),
+    /// A function of the user, or its negative.
+    User(usize, f64),
+}
+
+/// What it takes to compute a watched function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Needs {
+    /// Positions and velocities.
+    Motion,
+    /// The solution of the equations.
+    Forces,
+    /// The decision on standstill.
+    Standstill,
+}
+
+impl Watched {
+    pub(super) fn needs(self) -> Needs {
+        match self {
+            Self::NormalForce(_)
+            | Self::Share(..)
+            | Self::Determinant
+            | Self::ReactionLimit(_)
+            | Self::Couple(_) => Needs::Forces,
+            Self::Sticking => Needs::Standstill,
+            Self::Velocity(..) | Self::Overlap(_) | Self::Travel(..) | Self::User(..) => Needs::Motion,
+        }
+    }
+}
+
+/// The greatest magnitudes so far, for tolerances.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Magnitudes {
+    /// Force (N).
+    pub(super) force: f64,
+    /// Velocity (m/s).
+    pub(super) velocity: f64,
+}
+
+/// The functions that are watched in a phase.
+pub(super) struct Watch<'o> {
+    pub(super) list: Vec<Watched>,
+    user: &'o [UserEvent],
+    reaction_limit: Option<f64>,
+    /// The determinant at the start of the phase.
+    reference: Determinant,
+    /// The least share at which each contact has been flagged.
+    pub(super) magnitudes: Magnitudes,
+}
+
+impl<'o> Watch<'o> {
+    /// Nothing yet.
+    pub(super) fn new(user: &'o [UserEvent], reaction_limit: Option<f64>) -> Self {
+        Self {
+            list: Vec::new(),
+            user,
+            reaction_limit,
+            reference: Determinant::default(),
+            magnitudes: Magnitudes::default(),
+        }
+    }
+
+    /// Chooses what is watched in a phase that the equations have just entered.
+    pub(super) fn begin(&mut self, phase: &Phase, equations: &Equations<'_>) {
+        self.list.clear();
+        self.reference = equations.determinant();
+        let mechanism = equations.mechanism;
+        for (index, joint) in equations.sliders.iter().enumerate() {
+            let slider = mechanism.slider(*joint).expect("sliding joints slide");
+            if let JointPhase::Sliding(sign) = phase.joints[index] {
+                if !slider.contacts.iter().all(|k| mechanism.contacts[k.index()].is_frictionless()) {
+                    self.list.push(Watched::Velocity(index, sign));
+                }
+                for contact in &slider.contacts {
+                    self.contact(*contact, phase.contacts[contact.index()]);
+                }
+                if slider.kind == SliderKind::Guided {
+                    self.list.push(Watched::Couple(*joint));
+                }
+            }
+            if slider.kind == SliderKind::Block {
+                self.list.push(Watched::Overlap(*joint));
+            }
+            if slider.travel.is_some() {
+                self.list.extend([Watched::Travel(*joint, -1.0), Watched::Travel(*joint, 1.0)]);
+            }
+        }
+        if phase.joints.contains(&JointPhase::Sticking) {
+            self.list.push(Watched::Sticking);
+        }
+        if phase.contacts.iter().any(|_| phase.joints.iter().any(|joint| *joint != JointPhase::Sticking)) {
+            self.list.push(Watched::Determinant);
+        }
+        for (index, event) in self.user.iter().enumerate() {
+            if event.crossing != Crossing::Rising {
+                self.list.push(Watched::User(index, 1.0));
+            }
+            if event.crossing != Crossing::Falling {
+                self.list.push(Watched::User(index, -1.0));
+            }
+        }
+    }
+
+    fn contact(&mut self, contact: ContactId, phase: ContactPhase) {
+        match phase {
+            ContactPhase::Pressed(_) => self.list.push(Watched::NormalForce(contact)),
+            ContactPhase::PreloadGap => {
+                self.list.extend(Side::BOTH.map(|side| Watched::Share(contact, side)));
+            }
+        }
+        if self.reaction_limit.is_some() {
+            self.list.push(Watched::ReactionLimit(contact));
+        }
+    }
+
+    /// The value of a watched function at the last evaluation of the equations; not that of sticking.
+    ///
+    /// # Errors
+    /// A function of the user has no value.
+    pub(super) fn value(
+        &self,
+        watched: Watched,
+        phase: &Phase,
+        equations: &Equations<'_>,
+    ) -> Result<f64, ExpressionFault> {
+        let (mechanism, configuration) = (equations.mechanism, &equations.configuration);
+        let slider = |joint: JointId| mechanism.slider(joint).expect("sliding joints slide");
+        Ok(match watched {
+            Watched::NormalForce(contact) => {
+                let k = contact.index();
+                let sigma = if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
+                sigma * equations.normal_force(k)
+            }
+            Watched::Share(contact, side) => {
+                let share = equations.share(contact.index()).unwrap_or(0.5);
+                if side == Side::Positive { share } else { 1.0 - share }
+            }
+            Watched::Velocity(index, sign) => {
+                let contact = slider(equations.sliders[index]).contacts[0];
+                sign * equations.contacts[contact.index()].sliding_velocity
+            }
+            Watched::Determinant => equations.determinant().relative_to(self.reference) - LOCKED,
+            Watched::ReactionLimit(contact) => {
+                self.reaction_limit.unwrap_or(f64::INFINITY) - equations.normal_force(contact.index()).abs()
+            }
+            Watched::Couple(joint) => {
+                let slider = slider(joint);
+                let normal_force = equations.normal_force(slider.contacts[0].index()).abs();
+                normal_force * slider.length / 2.0 - equations.reaction(Reaction::Couple(joint)).abs()
+            }
+            Watched::Sticking => 0.0,
+            Watched::Overlap(joint) => {
+                let slider = slider(joint);
+                // The state of a mechanism is refused from here on.
+                configuration.overlap(mechanism, slider).unwrap_or(slider.length) - 1e-9 * slider.length
+            }
+            Watched::Travel(joint, end) => {
+                let slider = slider(joint);
+                let (displacement, _) = configuration.sliding(mechanism, slider);
+                let [least, greatest] = slider.travel.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+                if end < 0.0 { displacement - least } else { greatest - displacement }
+            }
+            Watched::User(index, sign) => sign * self.user[index].value(mechanism, configuration)?,
+        })
+    }
+
+    /// Values within this of zero count as zero.
+    pub(super) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
+        let force = FORCE_TOLERANCE * self.magnitudes.force;
+        match watched {
+            Watched::NormalForce(_) | Watched::ReactionLimit(_) => force,
+            Watched::Couple(joint) => {
+                force * equations.mechanism.slider(joint).map_or(0.0, |slider| slider.length)
+            }
+            Watched::Share(..) => FORCE_TOLERANCE,
+            Watched::Velocity(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity,
+            Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * equations.mechanism.size,
+            Watched::Sticking | Watched::Determinant | Watched::User(..) => 0.0,
+        }
+    }
+}
