@@ -32,6 +32,12 @@ pub(crate) enum Failure {
     StageCount { stages: usize, most: usize },
     /// The output file exists.
     OutputExists { path: PathBuf },
+    /// Two outputs would go to the same file.
+    SameOutput { path: PathBuf },
+    /// The ending of a picture's file says nothing of its format.
+    PictureFormat { path: PathBuf, known: &'static [&'static str] },
+    /// A picture could not be made.
+    Picture { reason: String },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
@@ -63,6 +69,11 @@ impl Failure {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
             Self::OutputExists { path } => format!("`{}` exists already", path.display()),
+            Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
+            Self::PictureFormat { path, .. } => {
+                format!("the ending of `{}` names no format of pictures", path.display())
+            }
+            Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
@@ -89,6 +100,7 @@ impl Failure {
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
+            Self::PictureFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
             _ => None,
         }

@@ -6,6 +6,7 @@ mod diagnostics;
 mod failure;
 mod input;
 mod output;
+mod picture;
 mod watch;
 
 use arguments::{Arguments, Command};

@@ -238,6 +238,10 @@ pub enum FaultKind {
     EmptyRange { what: String, from: f64 },
     #[error("nothing in the mode problem depends on {what} between {from} and {to}")]
     NothingVaries { what: String, from: f64, to: f64 },
+    #[error("the model has no drives, so that there is no effort to plot")]
+    NoDrives,
+    #[error("{what} cannot be both axes of a map")]
+    SameAxes { what: String },
     #[error("{contacts} contacts have more contact modes than the {limit} whose limits are computed")]
     TooManyModes { contacts: usize, limit: u64 },
     #[error("the range of {what} is reversed: it goes from {from} down to {to}")]

@@ -10,8 +10,8 @@ pub(crate) struct Destination {
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Overwrite the output file if it exists.
-    #[arg(long, requires = "output")]
+    /// Overwrite output files that exist.
+    #[arg(long)]
     pub(crate) force: bool,
 }
 

@@ -1,8 +1,9 @@
 //! `slideway limits`
 
 use super::values::positive;
-use super::{CheckFormat, Destination, ModelArguments};
-use clap::Args;
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments};
+use clap::{Args, ValueEnum};
+use slideway::limits::Quantity;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -11,6 +12,7 @@ Examples:
   slideway limits drawer.toml --vary friction        all coefficients of friction together
   slideway limits drawer.toml --vary L=\"0.2 m..0.5 m\"
   slideway limits slider-crank.toml --vary phi=\"-80 deg..80 deg\"
+  slideway limits klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions --plot figures-4-5.svg
 
 Exit codes:
   0  done
@@ -39,5 +41,37 @@ pub(crate) struct LimitsArguments {
     pub(crate) format: CheckFormat,
 
     #[command(flatten)]
+    pub(crate) plot: PlotArguments,
+
+    /// What the plot shows.
+    #[arg(long, value_enum, default_value_t, requires = "plot")]
+    pub(crate) quantity: PlottedQuantity,
+
+    #[command(flatten)]
     pub(crate) destination: Destination,
+}
+
+/// What a plot shows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlottedQuantity {
+    /// The normal force of every contact.
+    #[default]
+    NormalForce,
+    /// The friction force of every contact.
+    Friction,
+    /// The acceleration of every coordinate.
+    Acceleration,
+    /// The effort of every drive.
+    Effort,
+}
+
+impl From<PlottedQuantity> for Quantity {
+    fn from(quantity: PlottedQuantity) -> Self {
+        match quantity {
+            PlottedQuantity::NormalForce => Self::NormalForce,
+            PlottedQuantity::Friction => Self::Friction,
+            PlottedQuantity::Acceleration => Self::Acceleration,
+            PlottedQuantity::Effort => Self::Effort,
+        }
+    }
 }

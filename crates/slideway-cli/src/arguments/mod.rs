@@ -7,6 +7,7 @@ mod limits;
 mod model;
 mod models;
 mod modes;
+mod plot;
 mod search;
 mod solve;
 mod values;
@@ -18,6 +19,7 @@ pub(crate) use limits::LimitsArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
+pub(crate) use plot::PlotArguments;
 pub(crate) use search::SearchArguments;
 pub(crate) use solve::SolveArguments;
 

@@ -92,6 +92,24 @@ impl<'p> ElasticGuides<'p> {
         all
     }
 
+    /// The verdict on the mode with these sides alone: neither how it depends on stiffnesses nor what the solution
+    /// separates is examined.
+    pub fn verdict_on(&self, sides: &[Side]) -> Verdict {
+        if sides.len() > MOST_CONTACTS {
+            return Verdict::NotComputed;
+        }
+        let (Some(inertia), true) = (&self.inertia, self.stable) else { return Verdict::Undecided };
+        let mode = mode_matrix(self.problem, sides);
+        let oriented = mode.determinant();
+        let spectrum = Pencil::new(inertia, mode)
+            .and_then(|pencil| pencil.spectrum(&self.stiffness, &equal_masses(inertia)));
+        spectrum.map_or(Verdict::NotComputed, |spectrum| {
+            let is_odd = spectrum.negative % 2 == 1;
+            let consistent = oriented != 0.0 && is_odd == (oriented < 0.0);
+            self.verdict(&spectrum, consistent).verdict
+        })
+    }
+
     /// The attainability of the mode with these sides, without what an unattainable solution separates.
     pub(crate) fn of(&self, sides: &[Side]) -> Attainability {
         if sides.len() > MOST_CONTACTS {

@@ -122,6 +122,40 @@ impl Dimension {
         })
     }
 
+    /// The product of powers of kg, m and s.
+    fn powers(self) -> String {
+        let powers = [("kg", self.mass), ("m", self.length), ("s", self.time)];
+        let above: Vec<String> = powers.iter().filter(|power| power.1 > 0).map(written).collect();
+        let below: Vec<String> = powers.iter().filter(|power| power.1 < 0).map(written).collect();
+        let above = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+        match below.as_slice() {
+            [] => above,
+            [factor] => format!("{above}/{factor}"),
+            factors => format!("{above}/({})", factors.join(" ")),
+        }
+    }
+
+    /// The coherent SI unit, empty for pure numbers and angles.
+    ///
+    /// ```
+    /// use slideway::expression::Dimension;
+    /// assert_eq!(Dimension::TORQUE.unit(), "N m");
+    /// assert_eq!(Dimension::ACCELERATION.unit(), "m/s^2");
+    /// ```
+    pub fn unit(self) -> String {
+        let named = match self {
+            Self::NONE => "",
+            Self::FORCE => "N",
+            Self::TORQUE => "N m",
+            Self::STIFFNESS => "N/m",
+            Self::DAMPING => "N s/m",
+            Self::PRESSURE => "Pa",
+            Self::POWER => "W",
+            _ => return self.powers(),
+        };
+        named.to_owned()
+    }
+
     fn common_name(self) -> Option<&'static str> {
         Some(match self {
             Self::NONE => "an angle or pure number",
@@ -150,18 +184,7 @@ impl fmt::Display for Dimension {
         if let Some(name) = self.common_name() {
             return formatter.write_str(name);
         }
-        let powers = [("kg", self.mass), ("m", self.length), ("s", self.time)];
-        let above: Vec<String> = powers.iter().filter(|power| power.1 > 0).map(written).collect();
-        let below: Vec<String> = powers.iter().filter(|power| power.1 < 0).map(written).collect();
-        match above.as_slice() {
-            [] => formatter.write_str("1")?,
-            factors => formatter.write_str(&factors.join(" "))?,
-        }
-        match below.as_slice() {
-            [] => Ok(()),
-            [factor] => write!(formatter, "/{factor}"),
-            factors => write!(formatter, "/({})", factors.join(" ")),
-        }
+        formatter.write_str(&self.powers())
     }
 }
 

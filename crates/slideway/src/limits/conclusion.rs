@@ -1,7 +1,7 @@
 //! What limits come to, in words.
 
 use super::report::{CountLimits, Direction};
-use crate::report::number::number;
+use crate::report::precise;
 
 /// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7).
 pub(super) fn conclusion(name: &str, forwards: &Direction, reversed: Option<&Direction>) -> Vec<String> {
@@ -60,15 +60,4 @@ fn sentences<'v>(name: &str, pieces: impl Iterator<Item = ([f64; 2], &'v str)>) 
         format!("{name} from {} to {}: {verdict}.", precise(from), precise(to))
     };
     joined.into_iter().map(sentence).collect()
-}
-
-/// Eight significant digits, as limits are known to more than other numbers.
-pub(super) fn precise(value: f64) -> String {
-    if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
-        return number(value);
-    }
-    // The first number of digits behind the point that gives eight significant ones.
-    let digits = (2..12).find(|&digits| value.abs() >= 10_f64.powi(7 - digits)).unwrap_or(12);
-    let text = format!("{value:.*}", usize::try_from(digits).unwrap_or(12));
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

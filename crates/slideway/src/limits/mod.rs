@@ -16,16 +16,19 @@
 //! ```
 
 mod conclusion;
+mod curves;
 mod report;
 mod scan;
 mod text;
 mod varied;
 
+pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, limits_with_curves};
 pub use report::{
     CountLimits, Direction, EndReaction, LimitsReport, ModeLimits, SCHEMA, VariedQuantity, to_json,
 };
 pub use text::to_text;
-pub use varied::FRICTION;
+pub(crate) use varied::Varied;
+pub use varied::{FRICTION, ShownIn};
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};
@@ -33,7 +36,6 @@ use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooMan
 use crate::solve::{Parts, Stages};
 use report::Naming;
 use scan::{STEPS, Scanner};
-use varied::Varied;
 
 /// The most patterns whose limits are computed.
 const PATTERNS: u64 = 1 << 14;
@@ -80,29 +82,50 @@ struct Found {
 /// # Errors
 /// Whatever `solve` refuses; an unknown name, an empty or reversed range, or one on which nothing depends.
 pub fn limits(model: &Model, options: &LimitsOptions) -> Result<LimitsReport, Faults> {
-    let (name, range) = match options.vary.split_once('=') {
-        Some((name, range)) => (name.trim(), Some(range)),
-        None => (options.vary.trim(), None),
-    };
-    let varied = Varied::new(model, name)?;
-    let range = match range {
-        Some(text) => given_range(&varied, text)?,
-        None => usual_range(model, &varied)?,
-    };
-    let found = find(&varied, range, options)?;
-    let reversed = if options.both_directions {
-        let model = backwards(model)?;
-        let varied = Varied::new(&model, name)?;
-        Some(find(&varied, range, options)?)
-    } else {
-        None
-    };
-    let naming = Naming::new(model)?;
-    Ok(report::report(&naming, &varied, range, (&found, reversed.as_ref())))
+    let analysis = Analysis::new(model, options)?;
+    Ok(analysis.report(&Naming::new(model)?))
+}
+
+/// What is varied, over which range, and the modes of both directions.
+struct Analysis {
+    varied: Varied,
+    range: [f64; 2],
+    shown_in: ShownIn,
+    found: Found,
+    reversed: Option<(Varied, Found)>,
+}
+
+impl Analysis {
+    fn new(model: &Model, options: &LimitsOptions) -> Result<Self, Faults> {
+        let (name, range) = match options.vary.split_once('=') {
+            Some((name, range)) => (name.trim(), Some(range)),
+            None => (options.vary.trim(), None),
+        };
+        let varied = Varied::new(model, name)?;
+        let shown_in = varied.shown_in(range.unwrap_or_default());
+        let range = match range {
+            Some(text) => given_range(&varied, text)?,
+            None => usual_range(model, &varied)?,
+        };
+        let found = find(&varied, range, options)?;
+        let reversed = if options.both_directions {
+            let varied = Varied::new(&backwards(model)?, name)?;
+            let found = find(&varied, range, options)?;
+            Some((varied, found))
+        } else {
+            None
+        };
+        Ok(Self { varied, range, shown_in, found, reversed })
+    }
+
+    fn report(&self, naming: &Naming) -> LimitsReport {
+        let reversed = self.reversed.as_ref().map(|(_, found)| found);
+        report::report(naming, &self.varied, self.range, (&self.found, reversed))
+    }
 }
 
 /// The range that is written as FROM..TO.
-fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
+pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
     let what = varied.in_words();
     let Some((from, to)) = text.split_once("..") else {
         return Err(fault(FaultKind::MalformedRange { text: text.to_owned(), name: varied.name.clone() }));
@@ -129,7 +152,7 @@ fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
 }
 
 /// The model with all rates reversed.
-fn backwards(model: &Model) -> Result<Model, Faults> {
+pub(crate) fn backwards(model: &Model) -> Result<Model, Faults> {
     let stages = Stages::new(model)?;
     let rates = stages.mechanism.coordinates.iter().zip(&stages.configuration.rates);
     let settings = rates.fold(Settings::default(), |settings, (coordinate, rate)| {

@@ -54,6 +54,8 @@ pub struct VariedQuantity {
     pub to: f64,
     /// Its value in the model.
     pub value: f64,
+    /// Its SI unit; empty for pure numbers and angles.
+    pub unit: String,
 }
 
 /// The modes of the opposite direction of motion.
@@ -130,7 +132,7 @@ pub fn to_json(report: &LimitsReport) -> String {
 
 /// The names of a mechanism's parts, and how its guides lie.
 pub(super) struct Naming {
-    mechanism: Mechanism,
+    pub(super) mechanism: Mechanism,
     configuration: Configuration,
 }
 
@@ -251,7 +253,13 @@ pub(super) fn report(
     LimitsReport {
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
-        vary: VariedQuantity { name: varied.name.clone(), from: range[0], to: range[1], value },
+        vary: VariedQuantity {
+            name: varied.name.clone(),
+            from: range[0],
+            to: range[1],
+            value,
+            unit: varied.unit(),
+        },
         method: if found.is_linear { "closed form" } else { "bracketing" },
         guarantee,
         modes: forwards.modes,

@@ -1,11 +1,10 @@
 //! Limits as text for people.
 
-use super::conclusion::precise;
 use super::report::{CountLimits, LimitsReport, ModeLimits};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, spaced};
+use crate::report::{Style, precise, spaced};
 
 /// The report as text: what it comes to, the modes, the numbers of solutions.
 pub fn to_text(report: &LimitsReport, style: Style) -> String {

@@ -9,7 +9,7 @@ use crate::solve::{Parts, Stages};
 pub const FRICTION: &str = "friction";
 
 /// What is varied in a model.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// The factor of all coefficients of friction.
     Friction,
@@ -20,9 +20,9 @@ enum Kind {
 }
 
 /// A model and what is varied in it.
-pub(super) struct Varied {
+pub(crate) struct Varied {
     model: Model,
-    pub(super) name: String,
+    pub(crate) name: String,
     kind: Kind,
     /// The stages that a factor of friction leaves as they are.
     stages: Option<Stages>,
@@ -31,7 +31,7 @@ pub(super) struct Varied {
 impl Varied {
     /// # Errors
     /// An unknown name; with a factor of friction whatever `solve` refuses.
-    pub(super) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
+    pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
         let parameter = model.parameters.iter().any(|parameter| &*parameter.name == name);
         let coordinate = model.coordinates.iter().any(|coordinate| &*coordinate.name == name);
         let kind = match (parameter, coordinate, name) {
@@ -45,12 +45,12 @@ impl Varied {
     }
 
     /// Whether all coefficients of friction are scaled together.
-    pub(super) fn is_friction_factor(&self) -> bool {
+    pub(crate) fn is_friction_factor(&self) -> bool {
         self.kind == Kind::Friction
     }
 
     /// What it is, in words.
-    pub(super) fn in_words(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         match self.kind {
             Kind::Friction => "the factor of all coefficients of friction".to_owned(),
             Kind::Parameter => format!("the parameter {}", self.name),
@@ -62,7 +62,7 @@ impl Varied {
     ///
     /// # Errors
     /// Values of the model that are not allowed.
-    pub(super) fn present(&self) -> Result<f64, Faults> {
+    pub(crate) fn present(&self) -> Result<f64, Faults> {
         Ok(match self.kind {
             Kind::Friction => 1.0,
             Kind::Parameter => {
@@ -82,7 +82,7 @@ impl Varied {
     ///
     /// # Errors
     /// A text that is no quantity of the right dimension.
-    pub(super) fn value_of(&self, text: &str) -> Result<f64, Faults> {
+    pub(crate) fn value_of(&self, text: &str) -> Result<f64, Faults> {
         match self.kind {
             Kind::Friction => text.trim().parse().map_err(|_| {
                 Fault::general(FaultKind::MalformedRange { text: text.to_owned(), name: self.name.clone() })
@@ -93,29 +93,85 @@ impl Varied {
         }
     }
 
+    /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.
+    pub(crate) fn shown_in(&self, range: &str) -> ShownIn {
+        let [from, to] = range.split_once("..").map_or([""; 2], |(from, to)| [unit_of(from), unit_of(to)]);
+        let scale =
+            if from == to && !from.is_empty() { self.value_of(&format!("1 {from}")).ok() } else { None };
+        match scale {
+            Some(scale) if scale > 0.0 => ShownIn { unit: from.to_owned(), scale },
+            _ => ShownIn { unit: self.unit(), scale: 1.0 },
+        }
+    }
+
+    /// The SI unit, empty for pure numbers.
+    pub(crate) fn unit(&self) -> String {
+        let coordinate = self.model.coordinates.iter().find(|coordinate| *coordinate.name == *self.name);
+        match (self.kind, coordinate) {
+            (Kind::Friction, _) | (Kind::Coordinate, None) => String::new(),
+            (Kind::Coordinate, Some(coordinate)) => {
+                if coordinate.kind.is_angle() {
+                    "rad".to_owned()
+                } else {
+                    "m".to_owned()
+                }
+            }
+            (Kind::Parameter, _) => self.model.parameter_unit(&self.name),
+        }
+    }
+
     fn setting(&self, kind: SettingKind, value: &str) -> Setting {
         Setting { kind, name: self.name.clone(), value: value.trim().to_owned() }
     }
 
-    fn with(&self, value: &str) -> Result<Model, Faults> {
-        let settings = Settings::default();
-        self.model.with(&match self.kind {
+    /// These settings and this value; a factor of friction is no setting.
+    pub(crate) fn set(&self, settings: Settings, value: f64) -> Settings {
+        let value = format!("{value:e}");
+        match self.kind {
             Kind::Friction => settings,
-            Kind::Parameter => settings.parameter(&self.name, value),
-            Kind::Coordinate => settings.position(&self.name, value),
-        })
+            Kind::Parameter => settings.parameter(&self.name, &value),
+            Kind::Coordinate => settings.position(&self.name, &value),
+        }
+    }
+
+    /// The model at a value, and the factor of its coefficients of friction there.
+    ///
+    /// # Errors
+    /// A value that the model does not allow.
+    pub(crate) fn model_at(&self, value: f64) -> Result<(Model, f64), Faults> {
+        if self.is_friction_factor() {
+            return Ok((self.model.clone(), value));
+        }
+        Ok((self.model.with(&self.set(Settings::default(), value))?, 1.0))
     }
 
     /// The mode problem at a value.
     ///
     /// # Errors
     /// Whatever `solve` refuses there.
-    pub(super) fn parts(&self, value: f64) -> Result<Parts, Faults> {
+    pub(crate) fn parts(&self, value: f64) -> Result<Parts, Faults> {
         match &self.stages {
             Some(stages) => stages.parts(value),
-            None => Stages::new(&self.with(&format!("{value:e}"))?)?.parts(1.0),
+            None => Stages::new(&self.model_at(value)?.0)?.parts(1.0),
         }
     }
+}
+
+/// The unit in which values of what is varied are shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShownIn {
+    /// Its name, empty for pure numbers.
+    pub unit: String,
+    /// The unit in SI units.
+    pub scale: f64,
+}
+
+/// What stands behind the number of a quantity.
+fn unit_of(text: &str) -> &str {
+    let text = text.trim();
+    let number =
+        (0..=text.len()).rev().filter_map(|end| text.get(..end)).find(|start| start.parse::<f64>().is_ok());
+    number.map_or("", |number| text[number.len()..].trim())
 }
 
 fn unknown(model: &Model, name: &str) -> Faults {

@@ -77,6 +77,12 @@ impl Model {
         self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
     }
 
+    /// The SI unit of a parameter: empty for pure numbers and where its dimension does not follow from the model.
+    pub fn parameter_unit(&self, parameter: &str) -> String {
+        let index = self.parameters.iter().position(|other| &*other.name == parameter);
+        index.and_then(|index| self.parameter_dimension(index)).map_or_else(String::new, Dimension::unit)
+    }
+
     /// Whether some coefficient of friction is this parameter, or computed from it.
     pub fn is_friction_coefficient(&self, parameter: &str) -> bool {
         let Some(wanted) = self.parameters.iter().position(|other| &*other.name == parameter) else {

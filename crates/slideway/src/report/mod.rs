@@ -15,6 +15,7 @@ pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
 pub use csv::to_csv;
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
+pub use number::precise;
 pub use text::{Style, to_text};
 pub(crate) use text::{count, spaced};
 

@@ -25,6 +25,17 @@ pub(crate) fn against(value: f64, scale: f64) -> String {
     if value.abs() <= NOISE * scale { "0".to_owned() } else { number(value) }
 }
 
+/// Eight significant digits, as limits are known to more than other numbers.
+pub fn precise(value: f64) -> String {
+    if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
+        return number(value);
+    }
+    // The first number of digits behind the point that gives eight significant ones.
+    let digits = (2..12).find(|&digits| value.abs() >= 10_f64.powi(7 - digits)).unwrap_or(12);
+    let text = format!("{value:.*}", usize::try_from(digits).unwrap_or(12));
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{against, number};

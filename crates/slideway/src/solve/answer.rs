@@ -4,6 +4,7 @@ use super::attainability::not_computed;
 use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
 use super::found::Found;
+use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
 use crate::configuration::{Configuration, unit};
@@ -13,7 +14,7 @@ use crate::ids::{BodyId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Slider};
-use crate::model::{PreloadLine, SliderKind};
+use crate::model::SliderKind;
 use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
@@ -175,33 +176,7 @@ impl<'a> Answer<'a> {
     /// Friction forces of a state, split by the face at which they act: eq. (2) with
     /// F_k = (mu_k |N_k| + F_k0) s_k.
     pub(super) fn friction(&self, state: &State<'_>) -> Vec<ContactFriction> {
-        let one = |k: usize| {
-            let contact = &self.mechanism.contacts[k];
-            let sign = self.velocity_signs[k];
-            // Share of the friction at the face of positive normal force.
-            let share = match (state.pattern[k], state.shares[k]) {
-                (ContactState::Gap, share) => share.unwrap_or(0.5),
-                (pattern, _) => {
-                    if pattern == ContactState::Positive {
-                        1.0
-                    } else {
-                        0.0
-                    }
-                }
-            };
-            let mu = share * contact.mu[0] + (1.0 - share) * contact.mu[1];
-            let pressure = mu * state.normal_force[k].abs() * sign;
-            let preload = [share * contact.preload[0] * sign, (1.0 - share) * contact.preload[1] * sign];
-            let preload = match contact.preload_line {
-                PreloadLine::Pressed => preload,
-                PreloadLine::Centre => [f64::midpoint(preload[0], preload[1]); 2],
-            };
-            ContactFriction {
-                positive_face: share * pressure + preload[0],
-                negative_face: (1.0 - share) * pressure + preload[1],
-            }
-        };
-        (0..state.pattern.len()).map(one).collect()
+        friction(self.mechanism, self.velocity_signs, state.pattern, state.normal_force, &state.shares)
     }
 
     /// A guided slider whose couple is more than its pressure can give: |C| <= |N| L / 2 (theory, section 1).

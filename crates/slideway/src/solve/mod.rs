@@ -23,6 +23,7 @@ mod continuum;
 mod distinct;
 mod equilibrium;
 mod found;
+mod friction;
 mod margins;
 mod mode_problem;
 mod parts;
@@ -30,6 +31,7 @@ mod state;
 mod uncertainty;
 mod words;
 
+pub(crate) use friction::friction;
 pub use mode_problem::mode_problem;
 pub(crate) use mode_problem::{check_size, velocity_signs};
 pub(crate) use parts::{Parts, Stages};

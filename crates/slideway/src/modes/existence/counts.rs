@@ -77,6 +77,12 @@ impl ModeProblemLine {
         known.len()
     }
 
+    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs; none where
+    /// its determinant vanishes.
+    pub fn unknowns(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
+        self.line(pattern).solution(at)
+    }
+
     /// Signed normal forces of a pattern, 0 in a gap; none where its determinant vanishes.
     pub fn normal_force(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
         let unknowns = self.line(pattern).solution(at)?;

@@ -1,0 +1,214 @@
+//! The figure of limits: a quantity along every mode over what is varied.
+
+use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
+use slideway::limits::{self, CountLimits, Curves, LimitsReport, ModeLimits, Quantity};
+use slideway::report::{Verdict, precise};
+
+/// Values closer than this share of the range are one value in a plot.
+const TOGETHER: f64 = 1e-6;
+
+/// The figure of [`slideway::limits::limits_with_curves`]: a panel for each direction and unit.
+///
+/// Each mode is a branch: a colour, and a stroke that says whether a mechanism with slightly elastic guides settles on it.
+/// Locking values are asymptotes, values where contacts change side are marked, intervals without a solution are hatched.
+pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
+    let mut units: Vec<&str> = curves.series.iter().map(|series| series.unit).collect();
+    units.dedup();
+    let mut builder = Builder { curves, branches: Vec::new(), patterns: Vec::new() };
+    let mut panels = Vec::new();
+    let opposite = report.reversed.as_ref().zip(curves.reversed.as_ref());
+    for unit in &units {
+        let both = opposite.is_some();
+        let title = if both { "Moving as in the model" } else { "" };
+        let direction = (&*report.modes, &*curves.forwards, &*report.counts, &*report.without_mode_problem);
+        panels.push(builder.panel(report, title, unit, direction));
+        if let Some((reversed, found)) = opposite {
+            let direction = (&*reversed.modes, &**found, &*reversed.counts, &*reversed.without_mode_problem);
+            panels.push(builder.panel(report, "Moving the other way", unit, direction));
+        }
+    }
+    Figure {
+        title: report.title.clone().unwrap_or_default(),
+        subtitle: String::new(),
+        panels,
+        branches: builder.branches,
+        quantities: curves.series.iter().map(|series| series.name.clone()).collect(),
+    }
+}
+
+/// Modes, their curves, numbers of solutions, and ranges without a mode problem, of one direction.
+type Direction<'r> = (&'r [ModeLimits], &'r [limits::Curve], &'r [CountLimits], &'r [[f64; 2]]);
+
+struct Builder<'c> {
+    curves: &'c Curves,
+    branches: Vec<Branch>,
+    /// The modes that have colours, in their order.
+    patterns: Vec<String>,
+}
+
+impl Builder<'_> {
+    fn panel(&mut self, report: &LimitsReport, title: &str, unit: &str, direction: Direction<'_>) -> Panel {
+        let (modes, found, counts, without) = direction;
+        let scale = self.curves.shown_in.scale;
+        let drawn = modes.iter().zip(found).flat_map(|(mode, curve)| self.mode(mode, curve, unit)).collect();
+        let name = match self.curves.quantity {
+            Quantity::NormalForce => "normal force",
+            Quantity::Friction => "friction force",
+            Quantity::Acceleration => "acceleration",
+            Quantity::Effort => "effort",
+        };
+        Panel {
+            title: title.to_owned(),
+            x: Axis {
+                name: report.vary.name.clone(),
+                unit: self.curves.shown_in.unit.clone(),
+                range: Some([report.vary.from / scale, report.vary.to / scale]),
+            },
+            y: Axis { name: name.to_owned(), unit: unit.to_owned(), range: None },
+            zones: zones(counts, without, [report.vary.from, report.vary.to], scale),
+            marked: marked(modes, [report.vary.from, report.vary.to], scale),
+            bands: Vec::new(),
+            curves: drawn,
+        }
+    }
+
+    /// The curves of a mode, cut where its verdict changes.
+    fn mode(&mut self, mode: &ModeLimits, curve: &limits::Curve, unit: &str) -> Vec<Curve> {
+        let stroke = |verdict: Verdict| if mode.preload_gap { Stroke::Dotted } else { stroke_of(verdict) };
+        let mut drawn = Vec::new();
+        let mut start = 0;
+        while start < curve.points.len() {
+            let now = stroke(curve.points[start].verdict);
+            let length =
+                curve.points[start..].iter().take_while(|point| stroke(point.verdict) == now).count();
+            let end = start + length;
+            let branch = self.branch(mode, now);
+            // The next stretch begins where this one ends.
+            let points = &curve.points[start.saturating_sub(1)..end];
+            let ends = [
+                if start == 0 { end_of(mode.from_is) } else { End::Plain },
+                if end == curve.points.len() { end_of(mode.to_is) } else { End::Plain },
+            ];
+            let scale = self.curves.shown_in.scale;
+            let series = self.curves.series.iter().enumerate().filter(|(_, series)| series.unit == unit);
+            drawn.extend(series.map(|(quantity, _)| Curve {
+                branch,
+                quantity,
+                points: points.iter().map(|point| [point.at / scale, point.values[quantity]]).collect(),
+                ends,
+            }));
+            start = end;
+        }
+        drawn
+    }
+
+    /// The branch of a mode with a stroke; every mode has one colour.
+    fn branch(&mut self, mode: &ModeLimits, stroke: Stroke) -> usize {
+        let colour = self.patterns.iter().position(|pattern| *pattern == mode.pattern).unwrap_or_else(|| {
+            self.patterns.push(mode.pattern.clone());
+            self.patterns.len() - 1
+        });
+        let name = mode_name(mode, stroke);
+        let same = self.branches.iter().position(|branch| branch.name == name);
+        same.unwrap_or_else(|| {
+            self.branches.push(Branch { name, colour, stroke });
+            self.branches.len() - 1
+        })
+    }
+}
+
+/// Signs, contact modes in words, and what the stroke means.
+fn mode_name(mode: &ModeLimits, stroke: Stroke) -> String {
+    let signs: Vec<String> =
+        mode.pattern.chars().map(|sign| sign.to_string().replace('-', "\u{2212}")).collect();
+    let words: Vec<String> =
+        mode.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode)).collect();
+    let meaning = match stroke {
+        Stroke::Solid => "",
+        Stroke::Dashed => " (threshold, not attainable)",
+        Stroke::Dotted => " (preload between the faces)",
+        Stroke::DashDotted => " (attainable only with damping, or undecided)",
+    };
+    format!("{}:\u{2002}{}{meaning}", signs.join(" "), words.join("; "))
+}
+
+fn stroke_of(verdict: Verdict) -> Stroke {
+    match verdict {
+        Verdict::Attainable => Stroke::Solid,
+        Verdict::Unattainable => Stroke::Dashed,
+        Verdict::Flutter | Verdict::Undecided | Verdict::NotComputed => Stroke::DashDotted,
+    }
+}
+
+fn end_of(cause: &str) -> End {
+    match cause {
+        "range" => End::Plain,
+        "locking" => End::Diverges,
+        _ => End::Marked,
+    }
+}
+
+/// The values at which modes end; those that cannot be told apart in a plot share a label.
+fn marked(modes: &[ModeLimits], [from, to]: [f64; 2], scale: f64) -> Vec<MarkedValue> {
+    let ends = modes
+        .iter()
+        .flat_map(|mode| [(mode.from, mode.from_is, &mode.from_at), (mode.to, mode.to_is, &mode.to_at)]);
+    let mut found: Vec<(f64, String, bool)> = ends
+        .filter_map(|(at, cause, contacts)| Some((at?, cause_in_words(cause, contacts)?, cause == "locking")))
+        .collect();
+    found.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut marked: Vec<(MarkedValue, Vec<String>)> = Vec::new();
+    for (at, what, locks) in found {
+        match marked.last_mut() {
+            Some((value, words)) if at - value.at <= TOGETHER * (to - from) => {
+                value.asymptote |= locks;
+                if !words.contains(&what) {
+                    words.push(what);
+                }
+            }
+            _ => marked.push((MarkedValue { at, label: String::new(), asymptote: locks }, vec![what])),
+        }
+    }
+    let labelled = |(value, words): (MarkedValue, Vec<String>)| {
+        let at = if value.at.abs() <= TOGETHER * (to - from) { 0.0 } else { value.at / scale };
+        let number = precise(at).replace('-', "\u{2212}");
+        MarkedValue { at, label: format!("{number}: {}", words.join("; ")), asymptote: value.asymptote }
+    };
+    marked.into_iter().map(labelled).collect()
+}
+
+fn cause_in_words(cause: &str, contacts: &[String]) -> Option<String> {
+    let at = contacts.join(", ");
+    let plural = contacts.len() > 1;
+    Some(match cause {
+        "locking" => "locking".to_owned(),
+        "side_change" if plural => format!("{at} change side"),
+        "side_change" => format!("{at} changes side"),
+        "gap_closes" => format!("gap of {at} closes"),
+        "tipping" if plural => format!("{at} tip"),
+        "tipping" => format!("{at} tips"),
+        "greatest_reaction" => format!("{at} at the greatest reaction"),
+        "no_mode_problem" => "cannot be solved".to_owned(),
+        _ => return None,
+    })
+}
+
+/// Intervals without a solution, and without a mode problem.
+fn zones(counts: &[CountLimits], without: &[[f64; 2]], [first, last]: [f64; 2], scale: f64) -> Vec<Zone> {
+    let locked = counts.iter().filter(|count| count.solutions + count.preload_gap_states == 0);
+    let zone = |[from, to]: [f64; 2], hatching: Hatching, meaning: &str| Zone {
+        from: from / scale,
+        to: to / scale,
+        hatching,
+        meaning: meaning.to_owned(),
+    };
+    let locked = locked.map(|count| {
+        zone([count.from, count.to], Hatching::Rising, "excluded: no solution, friction locks it")
+    });
+    let without = without
+        .iter()
+        .map(|&range| zone(range, Hatching::Falling, "excluded: cannot be assembled or solved"));
+    // Single values are marked, not hatched.
+    let wide = |zone: &Zone| (zone.to - zone.from) * scale > TOGETHER * (last - first);
+    locked.chain(without).filter(wide).collect()
+}

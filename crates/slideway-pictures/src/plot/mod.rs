@@ -1,0 +1,144 @@
+//! Plots: curves over an axis, with asymptotes, hatched intervals and coloured bands, as SVG.
+//!
+//! A [`Figure`] is plain data; [`to_svg`] draws it. Curves are cut at the frame, so that no coordinate lies outside of the
+//! picture; points closer to a line between their neighbours than a twentieth of a pixel are left out. Text stays text.
+//!
+//! ```
+//! use slideway_pictures::plot::{Axis, Branch, Curve, Figure, Panel, Stroke, to_svg};
+//! use slideway_pictures::theme::LIGHT;
+//!
+//! let points = (0..=100).map(|step| f64::from(step) / 100.0).map(|x| [x, x * x]).collect();
+//! let figure = Figure {
+//!     title: "A parabola".to_owned(),
+//!     branches: vec![Branch { name: "y = x^2".to_owned(), colour: 0, stroke: Stroke::Solid }],
+//!     panels: vec![Panel {
+//!         x: Axis { name: "x".to_owned(), unit: "m".to_owned(), range: Some([0.0, 1.0]) },
+//!         y: Axis { name: "y".to_owned(), unit: "m^2".to_owned(), range: None },
+//!         curves: vec![Curve { branch: 0, quantity: 0, points, ends: Default::default() }],
+//!         ..Panel::default()
+//!     }],
+//!     ..Figure::default()
+//! };
+//! assert!(to_svg(&figure, &LIGHT).contains("x in m"));
+//! ```
+
+mod clip;
+mod figure;
+mod flags;
+mod legend;
+mod limits;
+mod markers;
+mod panel;
+mod scale;
+pub(crate) mod svg;
+
+pub use figure::{Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
+pub use limits::limits_figure;
+pub use scale::fitting_range;
+
+use crate::theme::{DASHES, Theme};
+use legend::Legend;
+use panel::PanelLayout;
+use svg::{Svg, coordinate, wrapped};
+
+/// Width of a figure (px).
+const WIDTH: f64 = 800.0;
+/// Height of the frame of a single panel, and of each of several (px).
+const SINGLE_HEIGHT: f64 = 380.0;
+const STACKED_HEIGHT: f64 = 300.0;
+/// Space around everything (px).
+const MARGIN: f64 = 14.0;
+/// Font sizes (px).
+const TITLE: f64 = 17.0;
+const TEXT: f64 = 14.0;
+const SMALL: f64 = 13.0;
+/// Width of curves (px).
+const CURVE: f64 = 2.2;
+
+/// The dash pattern of a stroke; empty for a solid line.
+fn dashes(stroke: Stroke) -> &'static str {
+    match stroke {
+        Stroke::Solid => DASHES[0],
+        Stroke::Dashed => DASHES[1],
+        Stroke::Dotted => DASHES[2],
+        Stroke::DashDotted => DASHES[3],
+    }
+}
+
+/// The figure as an SVG document.
+///
+/// The same figure gives the same bytes. Elements have classes: `title`, `panel`, `frame`, `grid`, `tick`, `axis`, `curve`
+/// (with `data-branch` and `data-quantity`), `end`, `marker`, `marked` and `asymptote` (with `data-at`), `flag`, `zone`,
+/// `band`, `legend`.
+pub fn to_svg(figure: &Figure, theme: &Theme) -> String {
+    let mut svg = Svg::default();
+    hatchings(&mut svg, theme);
+    let mut y = MARGIN + TITLE;
+    for line in wrapped(&figure.title, TITLE, WIDTH - 2.0 * MARGIN) {
+        let attributes = [
+            ("class", "title"),
+            ("font-size", &*coordinate(TITLE)),
+            ("font-weight", "bold"),
+            ("fill", theme.ink),
+        ];
+        svg.label([MARGIN, y], &attributes, &line);
+        y += 1.3 * TITLE;
+    }
+    if !figure.subtitle.is_empty() {
+        for line in wrapped(&figure.subtitle, SMALL, WIDTH - 2.0 * MARGIN) {
+            let attributes = [("class", "subtitle"), ("font-size", &*coordinate(SMALL)), ("fill", theme.ink)];
+            svg.label([MARGIN, y], &attributes, &line);
+            y += 1.35 * SMALL;
+        }
+    }
+    y -= SMALL;
+    let height = if figure.panels.len() == 1 { SINGLE_HEIGHT } else { STACKED_HEIGHT };
+    let left = figure.panels.iter().map(panel::space_on_the_left).fold(0.0, f64::max);
+    for panel in &figure.panels {
+        let layout = PanelLayout::new(panel, [MARGIN + left, WIDTH - MARGIN], y, height);
+        layout.draw(figure, theme, &mut svg);
+        y = layout.bottom();
+    }
+    y = Legend::of(figure).draw(theme, y + 6.0, &mut svg);
+    svg.document([WIDTH, y + MARGIN], &figure.title, theme.background)
+}
+
+/// The patterns of hatched intervals.
+fn hatchings(svg: &mut Svg, theme: &Theme) {
+    svg.open("defs", &[]);
+    for (hatching, angle) in [(Hatching::Rising, "rotate(45)"), (Hatching::Falling, "rotate(-45)")] {
+        let attributes = [
+            ("id", hatching_name(hatching)),
+            ("width", "8"),
+            ("height", "8"),
+            ("patternUnits", "userSpaceOnUse"),
+            ("patternTransform", angle),
+        ];
+        svg.open("pattern", &attributes);
+        svg.line(
+            [0.0, 0.0],
+            [0.0, 8.0],
+            &[("stroke", theme.muted), ("stroke-width", "1.8"), ("stroke-opacity", "0.75")],
+        );
+        svg.close("pattern");
+    }
+    svg.close("defs");
+}
+
+fn hatching_name(hatching: Hatching) -> &'static str {
+    match hatching {
+        Hatching::Rising => "hatching-rising",
+        Hatching::Falling => "hatching-falling",
+    }
+}
+
+/// How a pattern is referred to.
+fn hatching_fill(hatching: Hatching) -> String {
+    format!("url(#{})", hatching_name(hatching))
+}
+
+/// A name with its unit.
+fn named(axis: &Axis) -> String {
+    let unit = axis.unit.replace("^2", "\u{b2}").replace("^3", "\u{b3}").replace("^4", "\u{2074}");
+    if unit.is_empty() { axis.name.clone() } else { format!("{} in {unit}", axis.name) }
+}

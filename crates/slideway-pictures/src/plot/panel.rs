@@ -1,0 +1,281 @@
+//! One panel of a figure.
+
+use super::clip::{Frame, simplified};
+use super::figure::{Curve, End, Figure, Panel};
+use super::flags::{Flag, flags};
+use super::scale::{Scale, fitting_range, tick_step, tick_text, ticks};
+use super::svg::{Svg, coordinate, width};
+use super::{CURVE, SMALL, TEXT, dashes, hatching_fill, markers, named};
+use crate::theme::Theme;
+use std::fmt::Write;
+
+/// Distances of ticks that are aimed at (px).
+const BETWEEN_X: f64 = 80.0;
+const BETWEEN_Y: f64 = 48.0;
+/// Length of ticks, distance of their numbers, height of rows of labels and bands (px).
+const TICK: f64 = 5.0;
+const ROW: f64 = 18.0;
+const BAND: f64 = 12.0;
+/// Curves keep to this distance of their points (px).
+const TOLERANCE: f64 = 0.05;
+
+/// A panel with its place in the picture.
+pub(super) struct PanelLayout<'f> {
+    panel: &'f Panel,
+    frame: Frame,
+    x: Scale,
+    y: Scale,
+    flags: Vec<Flag<'f>>,
+    top: f64,
+}
+
+/// Ticks of the vertical axis: their step and texts.
+fn y_ticks(range: [f64; 2], height: f64) -> (Vec<f64>, Vec<String>) {
+    let step = tick_step(range, (height / BETWEEN_Y) as usize);
+    let ticks = ticks(range, step);
+    let greatest = range[0].abs().max(range[1].abs());
+    let texts = ticks.iter().map(|&tick| tick_text(tick, step, greatest)).collect();
+    (ticks, texts)
+}
+
+fn y_range(panel: &Panel) -> [f64; 2] {
+    panel.y.range.unwrap_or_else(|| fitting_range(panel))
+}
+
+/// The horizontal extent of the curves, where the axis has no range.
+fn x_range(panel: &Panel) -> [f64; 2] {
+    let all = panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]);
+    let fitted = all.filter(|x| x.is_finite()).fold(None, |range: Option<[f64; 2]>, x| {
+        Some(range.map_or([x, x], |[least, greatest]| [least.min(x), greatest.max(x)]))
+    });
+    match panel.x.range.or(fitted) {
+        Some([from, to]) if from < to => [from, to],
+        Some([at, _]) => [at - 0.5, at + 0.5],
+        None => [0.0, 1.0],
+    }
+}
+
+/// What the numbers and the name of the vertical axis need beside the frame (px).
+pub(super) fn space_on_the_left(panel: &Panel) -> f64 {
+    let (_, texts) = y_ticks(y_range(panel), super::STACKED_HEIGHT);
+    texts.iter().map(|text| width(text, SMALL)).fold(0.0, f64::max) + TICK + 8.0 + 1.5 * TEXT
+}
+
+impl<'f> PanelLayout<'f> {
+    /// Between `left` and `right`, below `top`, with a frame of this height.
+    pub(super) fn new(panel: &'f Panel, [left, right]: [f64; 2], top: f64, height: f64) -> Self {
+        let (x_values, y_values) = (x_range(panel), y_range(panel));
+        // The last number of the axis is centred at the edge.
+        let right = right - 12.0;
+        let x = Scale { values: x_values, places: [left, right] };
+        let inside = |at: f64| x_values[0] <= at && at <= x_values[1];
+        let marked = panel.marked.iter().filter(|value| inside(value.at));
+        let flags = flags(marked.map(|value| (x.place(value.at), value)).collect(), right + 10.0, SMALL);
+        let rows = flags.iter().map(|flag| flag.row + 1).max().unwrap_or(0);
+        let title = if panel.title.is_empty() { 0.0 } else { 1.6 * TEXT };
+        let frame_top = top + 10.0 + title + ROW * rows as f64 + if rows > 0 { 4.0 } else { 0.0 };
+        let frame = Frame { left, right, top: frame_top, bottom: frame_top + height };
+        let y = Scale { values: y_values, places: [frame.bottom, frame.top] };
+        Self { panel, frame, x, y, flags, top }
+    }
+
+    /// Below its numbers and the name of the axis.
+    pub(super) fn bottom(&self) -> f64 {
+        let bands = if self.panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
+        self.frame.bottom + bands + TICK + 2.9 * TEXT
+    }
+
+    pub(super) fn draw(&self, figure: &Figure, theme: &Theme, svg: &mut Svg) {
+        svg.open("g", &[("class", "panel")]);
+        self.title(theme, svg);
+        self.zones(theme, svg);
+        self.axes(theme, svg);
+        self.marked(theme, svg);
+        for curve in &self.panel.curves {
+            self.curve(figure, curve, theme, svg);
+        }
+        // Markers and ends lie above all curves.
+        let several = figure.quantities.len() > 1;
+        for (index, curve) in self.panel.curves.iter().enumerate() {
+            if several {
+                self.markers(figure, index, theme, svg);
+            }
+            self.ends(figure, curve, theme, svg);
+        }
+        let Frame { left, top, right, bottom } = self.frame;
+        svg.rectangle(
+            [left, top, right - left, bottom - top],
+            &[("class", "frame"), ("fill", "none"), ("stroke", theme.ink), ("stroke-width", "1.2")],
+        );
+        self.bands(theme, svg);
+        svg.close("g");
+    }
+
+    fn title(&self, theme: &Theme, svg: &mut Svg) {
+        if !self.panel.title.is_empty() {
+            let attributes = [
+                ("class", "panel-title"),
+                ("font-size", &*coordinate(TEXT)),
+                ("font-weight", "bold"),
+                ("fill", theme.ink),
+            ];
+            svg.label([self.frame.left, self.top + 10.0 + TEXT], &attributes, &self.panel.title);
+        }
+    }
+
+    /// The part of an interval that the axis shows.
+    fn shown(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        let (from, to) = (from.max(self.x.values[0]), to.min(self.x.values[1]));
+        (from < to).then(|| [from, to].map(|value| self.x.place(value)))
+    }
+
+    fn zones(&self, theme: &Theme, svg: &mut Svg) {
+        let (top, height) = (self.frame.top, self.frame.bottom - self.frame.top);
+        for zone in &self.panel.zones {
+            let Some([left, right]) = self.shown(zone.from, zone.to) else { continue };
+            let shape = [left, top, right - left, height];
+            let fill = hatching_fill(zone.hatching);
+            svg.rectangle(shape, &[("fill", theme.muted), ("fill-opacity", "0.10")]);
+            svg.rectangle(shape, &[("class", "zone"), ("fill", &fill)]);
+        }
+    }
+
+    fn axes(&self, theme: &Theme, svg: &mut Svg) {
+        let Frame { left, top, right, bottom } = self.frame;
+        let size = coordinate(SMALL);
+        let grid =
+            [("class", "grid"), ("stroke", theme.muted), ("stroke-opacity", "0.3"), ("stroke-width", "1")];
+        let tick = [("class", "tick"), ("stroke", theme.ink), ("stroke-width", "1.2")];
+        let text = |anchor: &'static str| {
+            [("class", "tick"), ("font-size", &*size), ("text-anchor", anchor), ("fill", theme.ink)]
+        };
+        let below = bottom + if self.panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
+        let step = tick_step(self.x.values, ((right - left) / BETWEEN_X) as usize);
+        let greatest = self.x.values[0].abs().max(self.x.values[1].abs());
+        for value in ticks(self.x.values, step) {
+            let x = self.x.place(value);
+            svg.line([x, top], [x, bottom], &grid);
+            svg.line([x, below], [x, below + TICK], &tick);
+            svg.label([x, below + TICK + 1.1 * SMALL], &text("middle"), &tick_text(value, step, greatest));
+        }
+        let (values, texts) = y_ticks(self.y.values, bottom - top);
+        for (value, label) in values.into_iter().zip(texts) {
+            let y = self.y.place(value);
+            let strong =
+                [("class", "zero"), ("stroke", theme.ink), ("stroke-opacity", "0.6"), ("stroke-width", "1")];
+            svg.line([left, y], [right, y], if value == 0.0 { &strong } else { &grid });
+            svg.line([left - TICK, y], [left, y], &tick);
+            svg.label([left - TICK - 4.0, y + 0.36 * SMALL], &text("end"), &label);
+        }
+        let size = coordinate(TEXT);
+        let name = [("class", "axis"), ("font-size", &*size), ("text-anchor", "middle"), ("fill", theme.ink)];
+        let middle = [f64::midpoint(left, right), f64::midpoint(top, bottom)];
+        svg.label([middle[0], below + TICK + 2.45 * TEXT], &name, &named(&self.panel.x));
+        let x = super::MARGIN + 0.8 * TEXT;
+        let turned = format!("rotate(-90 {} {})", coordinate(x), coordinate(middle[1]));
+        svg.label([x, middle[1]], &[&name[..], &[("transform", &turned)]].concat(), &named(&self.panel.y));
+    }
+
+    fn marked(&self, theme: &Theme, svg: &mut Svg) {
+        for Flag { value, x, text, row } in &self.flags {
+            let baseline = self.frame.top - 6.0 - ROW * *row as f64;
+            let (class, stroke_width, dash) =
+                if value.asymptote { ("asymptote", "1.5", "10 3 2 3") } else { ("marked", "1", "2 3") };
+            let at = format!("{}", value.at);
+            // Beside its label, or below it at the edge of the picture.
+            let upper = if *text > *x { baseline - 0.8 * SMALL } else { baseline + 3.0 };
+            let attributes = [
+                ("class", class),
+                ("data-at", &*at),
+                ("stroke", theme.ink),
+                ("stroke-width", stroke_width),
+                ("stroke-dasharray", dash),
+            ];
+            svg.line([*x, self.frame.bottom], [*x, upper], &attributes);
+            let size = coordinate(SMALL);
+            svg.label(
+                [*text, baseline],
+                &[("class", "flag"), ("font-size", &size), ("fill", theme.ink)],
+                &value.label,
+            );
+        }
+    }
+
+    /// The visible parts of a curve, in places.
+    fn parts(&self, curve: &Curve) -> Vec<Vec<[f64; 2]>> {
+        let place = |[x, y]: &[f64; 2]| [self.x.place(*x), self.y.place(*y)];
+        let points: Vec<[f64; 2]> =
+            curve.points.iter().map(place).filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
+        self.frame.parts(&points).iter().map(|part| simplified(part, TOLERANCE)).collect()
+    }
+
+    fn colour(figure: &Figure, curve: &Curve, theme: &Theme) -> &'static str {
+        let colour = figure.branches.get(curve.branch).map_or(0, |branch| branch.colour);
+        theme.series[colour % theme.series.len()]
+    }
+
+    fn curve(&self, figure: &Figure, curve: &Curve, theme: &Theme, svg: &mut Svg) {
+        let stroke =
+            figure.branches.get(curve.branch).map(|branch| dashes(branch.stroke)).unwrap_or_default();
+        let (branch, quantity) = (curve.branch.to_string(), curve.quantity.to_string());
+        for part in self.parts(curve) {
+            let mut path = String::new();
+            for (index, [x, y]) in part.iter().enumerate() {
+                let letter = if index == 0 { 'M' } else { 'L' };
+                let _ = write!(path, "{letter}{} {}", coordinate(*x), coordinate(*y));
+            }
+            let thickness = coordinate(CURVE);
+            let mut attributes = vec![
+                ("class", "curve"),
+                ("data-branch", &*branch),
+                ("data-quantity", &*quantity),
+                ("d", &path),
+                ("fill", "none"),
+                ("stroke", Self::colour(figure, curve, theme)),
+                ("stroke-width", &thickness),
+                ("stroke-linejoin", "round"),
+            ];
+            if !stroke.is_empty() {
+                attributes.push(("stroke-dasharray", stroke));
+            }
+            svg.element("path", &attributes);
+        }
+    }
+
+    /// Markers of the curve with this index; those of neighbouring curves are shifted against each other.
+    fn markers(&self, figure: &Figure, index: usize, theme: &Theme, svg: &mut Svg) {
+        let curve = &self.panel.curves[index];
+        let colour = Self::colour(figure, curve, theme);
+        let shares = figure.quantities.len() as f64;
+        let phase = ((curve.quantity as f64 + 0.37 * curve.branch as f64) / shares).fract();
+        for part in self.parts(curve) {
+            for place in markers::places(&part, phase) {
+                markers::draw(curve.quantity, place, [colour, theme.background], svg);
+            }
+        }
+    }
+
+    fn ends(&self, figure: &Figure, curve: &Curve, theme: &Theme, svg: &mut Svg) {
+        let colour = Self::colour(figure, curve, theme);
+        for (end, point) in curve.ends.iter().zip([curve.points.first(), curve.points.last()]) {
+            let (End::Marked, Some([x, y])) = (end, point) else { continue };
+            let place = [self.x.place(*x), self.y.place(*y)];
+            if self.frame.holds(place) {
+                let [x, y] = place.map(coordinate);
+                svg.element(
+                    "circle",
+                    &[("class", "end"), ("cx", &x), ("cy", &y), ("r", "3.2"), ("fill", colour)],
+                );
+            }
+        }
+    }
+
+    fn bands(&self, theme: &Theme, svg: &mut Svg) {
+        for band in &self.panel.bands {
+            let Some([left, right]) = self.shown(band.from, band.to) else { continue };
+            let colour = theme.series[band.colour % theme.series.len()];
+            let shape = [left, self.frame.bottom + 3.0, right - left, BAND];
+            svg.rectangle(shape, &[("class", "band"), ("fill", colour)]);
+        }
+    }
+}

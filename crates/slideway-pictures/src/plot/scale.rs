@@ -1,0 +1,144 @@
+//! Axes in numbers: round values for ticks, ranges that fit curves, and from values to places.
+
+use super::figure::{Curve, End, Panel};
+
+/// Share of a curve's extent along x that is not fitted before an end at which it grows without bound.
+const LEFT_OUT: f64 = 0.4;
+/// The same at each end if both grow.
+const LEFT_OUT_TWICE: f64 = 0.3;
+/// Space above and below the curves, as a share of their range.
+const MARGIN: f64 = 0.06;
+/// Zero is shown where it is no farther from the curves than this share of their range.
+const NEAR_ZERO: f64 = 1.0;
+
+/// From values to places in a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale {
+    /// Values at the beginning and the end.
+    pub(super) values: [f64; 2],
+    /// Their places.
+    pub(super) places: [f64; 2],
+}
+
+impl Scale {
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let share = (value - self.values[0]) / (self.values[1] - self.values[0]);
+        self.places[0] + share * (self.places[1] - self.places[0])
+    }
+}
+
+/// The distance between ticks at 1, 2 or 5 times a power of ten that gives about `wanted` of them.
+pub(super) fn tick_step([from, to]: [f64; 2], wanted: usize) -> f64 {
+    let rough = (to - from).abs() / wanted.max(1) as f64;
+    let power = 10_f64.powf(rough.log10().floor());
+    let factor = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= rough * 0.999_999);
+    factor.unwrap_or(10.0) * power
+}
+
+/// Multiples of a step within a range.
+pub(super) fn ticks([from, to]: [f64; 2], step: f64) -> Vec<f64> {
+    let slack = 1e-9;
+    let (first, last) = ((from / step - slack).ceil(), (to / step + slack).floor());
+    if !(first.is_finite() && last.is_finite() && last - first < 1000.0) {
+        return Vec::new();
+    }
+    let mut ticks = Vec::new();
+    let mut index = first;
+    while index <= last {
+        // Adding zero turns -0 into 0.
+        ticks.push(index * step + 0.0);
+        index += 1.0;
+    }
+    ticks
+}
+
+/// A tick's value with as many decimals as its step needs; powers of ten where numbers would be long.
+pub(super) fn tick_text(value: f64, step: f64, greatest: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if greatest >= 1e6 || step < 1e-5 {
+        let text = format!("{:.6e}", value);
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+        return format!("{}e{exponent}", mantissa.replace('-', "\u{2212}"));
+    }
+    let decimals = (0..12).find(|&decimals| {
+        let scaled = step * 10_f64.powi(decimals);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1.0) && scaled.round() > 0.0
+    });
+    let decimals = usize::try_from(decimals.unwrap_or(0)).unwrap_or(0);
+    format!("{value:.decimals$}").replace('-', "\u{2212}")
+}
+
+/// The range of a panel's vertical axis that its curves ask for: all of them, but for what lies near values at which they
+/// grow without bound; with zero if it is not far away.
+pub fn fitting_range(panel: &Panel) -> [f64; 2] {
+    let values = panel.curves.iter().flat_map(|curve| visible(curve)).filter(|value| value.is_finite());
+    let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {
+        (least.min(value), greatest.max(value))
+    });
+    if least > greatest {
+        return [0.0, 1.0];
+    }
+    let size = greatest - least;
+    let (mut least, mut greatest) = (least, greatest);
+    if least > 0.0 && least <= NEAR_ZERO * size {
+        least = 0.0;
+    }
+    if greatest < 0.0 && -greatest <= NEAR_ZERO * size {
+        greatest = 0.0;
+    }
+    let size = greatest - least;
+    // A constant: room of its own size around it.
+    let margin = if size > 1e-9 * least.abs().max(greatest.abs()) {
+        MARGIN * size
+    } else if greatest == 0.0 {
+        1.0
+    } else {
+        0.5 * greatest.abs()
+    };
+    [least - margin, greatest + margin]
+}
+
+/// The values of a curve that are to be seen.
+fn visible(curve: &Curve) -> impl Iterator<Item = f64> + '_ {
+    let diverges = curve.ends.map(|end| end == End::Diverges);
+    let share = if diverges == [true; 2] { LEFT_OUT_TWICE } else { LEFT_OUT };
+    let along = |point: Option<&[f64; 2]>| point.map_or(0.0, |point| point[0]);
+    let (from, to) = (along(curve.points.first()), along(curve.points.last()));
+    let first = if diverges[0] { from + share * (to - from) } else { f64::NEG_INFINITY };
+    let last = if diverges[1] { to - share * (to - from) } else { f64::INFINITY };
+    curve.points.iter().filter(move |[x, _]| first <= *x && *x <= last).map(|point| point[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round() {
+        let table =
+            [([0.0, 0.8], 8, 0.1), ([0.0, 1.0], 5, 0.2), ([-37.0, 41.0], 6, 20.0), ([0.0, 3e-3], 6, 5e-4)];
+        for (range, wanted, step) in table {
+            let found = tick_step(range, wanted);
+            assert!((found - step).abs() < 1e-9 * step, "{range:?}: {found}");
+        }
+        let texts: Vec<String> =
+            ticks([-0.35, 0.4], 0.2).iter().map(|&tick| tick_text(tick, 0.2, 0.4)).collect();
+        assert_eq!(texts, ["\u{2212}0.2", "0", "0.2", "0.4"]);
+        assert_eq!(tick_text(2.5e7, 5e6, 3e7), "2.5e7");
+        assert!(ticks([0.0, f64::NAN], 0.1).is_empty());
+    }
+
+    #[test]
+    fn what_grows_without_bound_does_not_squash_the_rest() {
+        // y = 1/(1 - x): beyond 60 % of the way it is not fitted, where it is 2.5.
+        let points = (0..1000).map(|step| f64::from(step) / 1000.0).map(|x| [x, 1.0 / (1.0 - x)]).collect();
+        let curve = Curve { branch: 0, quantity: 0, points, ends: [End::Plain, End::Diverges] };
+        let range = fitting_range(&Panel { curves: vec![curve], ..Panel::default() });
+        assert!(range[1] > 2.5 && range[1] < 2.8, "{range:?}");
+        assert!(range[0] < 0.0, "zero is near: {range:?}");
+        assert_eq!(fitting_range(&Panel::default()), [0.0, 1.0]);
+    }
+}

@@ -1,0 +1,233 @@
+//! Forces and accelerations of every mode over what is varied: what a plot shows.
+
+use super::report::Naming;
+use super::{Analysis, Found, LimitsOptions, LimitsReport, ShownIn, Varied};
+use crate::attainability::ElasticGuides;
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::DriveId;
+use crate::influence::{ContactFriction, Influence};
+use crate::kinetics::KineticEquations;
+use crate::mechanism::{Effort, Mechanism};
+use crate::model::Model;
+use crate::modes::existence::{EndCause, ModeInterval};
+use crate::modes::{ContactState, Side};
+use crate::report::Verdict;
+use crate::solve::{Parts, friction, mode_problem, velocity_signs};
+use nalgebra::DVector;
+
+/// Even steps in the interval of a mode.
+const STEPS: usize = 240;
+/// Steps towards an end at which reactions grow without bound: they reach `10^-DECADES` of the interval.
+const STEPS_TO_LOCKING: usize = 120;
+const DECADES: f64 = 6.0;
+
+/// What a plot shows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Quantity {
+    /// The normal force of every contact.
+    #[default]
+    NormalForce,
+    /// The friction force of every contact.
+    Friction,
+    /// The acceleration of every coordinate.
+    Acceleration,
+    /// The effort of every drive.
+    Effort,
+}
+
+/// One of the quantities that are computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// The contact, coordinate or drive.
+    pub name: String,
+    /// The unit of its values.
+    pub unit: &'static str,
+}
+
+/// A value of what is varied, and what belongs to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvePoint {
+    /// The value of what is varied (SI units).
+    pub at: f64,
+    /// One value for each of [`Curves::series`].
+    pub values: Vec<f64>,
+    /// Whether a mechanism with slightly elastic guides settles there.
+    pub verdict: Verdict,
+}
+
+/// A mode over its interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Points of increasing `at`, close together; ends at which reactions grow without bound are left out.
+    pub points: Vec<CurvePoint>,
+}
+
+/// The quantities of every mode over what is varied.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    /// What was computed.
+    pub quantity: Quantity,
+    /// In which unit values of what is varied are to be shown.
+    pub shown_in: ShownIn,
+    /// What the values of every point are.
+    pub series: Vec<Series>,
+    /// One curve for each of [`LimitsReport::modes`].
+    pub forwards: Vec<Curve>,
+    /// One for each mode of the opposite direction, if it was asked for.
+    pub reversed: Option<Vec<Curve>>,
+}
+
+/// [`limits`](super::limits), and a quantity along every mode, sampled densely over the mode's exact interval and ever
+/// closer towards ends at which it grows without bound.
+///
+/// # Errors
+/// As [`limits`](super::limits); a model without drives has no efforts.
+///
+/// ```
+/// use slideway::limits::{LimitsOptions, Quantity, limits_with_curves};
+/// use slideway::model::Model;
+///
+/// let model = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
+/// let (report, curves) = limits_with_curves(&model, &LimitsOptions::of("mu"), Quantity::NormalForce)?;
+/// assert_eq!(curves.forwards.len(), report.modes.len());
+/// assert_eq!(curves.series[0].name, "guide.front");
+/// # Ok::<(), slideway::fault::Faults>(())
+/// ```
+pub fn limits_with_curves(
+    model: &Model,
+    options: &LimitsOptions,
+    quantity: Quantity,
+) -> Result<(LimitsReport, Curves), Faults> {
+    let analysis = Analysis::new(model, options)?;
+    let naming = Naming::new(model)?;
+    let series = series(&naming.mechanism, quantity)?;
+    let curves = |varied: &Varied, found: &Found| -> Vec<Curve> {
+        found.existence.modes.iter().map(|mode| curve(varied, mode, quantity)).collect()
+    };
+    let forwards = curves(&analysis.varied, &analysis.found);
+    let reversed = analysis.reversed.as_ref().map(|(varied, found)| curves(varied, found));
+    let report = analysis.report(&naming);
+    Ok((report, Curves { quantity, shown_in: analysis.shown_in, series, forwards, reversed }))
+}
+
+fn series(mechanism: &Mechanism, quantity: Quantity) -> Result<Vec<Series>, Faults> {
+    let contacts =
+        mechanism.contacts.iter().map(|contact| Series { name: contact.name.to_string(), unit: "N" });
+    Ok(match quantity {
+        Quantity::NormalForce | Quantity::Friction => contacts.collect(),
+        Quantity::Acceleration => mechanism
+            .coordinates
+            .iter()
+            .map(|coordinate| Series {
+                name: coordinate.name.to_string(),
+                unit: if coordinate.kind.is_angle() { "rad/s^2" } else { "m/s^2" },
+            })
+            .collect(),
+        Quantity::Effort if mechanism.drives.is_empty() => {
+            return Err(Fault::general(FaultKind::NoDrives).into());
+        }
+        Quantity::Effort => mechanism
+            .drives
+            .iter()
+            .map(|drive| Series {
+                name: drive.name.to_string(),
+                unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
+            })
+            .collect(),
+    })
+}
+
+fn curve(varied: &Varied, mode: &ModeInterval, quantity: Quantity) -> Curve {
+    let point = |at: f64| {
+        let state = StateAt::new(varied, at).ok()?;
+        let values = state.values(&mode.pattern, quantity)?;
+        let finite = values.iter().all(|value| value.is_finite());
+        finite.then(|| CurvePoint { at, values, verdict: state.verdict(&mode.pattern) })
+    };
+    Curve { points: places(mode).into_iter().filter_map(point).collect() }
+}
+
+/// Where a mode is sampled.
+fn places(mode: &ModeInterval) -> Vec<f64> {
+    let (from, to) = (mode.from.at, mode.to.at);
+    let locks = [&mode.from, &mode.to].map(|end| end.cause == EndCause::Locking);
+    let even = (0..=STEPS).map(|step| step as f64 / STEPS as f64);
+    let closer =
+        (1..=STEPS_TO_LOCKING).map(|step| 10_f64.powf(-DECADES * step as f64 / STEPS_TO_LOCKING as f64));
+    let mut shares: Vec<f64> = even.collect();
+    if locks[0] {
+        shares.extend(closer.clone());
+    }
+    if locks[1] {
+        shares.extend(closer.map(|share| 1.0 - share));
+    }
+    shares.retain(|&share| !(locks[0] && share == 0.0 || locks[1] && share == 1.0));
+    shares.sort_by(f64::total_cmp);
+    // Both ends of the interval stay exact.
+    let place = |share: f64| if share == 1.0 { to } else { from + share * (to - from) };
+    let mut places: Vec<f64> = shares.into_iter().map(place).collect();
+    places.dedup();
+    places
+}
+
+/// The stages at one value of what is varied.
+struct StateAt {
+    mechanism: Mechanism,
+    equations: KineticEquations,
+    influence: Influence,
+    velocity_signs: DVector<f64>,
+    parts: Parts,
+}
+
+impl StateAt {
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    fn new(varied: &Varied, at: f64) -> Result<Self, Faults> {
+        let (model, factor) = varied.model_at(at)?;
+        let mut mechanism = Mechanism::new(&model)?;
+        for contact in &mut mechanism.contacts {
+            contact.mu = contact.mu.map(|mu| mu * factor);
+        }
+        let configuration = Configuration::new(&mechanism)?;
+        let equations = KineticEquations::new(&mechanism, &configuration)?;
+        let influence = Influence::new(&equations);
+        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
+        let parts = Parts::scaled(&mechanism, &influence, &velocity_signs, &|_| 1.0)?;
+        Ok(Self { mechanism, equations, influence, velocity_signs, parts })
+    }
+
+    /// The values of a quantity in a mode; none where its equations are singular.
+    fn values(&self, pattern: &[ContactState], quantity: Quantity) -> Option<Vec<f64>> {
+        let unknowns = self.parts.line_to(&self.parts).unknowns(pattern, 0.0)?;
+        let states = || pattern.iter().zip(unknowns.iter());
+        let normal_force = DVector::from_iterator(pattern.len(), states().map(|(state, y)| state.sign() * y));
+        let shares: Vec<Option<f64>> =
+            states().map(|(state, share)| (*state == ContactState::Gap).then_some(*share)).collect();
+        let friction = friction(&self.mechanism, &self.velocity_signs, pattern, &normal_force, &shares);
+        let all = || self.influence.unknowns(&friction);
+        Some(match quantity {
+            Quantity::NormalForce => normal_force.iter().copied().collect(),
+            Quantity::Friction => {
+                friction.iter().map(|friction: &ContactFriction| friction.total()).collect()
+            }
+            Quantity::Acceleration => self.equations.coordinate_accelerations(&all()),
+            Quantity::Effort => {
+                let unknowns = all();
+                let drives = (0..self.mechanism.drives.len()).map(DriveId);
+                drives.map(|drive| unknowns[self.influence.layout().effort(drive)]).collect()
+            }
+        })
+    }
+
+    fn verdict(&self, pattern: &[ContactState]) -> Verdict {
+        let sides: Option<Vec<Side>> = pattern.iter().map(|state| state.side()).collect();
+        let problem = mode_problem(&self.mechanism, &self.influence, &self.velocity_signs);
+        match (sides, problem) {
+            (Some(sides), Ok(problem)) => {
+                ElasticGuides::new(&self.mechanism, &self.equations, &problem).verdict_on(&sides)
+            }
+            _ => Verdict::NotComputed,
+        }
+    }
+}
