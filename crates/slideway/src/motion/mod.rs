@@ -11,11 +11,14 @@ mod history;
 mod linear;
 mod options;
 mod phase;
+mod report;
 mod root;
 mod rules;
 mod run;
+mod series;
 mod smooth;
 mod stepper;
+mod text;
 mod watch;
 
 #[cfg(test)]
@@ -26,9 +29,15 @@ pub use event::{Cause, Event};
 pub use history::{
     ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics,
 };
-pub use options::{Crossing, SimulateOptions, UserEvent};
+pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
+pub use report::{
+    BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA, SimulateReport,
+    StatisticsReport, report, to_json,
+};
 pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
+pub use series::{Column, Series};
+pub use text::to_text;
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};

@@ -10,7 +10,6 @@ use super::rules::Decisions;
 use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
-use crate::fault::{Fault, FaultKind};
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -302,8 +301,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
             return margin.map_err(Failure::Loads);
         }
-        let value = self.watch.value(watched, phase, equations);
-        value.map_err(|fault| Failure::Loads(Fault::general(FaultKind::Expression(fault.kind)).into()))
+        self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))
     }
 
     /// The first instant within the step at which something falls through zero, as a fraction, and all that does.
