@@ -44,6 +44,12 @@ pub(crate) enum Failure {
     CannotWrite { path: PathBuf, error: io::Error },
     /// An answer that is no text would go to a terminal.
     BinaryOnTerminal,
+    /// The ending of a file names no form of a time series.
+    SeriesFormat { path: PathBuf },
+    /// A table with absurdly many rows.
+    TooManyRows { rows: f64, most: f64 },
+    /// Files hold one motion.
+    SeveralMotions,
     /// Standard output cannot be written.
     StandardOutput { error: io::Error },
 }
@@ -79,6 +85,13 @@ impl Failure {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }
             Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
+            Self::SeriesFormat { path } => {
+                format!("`{}` names no form of a time series", path.display())
+            }
+            Self::TooManyRows { rows, most } => {
+                format!("the table would have {rows:.1e} rows; at most {most:.0e} are written")
+            }
+            Self::SeveralMotions => "files hold one motion, not all branches".to_owned(),
             Self::StandardOutput { error } => format!("the answer cannot be written: {}", reason(error)),
         }
     }
@@ -96,6 +109,9 @@ impl Failure {
                 Some("`slideway modes --help` shows what a problem looks like".to_owned())
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
+            Self::SeriesFormat { .. } => Some("end its name in .csv or .json".to_owned()),
+            Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
+            Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
             Self::Overflow { .. } => Some("look for entries of absurd magnitude".to_owned()),
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),

@@ -7,6 +7,7 @@ mod failure;
 mod input;
 mod output;
 mod picture;
+mod time_series;
 mod watch;
 
 use arguments::{Arguments, Command};
@@ -46,6 +47,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Solve(arguments) => commands::solve(arguments, output),
         Command::Limits(arguments) => commands::limits(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
+        Command::Simulate(arguments) => commands::simulate(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),

@@ -9,6 +9,7 @@ mod models;
 mod modes;
 mod plot;
 mod search;
+mod simulate;
 mod solve;
 mod values;
 
@@ -21,6 +22,7 @@ pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use plot::PlotArguments;
 pub(crate) use search::SearchArguments;
+pub(crate) use simulate::SimulateArguments;
 pub(crate) use solve::SolveArguments;
 
 use anstream::ColorChoice;
@@ -50,6 +52,7 @@ Examples:
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
   slideway hold drawer.toml                     whether it stays at rest
+  slideway simulate drawer.toml --until 1s      its motion in time
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -69,6 +72,9 @@ pub(crate) enum Command {
     /// Say whether a mechanism stays at rest, and how it begins to move if not
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
+    /// Follow a mechanism in time through sliding, sticking, changes of contact mode and jamming
+    #[command(after_help = simulate::HELP)]
+    Simulate(SimulateArguments),
     /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),

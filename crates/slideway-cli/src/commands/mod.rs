@@ -5,6 +5,7 @@ mod hold;
 mod limits;
 mod models;
 mod modes;
+mod simulate;
 mod solve;
 
 pub(crate) use check::check;
@@ -12,6 +13,7 @@ pub(crate) use hold::hold;
 pub(crate) use limits::limits;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
+pub(crate) use simulate::simulate;
 pub(crate) use solve::solve;
 
 use crate::Outcome;

@@ -294,10 +294,7 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
             );
             ("reaction_limit", words)
         }
-        End::UserEvent(index) => {
-            let name = options.events.get(*index).map_or("an event", |event| &event.name);
-            ("user_event", format!("It ends at {time} s with the event {name}."))
-        }
+        End::UserEvent(_) => ("user_event", format!("It ends at {time} s the event: {}.", last_words(history))),
         End::NoSuchBranch { branching } => (
             "no_such_branch",
             format!(
@@ -347,6 +344,11 @@ fn finished(history: &History, time: &str) -> String {
         }
         _ => format!("At {time} s the time is over; it is still moving."),
     }
+}
+
+/// The words of the last event.
+fn last_words(history: &History) -> &str {
+    history.events.last().map_or("an event", |event| &event.words)
 }
 
 fn first(faults: &crate::fault::Faults) -> String {

@@ -1,6 +1,7 @@
 //! A motion as text for people: a log of what happened, and how good it is.
 
 use super::report::{EventReport, Named, SimulateReport};
+use super::tree::TreeReport;
 use crate::report::number::{number, precise};
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -23,6 +24,33 @@ pub fn to_text(report: &SimulateReport, style: Style, all_events: bool) -> Strin
     text.energy();
     text.quality();
     text.out
+}
+
+/// All motions as text: how each of them ends, then their logs.
+pub fn tree_to_text(report: &TreeReport, style: Style, all_events: bool) -> String {
+    let mut text = Page::new(report, style);
+    let number = count(report.histories.len(), "motion", "motions");
+    let completeness = if report.complete { "these are all" } else { "there are more" };
+    text.headline(&format!("{number}; {completeness}"));
+    for (index, history) in report.histories.iter().enumerate() {
+        text.line(&format!("  {} ({}): {}", index + 1, branches(&history.branches), history.motion.end.words));
+    }
+    for (index, history) in report.histories.iter().enumerate() {
+        text.line("");
+        text.headline(&format!("Motion {} ({})", index + 1, branches(&history.branches)));
+        text.out.push_str(&to_text(&history.motion, style, all_events));
+    }
+    text.out
+}
+
+/// "branches 1, 2"
+fn branches(branches: &[usize]) -> String {
+    let numbers: Vec<String> = branches.iter().map(ToString::to_string).collect();
+    match numbers.as_slice() {
+        [] => "without branches".to_owned(),
+        [one] => format!("branch {one}"),
+        several => format!("branches {}", several.join(", ")),
+    }
 }
 
 impl Page<'_, SimulateReport> {
