@@ -3,6 +3,7 @@
 use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
 use slideway::raw_problem::RawFaults;
+use slideway_pictures::raster::RasterFault;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -36,12 +37,28 @@ pub(crate) enum Failure {
     SameOutput { path: PathBuf },
     /// The ending of a picture's file says nothing of its format.
     PictureFormat { path: PathBuf, known: &'static [&'static str] },
-    /// A picture could not be made.
-    Picture { reason: String },
+    /// An unfinished table is where a new one would be written.
+    Unfinished { path: PathBuf },
+    /// There is no unfinished table.
+    NothingToResume { path: PathBuf },
+    /// The unfinished table is that of another sweep.
+    AnotherSweep { path: PathBuf, command: String },
+    /// The ending of a table says nothing.
+    UnknownEnding { path: PathBuf },
+    /// The program was built without Parquet.
+    NoParquet,
+    /// A table that is not written from beginning to end.
+    NoStream,
+    /// A sweep was interrupted.
+    Interrupted { done: u64, points: u64, path: PathBuf },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
+    /// There is no solution of the wanted number.
+    NoSuchSolution { count: usize },
+    /// The picture cannot be made of pixels.
+    NoPicture(RasterFault),
     /// An answer that is no text would go to a terminal.
     BinaryOnTerminal,
     /// The ending of a file names no form of a time series.
@@ -79,11 +96,29 @@ impl Failure {
             Self::PictureFormat { path, .. } => {
                 format!("the ending of `{}` names no format of pictures", path.display())
             }
-            Self::Picture { reason } => format!("the picture could not be made: {reason}"),
+            Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::NothingToResume { path } => {
+                format!("there is no sweep to go on with: `{}` is missing or damaged", path.display())
+            }
+            Self::AnotherSweep { path, command } => {
+                format!("`{}` belongs to another sweep: `{command}`", path.display())
+            }
+            Self::UnknownEnding { path } => {
+                format!("the ending of `{}` does not tell the form of the table", path.display())
+            }
+            Self::NoParquet => "this program was built without Parquet".to_owned(),
+            Self::NoStream => "this form of table can only be written to a file".to_owned(),
+            Self::Interrupted { done, points, path } => {
+                format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
+            }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }
+            Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
+            Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
+            Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
+            Self::NoPicture(fault) => fault.to_string(),
             Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
             Self::SeriesFormat { path } => {
                 format!("`{}` names no form of a time series", path.display())
@@ -108,6 +143,9 @@ impl Failure {
             Self::NoProblem { .. } => {
                 Some("`slideway modes --help` shows what a problem looks like".to_owned())
             }
+            Self::NoSuchSolution { .. } => {
+                Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
+            }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
             Self::SeriesFormat { .. } => Some("end its name in .csv or .json".to_owned()),
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
@@ -118,6 +156,23 @@ impl Failure {
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
             Self::PictureFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            Self::Unfinished { .. } => {
+                Some("go on with it by --resume, or begin anew with --force".to_owned())
+            }
+            Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
+            Self::AnotherSweep { .. } => {
+                Some("repeat that command with --resume and the same model, or begin anew with --force".to_owned())
+            }
+            Self::UnknownEnding { .. } => {
+                Some("use .csv, .npz or .parquet, or say it with --format".to_owned())
+            }
+            Self::NoParquet => {
+                Some("build it with `cargo build --release --features parquet`, or write .npz".to_owned())
+            }
+            Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
+            Self::Interrupted { .. } => {
+                Some("the same command with --resume goes on from there".to_owned())
+            }
             _ => None,
         }
     }

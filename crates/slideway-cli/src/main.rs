@@ -7,6 +7,7 @@ mod failure;
 mod input;
 mod output;
 mod picture;
+mod table;
 mod time_series;
 mod watch;
 
@@ -27,6 +28,8 @@ enum Outcome {
     Refused = 2,
     /// The search was incomplete and found nothing.
     Unknown = 3,
+    /// It was interrupted, and can be continued.
+    Interrupted = 130,
 }
 
 impl From<Outcome> for ExitCode {
@@ -46,9 +49,14 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
     match command {
         Command::Solve(arguments) => commands::solve(arguments, output),
         Command::Limits(arguments) => commands::limits(arguments, output),
+        Command::Size(arguments) => commands::size(arguments, output),
+        Command::Drive(arguments) => commands::drive(arguments, output),
+        Command::Map(arguments) => commands::map(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
         Command::Simulate(arguments) => commands::simulate(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
+        Command::Draw(arguments) => commands::draw(arguments, output),
+        Command::Sweep(arguments) => commands::sweep(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Schema => commands::schema(output),
@@ -58,5 +66,8 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 
 fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
     output::complain(&failure.to_string(), color);
+    if matches!(failure, Failure::Interrupted { .. }) {
+        return Outcome::Interrupted;
+    }
     Outcome::Refused
 }

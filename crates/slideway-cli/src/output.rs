@@ -46,6 +46,40 @@ impl Output {
         Ok(Self { color: self.color, file })
     }
 
+    /// The file it goes to; a link is followed.
+    pub(crate) fn path(&self) -> Option<PathBuf> {
+        let file = self.file.as_ref()?;
+        Some(fs::canonicalize(&file.path).unwrap_or_else(|_| file.path.clone()))
+    }
+
+    /// When to use colours.
+    pub(crate) fn color(&self) -> ColorChoice {
+        self.color
+    }
+
+    /// Whether text that accompanies the answer, on a standard stream, may use colours.
+    pub(crate) fn style_of_text(&self) -> Style {
+        Self::standard(self.color).style()
+    }
+
+    /// Standard output, or a device or pipe, for an answer that is written bit by bit.
+    ///
+    /// # Errors
+    /// If it cannot be opened.
+    pub(crate) fn stream(&self) -> Result<Box<dyn Write + Send>, Failure> {
+        let Some(file) = &self.file else { return Ok(Box::new(io::stdout())) };
+        let opened = fs::OpenOptions::new().write(true).open(&file.path);
+        opened.map(|file| Box::new(file) as Box<dyn Write + Send>).map_err(|error| self.failure(error))
+    }
+
+    /// That the stream cannot be written.
+    pub(crate) fn failure(&self, error: io::Error) -> Failure {
+        match &self.file {
+            Some(file) => Failure::CannotWrite { path: file.path.clone(), error },
+            None => Failure::StandardOutput { error },
+        }
+    }
+
     /// Whether text that goes there may use colours.
     pub(crate) fn style(&self) -> Style {
         let choice = match self.color {

@@ -3,18 +3,23 @@
 use crate::arguments::{Destination, ModelArguments, PlotArguments};
 use crate::failure::Failure;
 use crate::output::Output;
+use slideway_pictures::raster::png;
 use std::path::Path;
 
 /// Format of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PictureFormat {
+pub(crate) enum Picture {
     /// Vectors and text.
     Svg,
+    /// Pixels.
+    Png,
 }
 
-const ENDINGS: [&str; 1] = [".svg"];
+const ENDINGS: [&str; 2] = [".svg", ".png"];
+/// Pixels of a PNG for each unit of its SVG, unless a width is wanted.
+pub(crate) const SHARPNESS: f64 = 2.0;
 
-impl PictureFormat {
+impl Picture {
     /// The format of a file.
     ///
     /// # Errors
@@ -23,45 +28,39 @@ impl PictureFormat {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         match ending.to_ascii_lowercase().as_str() {
             "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
             _ => Err(Failure::PictureFormat { path: path.to_owned(), known: &ENDINGS }),
         }
     }
-}
 
-/// A file for a picture, whose path was found to be in order before the work began.
-pub(crate) struct Picture {
-    format: PictureFormat,
-    output: Output,
-}
-
-impl Picture {
-    /// The plot beside an answer, if there is to be one.
-    ///
-    /// # Errors
-    /// If its file exists, is the model, is that of the answer, or has an ending that names no format.
-    pub(crate) fn beside(
-        plot: &PlotArguments,
-        answer: &Destination,
-        model: &ModelArguments,
-        output: &Output,
-    ) -> Result<Option<Self>, Failure> {
-        let Some(path) = &plot.plot else { return Ok(None) };
-        if answer.output.as_ref() == Some(path) {
-            return Err(Failure::SameOutput { path: path.clone() });
-        }
-        let format = PictureFormat::of(path)?;
-        let destination = Destination { output: Some(path.clone()), force: answer.force };
-        model.spare(&destination)?;
-        Ok(Some(Self { format, output: output.to(&destination)? }))
-    }
-
-    /// Writes a picture that is given as SVG.
+    /// Writes a picture that is given as SVG, with so many pixels for each of its units if it has pixels.
     ///
     /// # Errors
     /// If it cannot be converted or written.
-    pub(crate) fn write(&self, svg: String) -> Result<(), Failure> {
-        match self.format {
-            PictureFormat::Svg => self.output.write_bytes(svg.as_bytes()),
+    pub(crate) fn write(self, svg: &str, sharpness: f64, output: &Output) -> Result<(), Failure> {
+        match self {
+            Self::Svg => output.write_bytes(svg.as_bytes()),
+            Self::Png => output.write_bytes(&png(svg, sharpness).map_err(Failure::NoPicture)?),
         }
     }
+}
+
+/// The format and the file of a plot beside an answer, if there is to be one; the file is in order before the work begins.
+///
+/// # Errors
+/// If the file exists, is the model, is that of the answer, or has an ending that names no format.
+pub(crate) fn beside(
+    plot: &PlotArguments,
+    answer: &Destination,
+    model: &ModelArguments,
+    output: &Output,
+) -> Result<Option<(Picture, Output)>, Failure> {
+    let Some(path) = &plot.plot else { return Ok(None) };
+    if answer.output.as_ref() == Some(path) {
+        return Err(Failure::SameOutput { path: path.clone() });
+    }
+    let picture = Picture::of(path)?;
+    let destination = Destination { output: Some(path.clone()), force: answer.force };
+    model.spare(&destination)?;
+    Ok(Some((picture, output.to(&destination)?)))
 }

@@ -2,6 +2,7 @@
 
 use crate::output::ProgressLine;
 use slideway::modes::Progress;
+use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -55,5 +56,53 @@ impl Watch {
             ));
         }
         ControlFlow::Continue(())
+    }
+}
+
+/// Tells how far a sweep has come, how fast it is, and how long it will take.
+pub(crate) struct SweepWatch {
+    start: Instant,
+    first: u64,
+    points: u64,
+    shown: Duration,
+    line: ProgressLine,
+}
+
+/// Characters of the bar.
+const BAR: usize = 24;
+
+impl SweepWatch {
+    /// Starts now, with so many points done of so many.
+    pub(crate) fn new(first: u64, points: u64) -> Self {
+        Self { start: Instant::now(), first, points, shown: Duration::ZERO, line: ProgressLine::new() }
+    }
+
+    /// Tells how many points are done.
+    pub(crate) fn look(&mut self, done: u64) {
+        let elapsed = self.start.elapsed();
+        if elapsed < QUIET || elapsed < self.shown + BETWEEN {
+            return;
+        }
+        self.shown = elapsed;
+        let fraction = done as f64 / self.points.max(1) as f64;
+        let rate = (done - self.first) as f64 / elapsed.as_secs_f64();
+        let filled = (1..=BAR).take_while(|part| *part as f64 <= fraction * BAR as f64).count();
+        let mut text = format!("[{}{}]", "#".repeat(filled), "-".repeat(BAR - filled));
+        let _ = write!(text, " {:.1} % of {} points, {rate:.0} points/s", 100.0 * fraction, self.points);
+        if rate > 0.0 {
+            let _ = write!(text, ", {} left", rough((self.points - done) as f64 / rate));
+        }
+        self.line.show(&text);
+    }
+}
+
+/// A time without needless digits.
+fn rough(seconds: f64) -> String {
+    if seconds < 90.0 {
+        format!("{seconds:.0} s")
+    } else if seconds < 5400.0 {
+        format!("{:.0} min", seconds / 60.0)
+    } else {
+        format!("{:.1} h", seconds / 3600.0)
     }
 }

@@ -3,5 +3,27 @@
 //! The library [`slideway`] computes and knows no pictures; this crate turns its values into SVG (and PNG), without
 //! computing anything of mechanics. Like the library it reads no file and no clock, and prints nothing.
 
+pub mod drawing;
+pub mod map;
 pub mod plot;
+pub mod raster;
 pub mod theme;
+pub mod typeface;
+
+/// Text as it stands in XML, in elements and attributes; characters that XML does not allow are left out.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {}
+            other => out.push(other),
+        }
+    }
+    out
+}

@@ -2,6 +2,10 @@
 //!
 //! Faults are collected, so that a person learns of all of them at once.
 
+mod axis;
+
+pub use axis::AxisProblem;
+
 use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
 use std::fmt;
 use std::ops::Range;
@@ -238,8 +242,6 @@ pub enum FaultKind {
     EmptyRange { what: String, from: f64 },
     #[error("nothing in the mode problem depends on {what} between {from} and {to}")]
     NothingVaries { what: String, from: f64, to: f64 },
-    #[error("the model has no drives, so that there is no effort to plot")]
-    NoDrives,
     #[error("{what} cannot be both axes of a map")]
     SameAxes { what: String },
     #[error("{contacts} contacts have more contact modes than the {limit} whose limits are computed")]
@@ -278,6 +280,9 @@ pub enum FaultKind {
     // Settings.
     #[error("`{text}` is not of the form name=value")]
     MalformedSetting { text: String },
+
+    #[error("`{text}`: {problem}")]
+    Axis { text: String, problem: AxisProblem },
 
     // Degrees of freedom and coordinates.
     #[error("the structure is redundant: {} in excess, so the reactions are indeterminate", constraints(*excess))]
@@ -343,6 +348,18 @@ pub enum FaultKind {
     #[error("the end of the simulation, {end} s, is not after its start, {start} s")]
     NothingToSimulate { start: f64, end: f64 },
 
+    // Design and drives.
+    #[error("a margin at rest needs the load that it concerns")]
+    LoadNeeded { known: Vec<String> },
+    #[error("the load {load} has no part in a margin against locking")]
+    LoadUnused { load: String },
+    #[error("whether {load} is held could not be decided")]
+    UndecidedAtRest { load: String },
+    #[error("at rest there is no direction of motion to be reversed")]
+    NoDirectionAtRest,
+    #[error("the model has no drives, so no effort is unknown")]
+    NoDrives { coordinate: Option<String> },
+
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
     TooManyContacts { contacts: usize, limit: usize },
@@ -375,6 +392,7 @@ impl FaultKind {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
+            Self::Axis { problem, .. } => problem.hint(),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }
@@ -403,6 +421,11 @@ impl FaultKind {
                 Some(format!("possible at the start: {}", modes.join(", ")))
             }
             Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
+            Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
+            Self::LoadUnused { load } => Some(format!(
+                "with `--against self-locking` or `--against hold` the load {load} at rest is looked at"
+            )),
+            Self::NoDrives { coordinate } => Some(drive_hint(coordinate.as_deref().unwrap_or("q"))),
             _ => self.fixed_hint().map(str::to_owned),
         }
     }
@@ -441,6 +464,7 @@ impl FaultKind {
                 Some("give the bodies that move a mass, or prescribe the motion with a drive")
             }
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
+            Self::NoDirectionAtRest => Some("leave out --both-directions"),
             Self::ZeroSlidingVelocity { .. } => Some(
                 "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates",
             ),
@@ -546,6 +570,12 @@ fn velocity_hint(coordinates: &[String]) -> String {
     format!(
         "give the mechanism a velocity, for instance with `{}`; `slideway hold` analyses friction at rest",
         rates.join(" ")
+    )
+}
+
+fn drive_hint(coordinate: &str) -> String {
+    format!(
+        "prescribe the motion of a coordinate, for instance [drives.push] with `coordinate = \"{coordinate}\"` and `force = {{ at = \"BODY.POINT\", direction = \"0 deg\" }}` or `torque = {{ body = \"BODY\" }}`"
     )
 }
 

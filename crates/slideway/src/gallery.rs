@@ -26,6 +26,8 @@ pub const MODELS: &[GalleryModel] = gallery![
     "drawer",
     "cam-follower",
     "bracket-on-pole",
+    "screw",
+    "wedge",
     "slider-crank",
     "scotch-yoke",
     "elliptic-trammel",

@@ -16,12 +16,16 @@
 //!
 //! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to move.
 //!
+//! [`limits::limits`] finds the values of a parameter at which modes begin and end, [`size::size`] those at which a wanted
+//! margin against locking is just met, and [`drive::drive`] the efforts that drives need against friction.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 
 pub mod attainability;
 pub mod check;
 pub mod configuration;
+pub mod drive;
 pub mod enclosure;
 pub mod expression;
 pub mod fault;
@@ -31,11 +35,14 @@ pub mod influence;
 pub mod interval;
 pub mod kinetics;
 pub mod limits;
+pub mod map;
 pub mod mechanism;
 pub mod model;
 pub mod modes;
 pub mod motion;
 pub mod raw_problem;
 pub mod report;
+pub mod size;
 pub mod solve;
 pub mod standstill;
+pub mod sweep;

@@ -2,28 +2,38 @@
 
 mod check;
 mod destination;
+mod draw;
+mod drive;
 mod hold;
 mod limits;
+mod map;
 mod model;
 mod models;
 mod modes;
 mod plot;
 mod search;
 mod simulate;
+mod size;
 mod solve;
+mod sweep;
 mod values;
 
 pub(crate) use check::CheckArguments;
 pub(crate) use destination::{CheckFormat, Destination, Format};
+pub(crate) use draw::{DrawArguments, Which};
+pub(crate) use drive::DriveArguments;
 pub(crate) use hold::{Drives, HoldArguments};
 pub(crate) use limits::LimitsArguments;
+pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
-pub(crate) use plot::PlotArguments;
+pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use search::SearchArguments;
 pub(crate) use simulate::SimulateArguments;
+pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
+pub(crate) use sweep::{SweepArguments, TableFormat};
 
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -51,8 +61,13 @@ Examples:
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
+  slideway size drawer.toml --vary L --margin 2 how long its guide has to be
+  slideway drive drawer.toml                    which push it needs, with which efficiency
+  slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
   slideway simulate drawer.toml --until 1s      its motion in time
+  slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
+  slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -66,6 +81,18 @@ pub(crate) enum Command {
     /// Say for which friction, load or size each contact mode exists, and where it locks
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
+    /// Find the size at which a wanted margin against locking is just met
+    #[command(after_help = size::HELP)]
+    Size(SizeArguments),
+    /// Say which force or torque each drive needs against friction
+    #[command(after_help = drive::HELP)]
+    Drive(DriveArguments),
+    /// Map the plane of two quantities by its solutions, contact modes or margins
+    #[command(after_help = map::HELP)]
+    Map(MapArguments),
+    /// Compute all solutions at every point of a grid, or for random samples, into a table
+    #[command(after_help = sweep::HELP)]
+    Sweep(SweepArguments),
     /// Say what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
@@ -75,6 +102,9 @@ pub(crate) enum Command {
     /// Follow a mechanism in time through sliding, sticking, changes of contact mode and jamming
     #[command(after_help = simulate::HELP)]
     Simulate(SimulateArguments),
+    /// Draw a mechanism and its solutions to a picture, SVG or PNG
+    #[command(after_help = draw::HELP)]
+    Draw(DrawArguments),
     /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),

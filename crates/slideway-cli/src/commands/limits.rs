@@ -5,13 +5,13 @@ use crate::arguments::{CheckFormat, LimitsArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
-use crate::picture::Picture;
+use crate::picture::{self, SHARPNESS};
 use slideway::limits::{self, LimitsOptions};
 use slideway_pictures::plot::{limits_figure, to_svg};
 
 /// Says for which values each contact mode exists, and plots it if asked to.
 pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Outcome, Failure> {
-    let plot = Picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+    let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
     let output = output.to(&arguments.destination)?;
     arguments.model.spare(&arguments.destination)?;
     let input = Input::read(&arguments.model)?;
@@ -21,10 +21,11 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         max_reaction: arguments.max_reaction,
         both_directions: arguments.both_directions,
     };
-    let report = if let Some(plot) = plot {
+    let report = if let Some((picture, file)) = plot {
         let (report, curves) = limits::limits_with_curves(&model, &options, arguments.quantity.into())
             .map_err(|faults| input.refused(faults))?;
-        plot.write(to_svg(&limits_figure(&report, &curves), arguments.plot.theme.colours()))?;
+        let figure = limits_figure(&report, &curves);
+        picture.write(&to_svg(&figure, arguments.plot.theme.colours()), SHARPNESS, &file)?;
         report
     } else {
         limits::limits(&model, &options).map_err(|faults| input.refused(faults))?

@@ -1,20 +1,30 @@
 //! The commands: each reads its input, calls the library and writes the answer.
 
 mod check;
+mod draw;
+mod drive;
 mod hold;
 mod limits;
+mod map;
 mod models;
 mod modes;
 mod simulate;
+mod size;
 mod solve;
+mod sweep;
 
 pub(crate) use check::check;
+pub(crate) use draw::draw;
+pub(crate) use drive::drive;
 pub(crate) use hold::hold;
 pub(crate) use limits::limits;
+pub(crate) use map::map;
 pub(crate) use models::models;
 pub(crate) use modes::modes;
 pub(crate) use simulate::simulate;
+pub(crate) use size::size;
 pub(crate) use solve::solve;
+pub(crate) use sweep::sweep;
 
 use crate::Outcome;
 use crate::failure::Failure;

@@ -64,7 +64,7 @@ impl Frame {
 
 /// A polyline without the points that lie within `tolerance` of the line between others (D. H. Douglas and T. K. Peucker,
 /// Algorithms for the reduction of the number of points required to represent a digitized line or its caricature, 1973).
-pub(super) fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
+pub(crate) fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     if points.len() < 3 {
         return points.to_vec();
     }

@@ -22,9 +22,10 @@
 //! assert!(to_svg(&figure, &LIGHT).contains("x in m"));
 //! ```
 
-mod clip;
+pub(crate) mod clip;
 mod figure;
 mod flags;
+pub(crate) mod frame;
 mod legend;
 mod limits;
 mod markers;
@@ -49,9 +50,9 @@ const STACKED_HEIGHT: f64 = 300.0;
 /// Space around everything (px).
 const MARGIN: f64 = 14.0;
 /// Font sizes (px).
-const TITLE: f64 = 17.0;
+pub(crate) const TITLE: f64 = 17.0;
 const TEXT: f64 = 14.0;
-const SMALL: f64 = 13.0;
+pub(crate) const SMALL: f64 = 13.0;
 /// Width of curves (px).
 const CURVE: f64 = 2.2;
 
@@ -104,7 +105,7 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> String {
 }
 
 /// The patterns of hatched intervals.
-fn hatchings(svg: &mut Svg, theme: &Theme) {
+pub(crate) fn hatchings(svg: &mut Svg, theme: &Theme) {
     svg.open("defs", &[]);
     for (hatching, angle) in [(Hatching::Rising, "rotate(45)"), (Hatching::Falling, "rotate(-45)")] {
         let attributes = [
@@ -118,7 +119,7 @@ fn hatchings(svg: &mut Svg, theme: &Theme) {
         svg.line(
             [0.0, 0.0],
             [0.0, 8.0],
-            &[("stroke", theme.muted), ("stroke-width", "1.8"), ("stroke-opacity", "0.75")],
+            &[("stroke", theme.ink), ("stroke-width", "1.8"), ("stroke-opacity", "0.35")],
         );
         svg.close("pattern");
     }
@@ -133,12 +134,6 @@ fn hatching_name(hatching: Hatching) -> &'static str {
 }
 
 /// How a pattern is referred to.
-fn hatching_fill(hatching: Hatching) -> String {
+pub(crate) fn hatching_fill(hatching: Hatching) -> String {
     format!("url(#{})", hatching_name(hatching))
-}
-
-/// A name with its unit.
-fn named(axis: &Axis) -> String {
-    let unit = axis.unit.replace("^2", "\u{b2}").replace("^3", "\u{b3}").replace("^4", "\u{2074}");
-    if unit.is_empty() { axis.name.clone() } else { format!("{} in {unit}", axis.name) }
 }

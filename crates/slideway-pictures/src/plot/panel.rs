@@ -1,19 +1,16 @@
 //! One panel of a figure.
 
 use super::clip::{Frame, simplified};
-use super::figure::{Curve, End, Figure, Panel};
+use super::figure::{Axis, Curve, End, Figure, Panel};
 use super::flags::{Flag, flags};
-use super::scale::{Scale, fitting_range, tick_step, tick_text, ticks};
-use super::svg::{Svg, coordinate, width};
-use super::{CURVE, SMALL, TEXT, dashes, hatching_fill, markers, named};
+use super::frame::{FrameAxis, Placed, draw_axes, draw_grid};
+use super::scale::{Scale, fitting_range};
+use super::svg::{Svg, coordinate};
+use super::{CURVE, SMALL, TEXT, dashes, hatching_fill, markers};
 use crate::theme::Theme;
 use std::fmt::Write;
 
-/// Distances of ticks that are aimed at (px).
-const BETWEEN_X: f64 = 80.0;
-const BETWEEN_Y: f64 = 48.0;
-/// Length of ticks, distance of their numbers, height of rows of labels and bands (px).
-const TICK: f64 = 5.0;
+/// Height of rows of labels and bands (px).
 const ROW: f64 = 18.0;
 const BAND: f64 = 12.0;
 /// Curves keep to this distance of their points (px).
@@ -22,20 +19,12 @@ const TOLERANCE: f64 = 0.05;
 /// A panel with its place in the picture.
 pub(super) struct PanelLayout<'f> {
     panel: &'f Panel,
+    placed: Placed,
     frame: Frame,
     x: Scale,
     y: Scale,
     flags: Vec<Flag<'f>>,
     top: f64,
-}
-
-/// Ticks of the vertical axis: their step and texts.
-fn y_ticks(range: [f64; 2], height: f64) -> (Vec<f64>, Vec<String>) {
-    let step = tick_step(range, (height / BETWEEN_Y) as usize);
-    let ticks = ticks(range, step);
-    let greatest = range[0].abs().max(range[1].abs());
-    let texts = ticks.iter().map(|&tick| tick_text(tick, step, greatest)).collect();
-    (ticks, texts)
 }
 
 fn y_range(panel: &Panel) -> [f64; 2] {
@@ -55,41 +44,46 @@ fn x_range(panel: &Panel) -> [f64; 2] {
     }
 }
 
-/// What the numbers and the name of the vertical axis need beside the frame (px).
+fn axes(panel: &Panel) -> [FrameAxis; 2] {
+    let with =
+        |axis: &Axis, range: [f64; 2]| FrameAxis { name: axis.name.clone(), unit: axis.unit.clone(), range };
+    [with(&panel.x, x_range(panel)), with(&panel.y, y_range(panel))]
+}
+
+/// What the vertical axis needs beside the frame (px).
 pub(super) fn space_on_the_left(panel: &Panel) -> f64 {
-    let (_, texts) = y_ticks(y_range(panel), super::STACKED_HEIGHT);
-    texts.iter().map(|text| width(text, SMALL)).fold(0.0, f64::max) + TICK + 8.0 + 1.5 * TEXT
+    axes(panel)[1].space_on_the_left(super::STACKED_HEIGHT)
 }
 
 impl<'f> PanelLayout<'f> {
     /// Between `left` and `right`, below `top`, with a frame of this height.
     pub(super) fn new(panel: &'f Panel, [left, right]: [f64; 2], top: f64, height: f64) -> Self {
-        let (x_values, y_values) = (x_range(panel), y_range(panel));
         // The last number of the axis is centred at the edge.
         let right = right - 12.0;
-        let x = Scale { values: x_values, places: [left, right] };
-        let inside = |at: f64| x_values[0] <= at && at <= x_values[1];
+        let axes = axes(panel);
+        let values = axes[0].range;
+        let x = Scale { values, places: [left, right] };
+        let inside = |at: f64| values[0] <= at && at <= values[1];
         let marked = panel.marked.iter().filter(|value| inside(value.at));
         let flags = flags(marked.map(|value| (x.place(value.at), value)).collect(), right + 10.0, SMALL);
         let rows = flags.iter().map(|flag| flag.row + 1).max().unwrap_or(0);
         let title = if panel.title.is_empty() { 0.0 } else { 1.6 * TEXT };
         let frame_top = top + 10.0 + title + ROW * rows as f64 + if rows > 0 { 4.0 } else { 0.0 };
-        let frame = Frame { left, right, top: frame_top, bottom: frame_top + height };
-        let y = Scale { values: y_values, places: [frame.bottom, frame.top] };
-        Self { panel, frame, x, y, flags, top }
+        let below = if panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
+        let placed = Placed::new(axes, [left, frame_top, right, frame_top + height]).with_space_below(below);
+        Self { panel, frame: placed.rectangle(), x, y: placed.y(), placed, flags, top }
     }
 
     /// Below its numbers and the name of the axis.
     pub(super) fn bottom(&self) -> f64 {
-        let bands = if self.panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
-        self.frame.bottom + bands + TICK + 2.9 * TEXT
+        self.placed.bottom()
     }
 
     pub(super) fn draw(&self, figure: &Figure, theme: &Theme, svg: &mut Svg) {
         svg.open("g", &[("class", "panel")]);
         self.title(theme, svg);
         self.zones(theme, svg);
-        self.axes(theme, svg);
+        draw_grid(&self.placed, theme, svg);
         self.marked(theme, svg);
         for curve in &self.panel.curves {
             self.curve(figure, curve, theme, svg);
@@ -102,11 +96,7 @@ impl<'f> PanelLayout<'f> {
             }
             self.ends(figure, curve, theme, svg);
         }
-        let Frame { left, top, right, bottom } = self.frame;
-        svg.rectangle(
-            [left, top, right - left, bottom - top],
-            &[("class", "frame"), ("fill", "none"), ("stroke", theme.ink), ("stroke-width", "1.2")],
-        );
+        draw_axes(&self.placed, theme, svg);
         self.bands(theme, svg);
         svg.close("g");
     }
@@ -138,42 +128,6 @@ impl<'f> PanelLayout<'f> {
             svg.rectangle(shape, &[("fill", theme.muted), ("fill-opacity", "0.10")]);
             svg.rectangle(shape, &[("class", "zone"), ("fill", &fill)]);
         }
-    }
-
-    fn axes(&self, theme: &Theme, svg: &mut Svg) {
-        let Frame { left, top, right, bottom } = self.frame;
-        let size = coordinate(SMALL);
-        let grid =
-            [("class", "grid"), ("stroke", theme.muted), ("stroke-opacity", "0.3"), ("stroke-width", "1")];
-        let tick = [("class", "tick"), ("stroke", theme.ink), ("stroke-width", "1.2")];
-        let text = |anchor: &'static str| {
-            [("class", "tick"), ("font-size", &*size), ("text-anchor", anchor), ("fill", theme.ink)]
-        };
-        let below = bottom + if self.panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
-        let step = tick_step(self.x.values, ((right - left) / BETWEEN_X) as usize);
-        let greatest = self.x.values[0].abs().max(self.x.values[1].abs());
-        for value in ticks(self.x.values, step) {
-            let x = self.x.place(value);
-            svg.line([x, top], [x, bottom], &grid);
-            svg.line([x, below], [x, below + TICK], &tick);
-            svg.label([x, below + TICK + 1.1 * SMALL], &text("middle"), &tick_text(value, step, greatest));
-        }
-        let (values, texts) = y_ticks(self.y.values, bottom - top);
-        for (value, label) in values.into_iter().zip(texts) {
-            let y = self.y.place(value);
-            let strong =
-                [("class", "zero"), ("stroke", theme.ink), ("stroke-opacity", "0.6"), ("stroke-width", "1")];
-            svg.line([left, y], [right, y], if value == 0.0 { &strong } else { &grid });
-            svg.line([left - TICK, y], [left, y], &tick);
-            svg.label([left - TICK - 4.0, y + 0.36 * SMALL], &text("end"), &label);
-        }
-        let size = coordinate(TEXT);
-        let name = [("class", "axis"), ("font-size", &*size), ("text-anchor", "middle"), ("fill", theme.ink)];
-        let middle = [f64::midpoint(left, right), f64::midpoint(top, bottom)];
-        svg.label([middle[0], below + TICK + 2.45 * TEXT], &name, &named(&self.panel.x));
-        let x = super::MARGIN + 0.8 * TEXT;
-        let turned = format!("rotate(-90 {} {})", coordinate(x), coordinate(middle[1]));
-        svg.label([x, middle[1]], &[&name[..], &[("transform", &turned)]].concat(), &named(&self.panel.y));
     }
 
     fn marked(&self, theme: &Theme, svg: &mut Svg) {

@@ -35,6 +35,14 @@ pub(super) fn tick_step([from, to]: [f64; 2], wanted: usize) -> f64 {
     factor.unwrap_or(10.0) * power
 }
 
+/// The same in degrees: parts of a turn where the range is wide.
+pub(super) fn angle_step(range: [f64; 2], wanted: usize) -> f64 {
+    let rough = (range[1] - range[0]).abs() / wanted.max(1) as f64;
+    let parts = [10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0];
+    let step = parts.into_iter().find(|&part| part >= rough * 0.8);
+    step.filter(|_| rough > 5.0).unwrap_or_else(|| tick_step(range, wanted))
+}
+
 /// Multiples of a step within a range.
 pub(super) fn ticks([from, to]: [f64; 2], step: f64) -> Vec<f64> {
     let slack = 1e-9;
@@ -124,6 +132,9 @@ mod tests {
             let found = tick_step(range, wanted);
             assert!((found - step).abs() < 1e-9 * step, "{range:?}: {found}");
         }
+        assert_eq!(angle_step([-180.0, 180.0], 5), 60.0);
+        assert_eq!(angle_step([-180.0, 180.0], 8), 45.0);
+        assert_eq!(angle_step([60.0, 88.0], 8), 5.0);
         let texts: Vec<String> =
             ticks([-0.35, 0.4], 0.2).iter().map(|&tick| tick_text(tick, 0.2, 0.4)).collect();
         assert_eq!(texts, ["\u{2212}0.2", "0", "0.2", "0.4"]);

@@ -1,5 +1,6 @@
 //! Writing SVG: elements with attributes, numbers of two decimals, escaped text.
 
+use crate::escaped;
 use std::fmt::Write;
 
 /// An SVG document that grows.
@@ -14,11 +15,6 @@ pub(crate) fn coordinate(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
-}
-
-/// Text with the characters that XML reserves written as entities.
-pub(crate) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 impl Svg {

@@ -11,7 +11,7 @@ use crate::mechanism::{JointKind, Mechanism};
 use nalgebra::{DVector, Vector2};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
-const CLOSED: f64 = 1e-12;
+pub(super) const CLOSED: f64 = 1e-12;
 /// Where two solutions meet Newton's method finds the place only to the root of its tolerance. A state counts as
 /// singular if its joint equations, coordinates included, have a singular value below this multiple of the
 /// greatest...
@@ -22,7 +22,7 @@ const SINGULAR_LOSS: f64 = 1e-3;
 /// Newton steps after which a stage of the way counts as failed; quadratic convergence needs far fewer.
 const NEWTON_STEPS: usize = 25;
 /// Largest change of a coordinate in one stage, in sizes of the mechanism or rad.
-const STAGE: f64 = 0.15;
+pub(super) const STAGE: f64 = 0.15;
 /// Longest way that is followed from the drawing, in sizes of the mechanism or rad.
 const LONGEST_WAY: f64 = 300.0;
 /// Least fraction of the whole way that is tried before the state counts as out of reach.
@@ -283,7 +283,7 @@ fn singular_coordinates(mechanism: &Mechanism, poses: &[Pose], equations: &Joint
 }
 
 /// Travel limits and overlaps of the sliding joints.
-fn check_position(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
+pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
     let mut faults = Faults::default();
     for joint in &mechanism.joints {
         let JointKind::Slider(slider) = &joint.kind else { continue };

@@ -5,8 +5,10 @@
 //! reference drawing to the wanted state in small steps so that the assembly branch of the drawing is kept.
 
 mod assembly;
+mod clearance;
 mod joint_equations;
 mod mobility;
+mod near;
 
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
@@ -84,6 +86,28 @@ impl Configuration {
     /// assembled, an overlap that has vanished, travel limits that are exceeded.
     pub fn new(mechanism: &Mechanism) -> Result<Self, Faults> {
         assembly::assemble(mechanism)
+    }
+
+    /// The state that the model's coordinate values and rates describe, from earlier ones nearby: the last one first. It is
+    /// [`Self::new`] in fewer steps, for sweeps; three evenly spaced states are extrapolated.
+    ///
+    /// None where it is not certain that the state is regular and near enough: then [`Self::new`] has to tell.
+    ///
+    /// ```
+    /// use slideway::configuration::Configuration;
+    /// use slideway::mechanism::Mechanism;
+    /// use slideway::model::{Model, Settings};
+    /// let text = slideway::gallery::find("slider-crank").expect("in the gallery").text;
+    /// let model = Model::parse(text)?;
+    /// let here = Configuration::new(&Mechanism::new(&model)?)?;
+    /// let moved = Mechanism::new(&model.with(&Settings::default().position("phi", "61 deg"))?)?;
+    /// let near = Configuration::near(&moved, &[here]).expect("a small step");
+    /// let direct = Configuration::new(&moved)?;
+    /// assert!((near.poses[1].angle - direct.poses[1].angle).abs() < 1e-14);
+    /// # Ok::<(), slideway::fault::Faults>(())
+    /// ```
+    pub fn near(mechanism: &Mechanism, earlier: &[Self]) -> Option<Self> {
+        near::near(mechanism, earlier)
     }
 
     /// The reference drawing itself, at rest; its joints need not be closed.

@@ -125,7 +125,8 @@ fn series(mechanism: &Mechanism, quantity: Quantity) -> Result<Vec<Series>, Faul
             })
             .collect(),
         Quantity::Effort if mechanism.drives.is_empty() => {
-            return Err(Fault::general(FaultKind::NoDrives).into());
+            let coordinate = mechanism.coordinates.first().map(|coordinate| coordinate.name.to_string());
+            return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
         }
         Quantity::Effort => mechanism
             .drives

@@ -23,6 +23,8 @@ mod text;
 mod varied;
 
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, limits_with_curves};
+pub(crate) use report::Naming;
+pub(crate) use report::guarantee;
 pub use report::{
     CountLimits, Direction, EndReaction, LimitsReport, ModeLimits, SCHEMA, VariedQuantity, to_json,
 };
@@ -34,7 +36,6 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes, counts};
 use crate::solve::{Parts, Stages};
-use report::Naming;
 use scan::{STEPS, Scanner};
 
 /// The most patterns whose limits are computed.
@@ -65,10 +66,10 @@ impl LimitsOptions {
 }
 
 /// The modes of one direction of motion.
-struct Found {
-    existence: Existence,
+pub(crate) struct Found {
+    pub(crate) existence: Existence,
     counts: Vec<CountInterval>,
-    gaps: Vec<[f64; 2]>,
+    pub(crate) gaps: Vec<[f64; 2]>,
     is_linear: bool,
 }
 
@@ -125,6 +126,9 @@ impl Analysis {
 }
 
 /// The range that is written as FROM..TO.
+///
+/// # Errors
+/// A text that is no range, or a range that is reversed or empty.
 pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
     let what = varied.in_words();
     let Some((from, to)) = text.split_once("..") else {
@@ -152,6 +156,9 @@ fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
 }
 
 /// The model with all rates reversed.
+///
+/// # Errors
+/// A model that cannot be assembled in its state.
 pub(crate) fn backwards(model: &Model) -> Result<Model, Faults> {
     let stages = Stages::new(model)?;
     let rates = stages.mechanism.coordinates.iter().zip(&stages.configuration.rates);
@@ -161,7 +168,11 @@ pub(crate) fn backwards(model: &Model) -> Result<Model, Faults> {
     model.with(&settings)
 }
 
-fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
+/// Where modes exist in a range.
+///
+/// # Errors
+/// Too many modes; a fault if nothing varies.
+pub(crate) fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
     let existence_options = ExistenceOptions {
         range: [0.0, 1.0],
         greatest_normal_force: options.max_reaction,
@@ -187,7 +198,10 @@ fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Fou
 }
 
 /// The mode problems at both ends of the range, if all in between lie on their line.
-fn linear(varied: &Varied, range: [f64; 2]) -> Result<Option<[Parts; 2]>, Faults> {
+///
+/// # Errors
+/// A fault if nothing varies between them.
+pub(crate) fn linear(varied: &Varied, range: [f64; 2]) -> Result<Option<[Parts; 2]>, Faults> {
     let at = |t: f64| varied.parts(range[0] + t * (range[1] - range[0]));
     let (Ok(start), Ok(end)) = (at(0.0), at(1.0)) else { return Ok(None) };
     let mut is_linear = true;

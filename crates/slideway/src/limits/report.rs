@@ -131,7 +131,7 @@ pub fn to_json(report: &LimitsReport) -> String {
 }
 
 /// The names of a mechanism's parts, and how its guides lie.
-pub(super) struct Naming {
+pub(crate) struct Naming {
     pub(super) mechanism: Mechanism,
     configuration: Configuration,
 }
@@ -139,7 +139,7 @@ pub(super) struct Naming {
 impl Naming {
     /// # Errors
     /// A model that cannot be assembled in its state.
-    pub(super) fn new(model: &Model) -> Result<Self, Faults> {
+    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
         let mechanism = Mechanism::new(model)?;
         let configuration = Configuration::new(&mechanism)?;
         Ok(Self { mechanism, configuration })
@@ -152,6 +152,19 @@ impl Naming {
             JointMode { name: name.to_owned(), mode: mode_in_words(slider, tangent, &signs) }
         };
         self.sliders().map(one).collect()
+    }
+
+    /// The contact modes of all joints in a pattern, in words.
+    pub(crate) fn in_words(&self, pattern: &str) -> String {
+        let sign = |sign: char| match sign {
+            '+' => 1,
+            '-' => -1,
+            _ => 0,
+        };
+        let signs: Vec<i8> = pattern.chars().map(sign).collect();
+        let words =
+            self.joint_modes(&signs).into_iter().map(|joint| format!("{} {}", joint.name, joint.mode));
+        words.collect::<Vec<_>>().join("; ")
     }
 
     fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
@@ -233,23 +246,7 @@ pub(super) fn report(
     let reversed = reversed.map(|found| naming.direction(found));
     let conclusion = conclusion(&varied.name, &forwards, reversed.as_ref());
     let value = varied.present().unwrap_or_default();
-    let mut guarantee = if found.is_linear {
-        "The mode problem depends linearly on it: all ends are zeros of determinants, and none is missed."
-            .to_owned()
-    } else {
-        let step = (range[1] - range[0]) / STEPS as f64;
-        format!(
-            "{} evenly spaced values were tried, and what changes between them was bisected to machine precision: a mode that comes and goes within a step of {step:.3e} may be missed.",
-            STEPS + 1
-        )
-    };
-    let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
-    if left_out > 0 {
-        let left_out = format!(
-            " {left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
-        );
-        guarantee.push_str(&left_out);
-    }
+    let guarantee = guarantee(found, range);
     LimitsReport {
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
@@ -268,6 +265,28 @@ pub(super) fn report(
         reversed,
         conclusion,
     }
+}
+
+/// What the method can miss, in words.
+pub(crate) fn guarantee(found: &Found, range: [f64; 2]) -> String {
+    let mut guarantee = if found.is_linear {
+        "The mode problem depends linearly on it: all ends are zeros of determinants, and none is missed."
+            .to_owned()
+    } else {
+        let step = (range[1] - range[0]) / STEPS as f64;
+        format!(
+            "{} evenly spaced values were tried, and what changes between them was bisected to machine precision: a mode that comes and goes within a step of {step:.3e} may be missed.",
+            STEPS + 1
+        )
+    };
+    let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
+    if left_out > 0 {
+        let left_out = format!(
+            " {left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
+        );
+        guarantee.push_str(&left_out);
+    }
+    guarantee
 }
 
 fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {

@@ -3,6 +3,7 @@
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Setting, SettingKind, Settings};
+use crate::modes::existence::ModeProblemLine;
 use crate::solve::{Parts, Stages};
 
 /// The name under which all coefficients of friction are scaled together.
@@ -150,10 +151,40 @@ impl Varied {
     /// # Errors
     /// Whatever `solve` refuses there.
     pub(crate) fn parts(&self, value: f64) -> Result<Parts, Faults> {
+        self.at(value, Stages::parts)
+    }
+
+    /// What is asked of the stages at a value, and of the factor of friction.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there, and those of the question.
+    pub(crate) fn at<R>(
+        &self,
+        value: f64,
+        question: impl Fn(&Stages, f64) -> Result<R, Faults>,
+    ) -> Result<R, Faults> {
         match &self.stages {
-            Some(stages) => stages.parts(value),
-            None => Stages::new(&self.model_at(value)?.0)?.parts(1.0),
+            Some(stages) => question(stages, value),
+            None => question(&Stages::new(&self.model_at(value)?.0)?, 1.0),
         }
+    }
+
+    /// The line of mode problems from no friction (`t = 0`) to the friction at a value (`t = 1`).
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn growing_friction(&self, value: f64) -> Result<ModeProblemLine, Faults> {
+        self.at(value, |stages, factor| Ok(stages.parts(0.0)?.line_to(&stages.parts(factor)?)))
+    }
+
+    /// The model in which it is varied.
+    pub(crate) fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Whether it is the value of a coordinate.
+    pub(crate) fn is_coordinate(&self) -> bool {
+        self.kind == Kind::Coordinate
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, Event, Joint, JointKind, Load,
-    LoadKind, Mechanism, Quantity, Slider, length, rot90,
+    LoadKind, Mechanism, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -106,6 +106,17 @@ impl<T: Real> Evaluation<'_, T> {
             moment_of_inertia,
             centre_of_mass,
             points,
+            shape: self.shape(&body.inertia),
+        }
+    }
+
+    fn shape(&self, inertia: &Inertia) -> Option<Shape<T>> {
+        let Inertia::Massive { moment, .. } = inertia else { return None };
+        match moment {
+            Moment::Given(_) => None,
+            Moment::Bar(ends) => Some(Shape::Bar(ends.map(|end| self.vector(end)))),
+            Moment::Rectangle(sides) => Some(Shape::Rectangle(sides.map(|side| self.value(side)))),
+            Moment::Disc(radius) => Some(Shape::Disc(self.value(*radius))),
         }
     }
 

@@ -61,6 +61,19 @@ pub struct Body<T = f64> {
     pub centre_of_mass: Vector2<T>,
     /// Its named points in the drawing.
     pub points: Vec<(Arc<str>, Vector2<T>)>,
+    /// Its shape in the drawing, if the model gives one.
+    pub shape: Option<Shape<T>>,
+}
+
+/// Shape of a homogeneous body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape<T = f64> {
+    /// A thin bar between two places of the drawing.
+    Bar([Vector2<T>; 2]),
+    /// A rectangle about the centre of mass: width and height (m).
+    Rectangle([T; 2]),
+    /// A disc of this radius (m) about the centre of mass.
+    Disc(T),
 }
 
 /// A point that moves with a frame.
@@ -320,7 +333,15 @@ impl Mechanism {
     /// # Errors
     /// Every value that is not finite or not allowed, or too large or small to compute with.
     pub fn new(model: &Model) -> Result<Self, Faults> {
-        let mut mechanism = Evaluation { model, values: model.constants()? }.mechanism();
+        Self::with_parameters(model, &[])
+    }
+
+    /// [`Self::new`] with other values of some parameters, which are given by their numbers.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn with_parameters(model: &Model, given: &[(usize, f64)]) -> Result<Self, Faults> {
+        let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
         mechanism.size = evaluation::size(&mechanism);
         mechanism.check_magnitudes()?;
         Ok(mechanism)

@@ -55,10 +55,27 @@ impl Model {
     /// # Errors
     /// A fault for each value that is not finite or not allowed.
     pub fn constants(&self) -> Result<Vec<f64>, Faults> {
+        self.constants_with(&[])
+    }
+
+    /// [`Self::constants`] with other values of some parameters.
+    ///
+    /// # Errors
+    /// As [`Self::constants`].
+    pub(crate) fn constants_with(&self, given: &[(usize, f64)]) -> Result<Vec<f64>, Faults> {
         let mut faults = Faults::default();
-        let values = self.allowed_values(&[], &mut faults);
+        let values = self.allowed_values(given, &mut faults);
         self.check_relations(&values, &mut faults);
         faults.or(values.into_iter().map(Option::unwrap_or_default).collect())
+    }
+
+    /// The parameters that are computed from some of these, in an order in which each uses only those before it.
+    pub(crate) fn following(&self, parameters: &[usize]) -> Vec<usize> {
+        let follows = |index: &usize| {
+            let own = parameters.contains(index);
+            !own && parameters.iter().any(|&wanted| self.uses(self.parameters[*index].value, wanted))
+        };
+        self.evaluation_order.iter().copied().filter(follows).collect()
     }
 
     /// Intervals that hold the exact values of all formulas that do not depend on the motion, 0 for the others;
@@ -97,7 +114,7 @@ impl Model {
     }
 
     /// Whether a formula uses a parameter, by way of others if need be; there are no circles.
-    fn uses(&self, formula: FormulaId, wanted: usize) -> bool {
+    pub(crate) fn uses(&self, formula: FormulaId, wanted: usize) -> bool {
         self.used_parameters(formula)
             .any(|used| used == wanted || self.uses(self.parameters[used].value, wanted))
     }

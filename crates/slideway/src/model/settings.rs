@@ -164,23 +164,21 @@ impl Model {
         Ok(())
     }
 
-    /// The value that a parameter, a coordinate or a time would have by a setting (SI units), whether or not the model makes sense
+    /// The value that a parameter, coordinate, rate or the time would have by a setting (SI units), whether or not the model makes sense
     /// with it.
     ///
     /// # Errors
     /// An expression that cannot be read or has no value, or one of another dimension than it has now.
     pub fn setting_value(&self, setting: &Setting) -> Result<f64, Faults> {
         let (parameters, coordinates) = (&self.parameters, &self.coordinates);
-        let wanted = match setting.kind {
-            SettingKind::Parameter => {
-                let index = parameters.iter().position(|parameter| *parameter.name == *setting.name);
-                index.and_then(|index| self.parameter_dimension(index))
-            }
-            SettingKind::Time => Some(Dimension::TIME),
-            SettingKind::Position | SettingKind::Rate => {
-                let coordinate = coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
-                coordinate.map(|found| dimension_of(found, setting.kind == SettingKind::Position))
-            }
+        let wanted = if setting.kind == SettingKind::Parameter {
+            let index = parameters.iter().position(|parameter| *parameter.name == *setting.name);
+            index.and_then(|index| self.parameter_dimension(index))
+        } else if setting.kind == SettingKind::Time {
+            Some(Dimension::TIME)
+        } else {
+            let coordinate = coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
+            coordinate.map(|found| dimension_of(found, setting.kind == SettingKind::Position))
         };
         let formula = self.setting_formula(setting, Source::Setting(0), wanted)?;
         let mut faults = Faults::default();

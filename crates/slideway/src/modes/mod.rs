@@ -51,6 +51,7 @@ mod findings;
 mod found;
 mod problem;
 mod scaling;
+pub(crate) mod screen;
 mod search;
 mod solutions;
 mod uniqueness;

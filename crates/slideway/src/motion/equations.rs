@@ -112,7 +112,7 @@ pub(super) struct Equations<'m> {
 impl<'m> Equations<'m> {
     /// The equations of a mechanism, not yet in a phase.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
-        let layout = Layout::new(mechanism);
+        let layout = Layout::of(mechanism);
         let contacts = (0..mechanism.contacts.len()).map(ContactId);
         let normal = contacts.clone().filter_map(|contact| layout.reaction(Reaction::Normal(contact)));
         Self {

@@ -87,7 +87,7 @@ impl Attainability {
     }
 
     /// The verdict as a sentence.
-    pub(super) fn in_words(&self) -> String {
+    pub fn in_words(&self) -> String {
         let reason = self.reason.as_deref().unwrap_or("no reason given");
         let mut words = match self.verdict {
             Verdict::Attainable => {

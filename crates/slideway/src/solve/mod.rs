@@ -19,6 +19,7 @@
 
 mod answer;
 mod attainability;
+mod careful;
 mod continuum;
 mod distinct;
 mod equilibrium;
@@ -31,9 +32,10 @@ mod state;
 mod uncertainty;
 mod words;
 
+pub(crate) use careful::careful_report;
 pub(crate) use friction::friction;
 pub use mode_problem::mode_problem;
-pub(crate) use mode_problem::{check_size, velocity_signs};
+pub(crate) use mode_problem::{check_size, preload_columns, sides, sliding_signs, velocity_signs};
 pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};
 pub use words::mode_in_words;

@@ -21,16 +21,9 @@ pub(crate) fn velocity_signs(
     mechanism: &Mechanism,
     configuration: &Configuration,
 ) -> Result<DVector<f64>, Faults> {
-    let contacts = (0..mechanism.contacts.len()).map(ContactId);
-    let sliding: Vec<f64> =
-        contacts.map(|contact| configuration.contact(mechanism, contact).sliding_velocity).collect();
-    let speeds =
-        configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * mechanism.size));
-    let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
-    let at_rest = |velocity: f64| velocity.abs() <= AT_REST * greatest;
-    let undefined: Vec<usize> = (0..sliding.len())
-        .filter(|&k| at_rest(sliding[k]) && !mechanism.contacts[k].is_frictionless())
-        .collect();
+    let signs = sliding_signs(mechanism, configuration);
+    let undefined: Vec<usize> =
+        (0..signs.len()).filter(|&k| signs[k] == 0.0 && !mechanism.contacts[k].is_frictionless()).collect();
     if let Some(&first) = undefined.first() {
         let contacts = undefined.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
         let joint = mechanism.contacts[first].joint;
@@ -41,8 +34,20 @@ pub(crate) fn velocity_signs(
         let kind = FaultKind::ZeroSlidingVelocity { contacts, coordinates, at_rest };
         return Err(Fault::new(kind, place).into());
     }
+    Ok(signs)
+}
+
+/// The signs of the sliding velocities, 0 where they vanish within rounding.
+pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration) -> DVector<f64> {
+    let contacts = (0..mechanism.contacts.len()).map(ContactId);
+    let sliding: Vec<f64> =
+        contacts.map(|contact| configuration.contact(mechanism, contact).sliding_velocity).collect();
+    let speeds =
+        configuration.velocities.iter().map(|v| v.linear.norm().max(v.angular.abs() * mechanism.size));
+    let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
+    let at_rest = |velocity: f64| velocity.abs() <= AT_REST * greatest;
     let sign = |velocity: &f64| if at_rest(*velocity) { 0.0 } else { velocity.signum() };
-    Ok(DVector::from_iterator(sliding.len(), sliding.iter().map(sign)))
+    DVector::from_iterator(sliding.len(), sliding.iter().map(sign))
 }
 
 /// The mode problem of a mechanism, eqs. (6) and (8): its unknowns are the |N_k|.
@@ -73,7 +78,7 @@ pub fn mode_problem(
 
 /// Both versions of eta, without the rounding that would stand where friction has no influence; equal where the theory says so, which rounding would hide: for guided sliders, whose
 /// couple takes up the moment of friction, and wherever the moment of friction has no influence.
-fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
+pub(crate) fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
     let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
     let positive = influence.eta(0).map(without_rounding);
     let mut negative = influence.eta(1).map(without_rounding);
@@ -88,7 +93,7 @@ fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
 }
 
 /// The columns of the preload's friction: at the pressed face, or in the middle between both.
-fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
+pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
     let mut preload = eta.clone();
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         if contact.preload_line == PreloadLine::Centre {

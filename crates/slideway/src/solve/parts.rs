@@ -3,17 +3,19 @@
 use super::mode_problem::{check_size, mode_problem, velocity_signs};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::JointId;
+use crate::ids::{DriveId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{JointKind, Mechanism};
 use crate::model::{Model, PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
-use crate::modes::{BySide, ModeProblem, Side};
+use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Numbers that differ by less than this share of the largest are the same.
 const SAME: f64 = 1e-10;
+/// A couple may exceed |N| L / 2 by this multiple of its terms before the slider counts as tipping.
+const COUPLE_TOLERANCE: f64 = 1e-9;
 
 /// Columns, jumps and right-hand side of eq. (6); below them those of the couples of guided sliders.
 #[derive(Debug, Clone)]
@@ -53,6 +55,28 @@ impl Stages {
     pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
         Parts::scaled(&self.mechanism, &self.influence, &self.velocity_signs, &|_| friction)
     }
+
+    /// The same with the efforts of the drives as further outputs, behind the couples.
+    ///
+    /// # Errors
+    /// As [`Stages::parts`].
+    pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
+        let mechanism = rougher(&self.mechanism, &|_| friction);
+        let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
+        let drives = 0..mechanism.drives.len();
+        let efforts: Vec<usize> =
+            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
+        Ok(Parts::new((&mechanism, &self.influence, &self.velocity_signs), &problem, &efforts))
+    }
+}
+
+/// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
+fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
+    let mut mechanism = mechanism.clone();
+    for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
+        contact.mu = contact.mu.map(|mu| mu * factor(k));
+    }
+    mechanism
 }
 
 impl Parts {
@@ -66,26 +90,24 @@ impl Parts {
         velocity_signs: &DVector<f64>,
         factor: &dyn Fn(usize) -> f64,
     ) -> Result<Self, Faults> {
-        let mut mechanism = mechanism.clone();
-        for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
-            contact.mu = contact.mu.map(|mu| mu * factor(k));
-        }
+        let mechanism = rougher(mechanism, factor);
         let problem = mode_problem(&mechanism, influence, velocity_signs)?;
-        Ok(Self::new(&mechanism, influence, velocity_signs, &problem))
+        Ok(Self::new((&mechanism, influence, velocity_signs), &problem, &[]))
     }
 
+    /// The numbers of a mode problem, with the couples and then these unknowns as outputs.
     fn new(
-        mechanism: &Mechanism,
-        influence: &Influence,
-        velocity_signs: &DVector<f64>,
+        (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
         problem: &ModeProblem,
+        others: &[usize],
     ) -> Self {
         let contacts = problem.contacts();
         let couples = couples(mechanism, influence);
-        let rows = contacts + couples.len();
+        let outputs: Vec<usize> = couples.iter().map(|(_, row)| *row).chain(others.iter().copied()).collect();
+        let rows = contacts + outputs.len();
         let extended = |upper: &DMatrix<f64>, below: &dyn Fn(usize, usize) -> f64| {
             DMatrix::from_fn(rows, contacts, |row, k| {
-                if row < contacts { upper[(row, k)] } else { below(couples[row - contacts].1, k) }
+                if row < contacts { upper[(row, k)] } else { below(outputs[row - contacts], k) }
             })
         };
         // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
@@ -112,7 +134,7 @@ impl Parts {
             if row < contacts {
                 problem.right_hand_side()[row]
             } else {
-                influence.frictionless[couples[row - contacts].1]
+                influence.frictionless[outputs[row - contacts]]
             }
         });
         Self {
@@ -146,19 +168,107 @@ impl Parts {
 
     /// Whether these numbers are those at `t` on the line from `start` to `end`.
     pub(crate) fn is_between(&self, start: &Self, end: &Self, t: f64) -> bool {
+        self.is_mixture(&[(1.0 - t, start), (t, end)])
+    }
+
+    /// Whether these numbers are sums of others with these weights.
+    pub(crate) fn is_mixture(&self, weighted: &[(f64, &Self)]) -> bool {
+        let largest =
+            |size: fn(&Self) -> f64| weighted.iter().map(|(_, parts)| size(parts)).fold(0.0, f64::max);
         let matrix = |part: fn(&Self) -> &DMatrix<f64>| {
-            let middle = part(start) * (1.0 - t) + part(end) * t;
-            (part(self) - middle).amax() <= SAME * part(start).amax().max(part(end).amax())
+            let mut rest = part(self).clone();
+            weighted.iter().for_each(|(weight, parts)| rest -= part(parts) * *weight);
+            let scale = weighted.iter().map(|(_, parts)| part(parts).amax()).fold(0.0, f64::max);
+            rest.amax() <= SAME * scale
         };
-        let load = &start.right_hand_side * (1.0 - t) + &end.right_hand_side * t;
-        let scale = start.right_hand_side.amax().max(end.right_hand_side.amax());
+        let mut load = self.right_hand_side.clone();
+        weighted.iter().for_each(|(weight, parts)| load -= &parts.right_hand_side * *weight);
         matrix(|parts| &parts.columns.positive)
             && matrix(|parts| &parts.columns.negative)
             && matrix(|parts| &parts.jumps.positive)
             && matrix(|parts| &parts.jumps.negative)
-            && (&self.right_hand_side - load).amax() <= SAME * scale
-            && self.bounds == start.bounds
-            && self.bounds == end.bounds
+            && load.amax() <= SAME * largest(|parts| parts.right_hand_side.amax())
+            && weighted.iter().all(|(_, parts)| self.bounds == parts.bounds)
+    }
+
+    /// The sum of others with these weights, of which there is at least one; none if they are not of one size.
+    pub(crate) fn mixture(weighted: &[(f64, &Self)]) -> Option<Self> {
+        let ((weight, first), others) = weighted.split_first()?;
+        let mut sum = (*first).clone();
+        let each = |matrix: fn(&mut Self) -> &mut DMatrix<f64>,
+                    other: fn(&Self) -> &DMatrix<f64>,
+                    sum: &mut Self| {
+            *matrix(sum) *= *weight;
+            others.iter().for_each(|(weight, parts)| {
+                matrix(sum).zip_apply(other(parts), |own, other| *own += weight * other);
+            });
+        };
+        if others.iter().any(|(_, parts)| parts.columns.positive.shape() != first.columns.positive.shape()) {
+            return None;
+        }
+        each(|parts| &mut parts.columns.positive, |parts| &parts.columns.positive, &mut sum);
+        each(|parts| &mut parts.columns.negative, |parts| &parts.columns.negative, &mut sum);
+        each(|parts| &mut parts.jumps.positive, |parts| &parts.jumps.positive, &mut sum);
+        each(|parts| &mut parts.jumps.negative, |parts| &parts.jumps.negative, &mut sum);
+        sum.right_hand_side *= *weight;
+        others
+            .iter()
+            .for_each(|(weight, parts)| sum.right_hand_side.axpy(*weight, &parts.right_hand_side, 1.0));
+        Some(sum)
+    }
+
+    /// The same contacts without friction that grows with their pressure: `c_k^sigma = sigma e_k`.
+    pub(crate) fn without_pressure_friction(&self) -> Self {
+        let (rows, contacts) = self.columns.positive.shape();
+        let mut parts = self.clone();
+        parts.columns.positive = DMatrix::identity(rows, contacts);
+        parts.columns.negative = -DMatrix::identity(rows, contacts);
+        parts
+    }
+
+    /// The mode problem alone, without couples.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub(crate) fn problem(&self) -> Result<ModeProblem, ModeProblemError> {
+        let contacts = self.columns.positive.ncols();
+        let upper = |matrix: &DMatrix<f64>| matrix.rows(0, contacts).into_owned();
+        ModeProblem::new(
+            upper(&self.columns.positive),
+            upper(&self.columns.negative),
+            upper(&self.jumps.positive),
+            upper(&self.jumps.negative),
+            self.right_hand_side.rows(0, contacts).into_owned(),
+        )
+    }
+
+    /// Whether a guided slider would tip in a state: |C| > |N| L / 2 (theory, section 1); `shares` are those of contacts in
+    /// their gaps.
+    pub(crate) fn tips(
+        &self,
+        pattern: &[ContactState],
+        normal_force: &DVector<f64>,
+        shares: &[Option<f64>],
+    ) -> bool {
+        let contacts = pattern.len();
+        self.bounds.iter().any(|bound| {
+            let row = contacts + bound.output;
+            let of_contact = |k: usize| {
+                let positive = match pattern[k] {
+                    ContactState::Positive => 1.0,
+                    ContactState::Negative => 0.0,
+                    ContactState::Gap => shares[k].unwrap_or(0.5),
+                };
+                let both = |by_side: &BySide<DMatrix<f64>>| {
+                    positive * by_side.positive[(row, k)] + (1.0 - positive) * by_side.negative[(row, k)]
+                };
+                both(&self.jumps) - both(&self.columns) * normal_force[k].abs()
+            };
+            let terms: Vec<f64> = (0..contacts).map(of_contact).collect();
+            let couple = self.right_hand_side[row] + terms.iter().sum::<f64>();
+            let size = self.right_hand_side[row].abs() + terms.iter().map(|term| term.abs()).sum::<f64>();
+            couple.abs() > normal_force[bound.contact].abs() * bound.factor + COUPLE_TOLERANCE * size
+        })
     }
 
     /// Whether these are the same numbers.

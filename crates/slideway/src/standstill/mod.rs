@@ -120,6 +120,19 @@ pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> 
     })
 }
 
+/// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no factor
+/// suffices. Beside it the number of patterns that could not be decided.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn self_locking_factor(model: &Model, load: &str) -> Result<(Option<f64>, usize), Faults> {
+    let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
+    let setup = Setup::new(model, &options)?;
+    check_states(&setup)?;
+    let threshold = threshold::threshold(model, &options, &setup)?;
+    Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
+}
+
 /// The report as indented JSON, ending in a line end.
 pub fn to_json(report: &HoldReport) -> String {
     crate::report::indented_json(report)

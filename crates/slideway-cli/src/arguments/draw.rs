@@ -1,0 +1,60 @@
+//! `slideway draw`
+
+use super::values::positive;
+use super::{Destination, ModelArguments, PictureTheme};
+use clap::Args;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway draw klepp-2002.toml --output klepp.svg
+  slideway draw klepp-2002.toml --solution 2 --output second.png --width 1200
+  slideway draw slider-crank.toml --at phi=\"150 deg\" --solution none --output crank.svg
+  slideway draw drawer.toml --theme dark --output drawer.png
+
+Exit codes:
+  0  done
+  2  faulty input: the model, the settings, the files or the arguments";
+
+/// Arguments of `slideway draw`.
+#[derive(Debug, Args)]
+pub(crate) struct DrawArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Which solutions: a number, `all` beside the mechanism, or `none` for the mechanism alone. Default: all there are.
+    #[arg(long, value_name = "N|all|none", value_parser = which)]
+    pub(crate) solution: Option<Which>,
+
+    /// Colours of the picture.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) theme: PictureTheme,
+
+    /// Width of the picture in pixels. By default letters are 15 pixels high, 30 in PNG.
+    #[arg(long, value_name = "PIXELS", value_parser = positive)]
+    pub(crate) width: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+/// Which solutions are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Which {
+    /// All.
+    All,
+    /// None.
+    None,
+    /// The one of this number.
+    Number(usize),
+}
+
+fn which(text: &str) -> Result<Which, String> {
+    match text {
+        "all" => Ok(Which::All),
+        "none" => Ok(Which::None),
+        number => match number.parse() {
+            Ok(number) if number > 0 => Ok(Which::Number(number)),
+            _ => Err("it must be the number of a solution, counted from 1, or `all` or `none`".to_owned()),
+        },
+    }
+}

@@ -1,0 +1,49 @@
+//! `slideway drive`
+
+use super::{CheckFormat, Destination, ModelArguments};
+use clap::Args;
+use slideway::drive::GREATEST_ROWS;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway drive drawer.toml                            the push that it needs, and its efficiency
+  slideway drive drawer.toml --vary mu                  the push over friction
+  slideway drive drawer.toml --vary L=\"0.2 m..0.5 m\" --rows 21
+  slideway drive screw.toml --vary friction=0..3
+
+The efficiency is the power without friction over the power with friction, at the same motion; where the load pushes and
+the drives brake it is the inverse. Without a range the same is varied as by `slideway size`.
+
+Exit codes:
+  0  done
+  1  no effort moves it as in the model: friction locks it
+  2  faulty input: the model has no drives, the settings, the name or the range, the arguments";
+
+/// Arguments of `slideway drive`.
+#[derive(Debug, Args)]
+pub(crate) struct DriveArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Tabulate the efforts over a parameter, a coordinate, or `friction`, the factor of all coefficients of friction.
+    #[arg(long, value_name = "NAME[=FROM..TO]")]
+    pub(crate) vary: Option<String>,
+
+    /// Evenly spaced rows of the table.
+    #[arg(long, value_name = "N", default_value_t = 11, value_parser = rows, requires = "vary")]
+    pub(crate) rows: usize,
+
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+fn rows(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(rows) if (2..=GREATEST_ROWS).contains(&rows) => Ok(rows),
+        _ => Err(format!("it must be a whole number from 2 to {GREATEST_ROWS}")),
+    }
+}

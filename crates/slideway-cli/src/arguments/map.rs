@@ -1,0 +1,92 @@
+//! `slideway map`
+
+use super::{ModelArguments, PictureTheme};
+use clap::{Args, ValueEnum};
+use slideway::map::{ColourBy, GREATEST_SIZE};
+use std::path::PathBuf;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway map klepp-2002.toml --x mu_1=0..0.8 --y mu_2=0..0.4 --set F_20=0 --output map.svg
+  slideway map klepp-2002.toml --x mu_1=0..0.8 --y alpha=\"60 deg..88 deg\" --colour-by modes --output modes.svg
+  slideway map drawer.toml --x mu=0..1 --y L=\"200 mm..500 mm\" --colour-by margin --output drawer.png
+  slideway map slider-crank.toml --x phi=\"-180 deg..180 deg\" --y mu=0..1 --colour-by jam --output crank.json
+
+Exit codes:
+  0  done
+  2  faulty input: the model, the settings, the names or the ranges, the arguments";
+
+/// Arguments of `slideway map`.
+#[derive(Debug, Args)]
+pub(crate) struct MapArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// From left to right: a parameter, a coordinate, or `friction` for the factor of all coefficients of friction.
+    #[arg(long, value_name = "NAME=FROM..TO")]
+    pub(crate) x: String,
+
+    /// From bottom to top, likewise.
+    #[arg(long, value_name = "NAME=FROM..TO")]
+    pub(crate) y: String,
+
+    /// What the colours tell.
+    #[arg(long, value_enum, default_value_t, alias = "color-by")]
+    pub(crate) colour_by: MapColours,
+
+    /// Pixels from left to right and from bottom to top.
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "400x400", value_parser = size)]
+    pub(crate) size: [usize; 2],
+
+    /// Pixels between probes: narrower regions may be missed; 1 solves every pixel.
+    #[arg(long, value_name = "PIXELS", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) probe: u16,
+
+    /// Colours of the picture.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) theme: PictureTheme,
+
+    /// The file; its ending says in which format (.svg, .png or .json).
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+
+    /// Overwrite the output file if it exists.
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// What the colours of a map tell.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MapColours {
+    /// The number of solutions.
+    #[default]
+    Solutions,
+    /// The set of contact modes that have a solution.
+    Modes,
+    /// The factor by which all friction may grow before there are no or several solutions.
+    Margin,
+    /// Whether it can move as in the model, and the other way.
+    Jam,
+}
+
+impl From<MapColours> for ColourBy {
+    fn from(colours: MapColours) -> Self {
+        match colours {
+            MapColours::Solutions => Self::Solutions,
+            MapColours::Modes => Self::Modes,
+            MapColours::Margin => Self::Margin,
+            MapColours::Jam => Self::Jam,
+        }
+    }
+}
+
+/// A size such as 400x300.
+fn size(text: &str) -> Result<[usize; 2], String> {
+    let wanted = || format!("it must be WIDTHxHEIGHT, each from 1 to {GREATEST_SIZE}, such as 400x300");
+    let (width, height) = text.split_once('x').ok_or_else(wanted)?;
+    let side = |text: &str| match text.trim().parse::<usize>() {
+        Ok(side) if (1..=GREATEST_SIZE).contains(&side) => Ok(side),
+        _ => Err(wanted()),
+    };
+    Ok([side(width)?, side(height)?])
+}

@@ -1,0 +1,118 @@
+//! `slideway sweep`
+
+use super::{Destination, ModelArguments};
+use clap::{Args, ValueEnum};
+use slideway::sweep::{Sampling, Spread, SweepOptions};
+
+pub(super) const HELP: &str = "\
+What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for the factor of all
+coefficients of friction, or `time`. Values:
+  mu=0..0.8:801            801 evenly spaced values, both ends included
+  mu=0.01..1:50:log        evenly spaced logarithms
+  mu=0.1,0.2,0.5           as they are listed
+and with --samples:
+  mu=0.1..0.5              uniform
+  mu=\"uniform(0.1, 0.5)\"
+  mu=\"normal(0.3, 0.05)\"   mean and standard deviation
+  mu=\"lognormal(0.3, 0.2)\" median, and standard deviation of the logarithm
+Distributions of friction are cut off at zero.
+
+Examples:
+  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:801 --output klepp.csv
+  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:81 --vary mu_2=0..0.4:41 --output klepp.npz
+  slideway sweep slider-crank.toml --vary phi=\"-80 deg..80 deg:801\" --output crank.csv
+  slideway sweep drawer.toml --vary mu=\"normal(0.6, 0.05)\" --samples 100000 --output drawer.npz
+
+Exit codes:
+  0    done
+  2    faulty input: the model, the settings, the axes, the files or the arguments
+  130  interrupted: what is done is kept, --resume goes on";
+
+/// Arguments of `slideway sweep`.
+#[derive(Debug, Args)]
+pub(crate) struct SweepArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// What to vary, and its values; may be given several times, the last one varying fastest.
+    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    vary: Vec<String>,
+
+    /// Draw so many samples instead of a grid.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    samples: Option<u64>,
+
+    /// How samples are spread.
+    #[arg(long, value_enum, default_value_t, requires = "samples")]
+    sampling: SamplingKind,
+
+    /// Another seed gives other samples, the same one the same.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "samples")]
+    seed: u64,
+
+    /// Do not insert the exact ends of modes into a sweep over one quantity.
+    #[arg(long)]
+    no_breakpoints: bool,
+
+    /// Tell of each solution whether a mechanism with slightly elastic guides settles on it.
+    #[arg(long)]
+    pub(crate) attainability: bool,
+
+    /// Tell accelerations of bodies and hinge forces, too.
+    #[arg(long)]
+    all_columns: bool,
+
+    /// Go on with a sweep that was interrupted.
+    #[arg(long, requires = "output")]
+    pub(crate) resume: bool,
+
+    /// Form of the table; without it the ending of the output file tells (.csv, .npz, .parquet), else CSV.
+    #[arg(long, value_enum)]
+    pub(crate) format: Option<TableFormat>,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}
+
+impl SweepArguments {
+    /// What the library is asked for.
+    pub(crate) fn options(&self) -> SweepOptions {
+        let spread = match self.sampling {
+            SamplingKind::Random => Spread::Random,
+            SamplingKind::Halton => Spread::Halton,
+        };
+        SweepOptions {
+            vary: self.vary.clone(),
+            samples: self.samples.map(|count| Sampling { count, spread, seed: self.seed }),
+            without_breakpoints: self.no_breakpoints,
+            attainability: self.attainability,
+            all_columns: self.all_columns,
+        }
+    }
+
+    /// Whether samples are drawn.
+    pub(crate) fn draws(&self) -> bool {
+        self.samples.is_some()
+    }
+}
+
+/// How samples are spread.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum SamplingKind {
+    /// Independent of one another.
+    #[default]
+    Random,
+    /// The sequence of Halton, shifted at random: more even, so that shares converge faster.
+    Halton,
+}
+
+/// Form of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    /// Comma-separated values, with comment lines at the top.
+    Csv,
+    /// A NumPy archive.
+    Npz,
+    /// Apache Parquet.
+    Parquet,
+}

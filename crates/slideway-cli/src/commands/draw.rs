@@ -1,0 +1,63 @@
+//! `slideway draw`
+
+use crate::Outcome;
+use crate::arguments::{DrawArguments, PictureTheme, Which};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use crate::picture::{Picture, SHARPNESS};
+use slideway::configuration::Configuration;
+use slideway::fault::Faults;
+use slideway::mechanism::Mechanism;
+use slideway::model::Model;
+use slideway::report::Report;
+use slideway::solve::solve;
+use slideway_pictures::drawing::svg::{self, Colours, Frame};
+use slideway_pictures::drawing::{Sheet, Shown, sheet};
+
+/// Draws a mechanism and its solutions.
+pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
+    let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
+    let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
+    let report = solutions(&model, arguments.solution).map_err(|faults| input.refused(faults))?;
+    let shown = match arguments.solution {
+        None | Some(Which::All) => Shown::All,
+        Some(Which::None) => Shown::Mechanism,
+        Some(Which::Number(number)) => Shown::Solution(number),
+    };
+    let Some(sheet) = sheet(&mechanism, &configuration, report.as_ref(), shown) else {
+        let count = report.map_or(0, |report| report.solutions.len());
+        return Err(Failure::NoSuchSolution { count });
+    };
+    let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
+    let width = arguments.width.filter(|_| picture == Picture::Svg);
+    picture.write(&written(&sheet, arguments.theme, width), sharpness, &output)?;
+    Ok(Outcome::Done)
+}
+
+/// All solutions, if they are wanted. Where only the kinetic problem makes no sense (a mechanism at rest, a motion
+/// without inertia) the mechanism can be drawn all the same, unless solutions are asked for.
+fn solutions(model: &Model, which: Option<Which>) -> Result<Option<Report>, Faults> {
+    match which {
+        Some(Which::None) => Ok(None),
+        None => Ok(solve(model).ok()),
+        Some(_) => solve(model).map(Some),
+    }
+}
+
+fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> String {
+    let frame = Frame {
+        bounds: sheet.bounds,
+        title: &sheet.title,
+        description: &sheet.description,
+        width,
+        colours: Colours::Theme(*theme.colours()),
+    };
+    svg::write(&sheet.scene, &frame)
+}

@@ -1,0 +1,24 @@
+//! `slideway drive`
+
+use crate::Outcome;
+use crate::arguments::{CheckFormat, DriveArguments};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use slideway::drive::{self, DriveOptions};
+
+/// Says which efforts the drives need.
+pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let options = DriveOptions { vary: arguments.vary.clone(), rows: arguments.rows };
+    let report = drive::drive(&model, &options).map_err(|faults| input.refused(faults))?;
+    output.write(&match arguments.format {
+        CheckFormat::Text => drive::to_text(&report, output.style()),
+        CheckFormat::Json => drive::to_json(&report),
+    })?;
+    let moves = report.directions.first().is_some_and(|direction| !direction.solutions.is_empty());
+    Ok(if moves { Outcome::Done } else { Outcome::NoSolution })
+}

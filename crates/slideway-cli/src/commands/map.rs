@@ -1,0 +1,50 @@
+//! `slideway map`
+
+use crate::Outcome;
+use crate::arguments::{Destination, MapArguments};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::{Output, ProgressLine};
+use crate::picture::{Picture, SHARPNESS};
+use slideway::map::{MapOptions, MapProgress, map_with, to_json};
+use slideway_pictures::map::to_svg;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// Maps that take less time show no progress.
+const QUIET: Duration = Duration::from_secs(1);
+
+/// Maps the plane of two quantities.
+pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, Failure> {
+    let destination = Destination { output: Some(arguments.output.clone()), force: arguments.force };
+    let is_data = arguments.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    arguments.model.spare(&destination)?;
+    let picture = if is_data { None } else { Some(Picture::of(&arguments.output)?) };
+    let output = output.to(&destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let [width, height] = arguments.size;
+    let options = MapOptions {
+        x: arguments.x.clone(),
+        y: arguments.y.clone(),
+        width,
+        height,
+        colour_by: arguments.colour_by.into(),
+        probe: usize::from(arguments.probe),
+    };
+    let (start, mut line) = (Instant::now(), ProgressLine::new());
+    let mut progress = |progress: MapProgress| {
+        if start.elapsed() >= QUIET {
+            line.show(&format!("{} points, {} s", progress.points, start.elapsed().as_secs()));
+        }
+        ControlFlow::Continue(())
+    };
+    let report = map_with(&model, &options, &mut progress).map_err(|faults| input.refused(faults))?;
+    drop(line);
+    let report = report.unwrap_or_default();
+    match picture {
+        None => output.write(&to_json(&report))?,
+        Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), SHARPNESS, &output)?,
+    }
+    Ok(Outcome::Done)
+}

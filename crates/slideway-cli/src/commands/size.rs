@@ -1,0 +1,33 @@
+//! `slideway size`
+
+use crate::Outcome;
+use crate::arguments::{CheckFormat, SizeArguments};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use slideway::size::{self, SizeOptions};
+
+/// Finds the value of a parameter at which a margin is just met.
+pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let loads = model.loads.iter().map(|load| &load.name);
+    let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
+    let report = arguments.against(names).and_then(|against| {
+        let options = SizeOptions {
+            vary: arguments.vary.clone(),
+            margin: arguments.margin,
+            against,
+            both_directions: arguments.both_directions,
+        };
+        size::size(&model, &options)
+    });
+    let report = report.map_err(|faults| input.refused(faults))?;
+    output.write(&match arguments.format {
+        CheckFormat::Text => size::to_text(&report, output.style()),
+        CheckFormat::Json => size::to_json(&report),
+    })?;
+    Ok(if report.met.is_empty() { Outcome::NoSolution } else { Outcome::Done })
+}

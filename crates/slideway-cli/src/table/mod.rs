@@ -1,0 +1,82 @@
+//! Tables of a sweep: rows as they come, in files that can be continued.
+
+mod csv;
+mod npz;
+mod partial;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod record;
+
+pub(crate) use partial::{Continued, PartialFile};
+
+use crate::arguments::TableFormat;
+use slideway::sweep::{Rows, Sweep};
+
+/// What every table tells of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Metadata {
+    /// The command that made it.
+    pub(crate) command: String,
+    /// The text of the model.
+    pub(crate) model: String,
+}
+
+impl Metadata {
+    /// The program that made it.
+    pub(crate) fn program() -> String {
+        format!("slideway {}", env!("CARGO_PKG_VERSION"))
+    }
+}
+
+/// The columns of a table besides its numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Layout {
+    /// Names and units of the varied quantities.
+    pub(crate) varied: Vec<(String, &'static str)>,
+    /// Names and units of the numbers of a state.
+    pub(crate) numbers: Vec<(String, &'static str)>,
+    pub(crate) contacts: usize,
+    /// Whether there is a column for the attainability.
+    pub(crate) attainability: bool,
+}
+
+impl Layout {
+    /// The columns of a sweep.
+    pub(crate) fn of(sweep: &Sweep, varied: usize, attainability: bool) -> Self {
+        let columns = sweep.columns().iter().map(|column| (column.name.clone(), column.unit));
+        let mut varied_columns: Vec<_> = columns.collect();
+        let numbers = varied_columns.split_off(varied);
+        Self { varied: varied_columns, numbers, contacts: sweep.contacts().count(), attainability }
+    }
+}
+
+/// Rows as bytes, to be written one after the other.
+#[derive(Debug, Clone)]
+pub(crate) struct Encoder {
+    format: TableFormat,
+    layout: Layout,
+    metadata: Metadata,
+}
+
+impl Encoder {
+    pub(crate) fn new(format: TableFormat, layout: Layout, metadata: Metadata) -> Self {
+        Self { format, layout, metadata }
+    }
+
+    /// What stands before the rows.
+    pub(crate) fn head(&self) -> Vec<u8> {
+        match self.format {
+            TableFormat::Csv => csv::head(&self.layout, &self.metadata),
+            TableFormat::Npz => npz::head(&self.layout),
+            TableFormat::Parquet => Vec::new(),
+        }
+    }
+
+    /// Rows.
+    pub(crate) fn rows(&self, rows: &Rows) -> Vec<u8> {
+        match self.format {
+            TableFormat::Csv => csv::rows(&self.layout, rows),
+            TableFormat::Npz | TableFormat::Parquet => record::rows(&self.layout, rows),
+        }
+    }
+}

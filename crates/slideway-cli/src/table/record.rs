@@ -1,0 +1,68 @@
+//! Rows as records of a fixed size, little-endian: the elements of a NumPy array with named fields.
+
+use super::Layout;
+use slideway::sweep::Rows;
+
+/// Bytes of a word of a status, a kind, a verdict.
+pub(super) const WORD: usize = 12;
+
+/// A field of a record: its name, its type as NumPy writes it, and its bytes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Field {
+    pub(super) name: String,
+    pub(super) kind: String,
+    pub(super) size: usize,
+}
+
+/// The fields of a record in their order.
+pub(super) fn fields(layout: &Layout) -> Vec<Field> {
+    let field = |name: &str, kind: &str, size| Field { name: name.to_owned(), kind: kind.to_owned(), size };
+    let number = |(name, _): &(String, &'static str)| field(name, "<f8", 8);
+    let word = |name: &str| field(name, &format!("|S{WORD}"), WORD);
+    let mut fields = vec![field("point", "<u8", 8)];
+    fields.extend(layout.varied.iter().map(number));
+    fields.extend(["breakpoint", "status"].map(word));
+    fields.extend(["solutions", "gap_states", "rejected"].map(|name| field(name, "<u4", 4)));
+    fields.push(word("kind"));
+    fields.push(field("branch", "<u4", 4));
+    let size = layout.contacts.max(1);
+    fields.push(field("pattern", &format!("|S{size}"), size));
+    if layout.attainability {
+        fields.push(word("attainability"));
+    }
+    fields.extend(layout.numbers.iter().map(number));
+    fields
+}
+
+/// Bytes of a record.
+pub(super) fn size(layout: &Layout) -> usize {
+    fields(layout).iter().map(|field| field.size).sum()
+}
+
+/// The records of rows.
+pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
+    let mut out = Vec::with_capacity(rows.len() * size(layout));
+    let word = |out: &mut Vec<u8>, word: &[u8], size: usize| {
+        let end = out.len() + size;
+        out.extend_from_slice(&word[..word.len().min(size)]);
+        out.resize(end, 0);
+    };
+    for (row, head) in rows.heads.iter().enumerate() {
+        let (varied, numbers) = rows.numbers(row).split_at(rows.varied);
+        out.extend_from_slice(&head.point.to_le_bytes());
+        varied.iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+        word(&mut out, head.breakpoint.word().as_bytes(), WORD);
+        word(&mut out, head.status.word().as_bytes(), WORD);
+        for count in [head.solutions, head.gap_states, head.rejected] {
+            out.extend_from_slice(&count.to_le_bytes());
+        }
+        word(&mut out, head.kind.word().as_bytes(), WORD);
+        out.extend_from_slice(&head.branch.to_le_bytes());
+        word(&mut out, rows.pattern(row).trim_ascii(), layout.contacts.max(1));
+        if layout.attainability {
+            word(&mut out, head.verdict.word().as_bytes(), WORD);
+        }
+        numbers.iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+    }
+    out
+}

@@ -1,0 +1,137 @@
+//! Where labels stand: beside what they name, clear of each other.
+
+use super::scene::{ASCENT, Anchor, Bounds, Class, DESCENT, Point, Scene, Shape, Text};
+use std::f64::consts::TAU;
+
+/// A label that waits for its place.
+#[derive(Debug, Clone)]
+pub(super) struct Label {
+    pub(super) class: Class,
+    pub(super) text: String,
+    pub(super) size: f64,
+    /// What it names.
+    pub(super) anchor: Point,
+    /// Unit direction from there in which it would best stand.
+    pub(super) towards: Point,
+}
+
+/// Directions that are tried.
+const DIRECTIONS: usize = 16;
+/// Distances from the anchor that are tried.
+const DISTANCES: [f64; 14] =
+    [5.0, 11.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0, 100.0, 125.0, 155.0, 190.0, 235.0, 290.0];
+/// Beyond this distance a line leads to the anchor.
+const LEADER: f64 = 30.0;
+/// Free space around a label.
+const MARGIN: f64 = 2.0;
+/// Distance of the places of a line that labels keep clear of.
+const STEP: f64 = 3.0;
+
+/// Gives every label its place, in their order; with bounds those that find no place within them are left out.
+pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
+    let obstacles = obstacles(scene);
+    let mut taken: Vec<Bounds> = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
+    for label in labels {
+        let Some(bounds) = best(&label, &obstacles, &taken, within) else { continue };
+        let nearest = label.anchor.sup(&bounds.least).inf(&bounds.greatest);
+        if (nearest - label.anchor).norm() > LEADER {
+            scene.add(Class::Leader, Shape::Line(vec![nearest, label.anchor]));
+        }
+        let at = Point::new(bounds.middle().x, bounds.greatest.y - DESCENT * label.size);
+        scene.write(label.class, Text { text: label.text, at, anchor: Anchor::Middle, size: label.size });
+        taken.push(bounds.widened(MARGIN));
+    }
+}
+
+/// The cheapest free place.
+fn best(
+    label: &Label,
+    obstacles: &[(Point, f64)],
+    taken: &[Bounds],
+    within: Option<Bounds>,
+) -> Option<Bounds> {
+    let half =
+        0.5 * Point::new(crate::typeface::width(&label.text, label.size), (ASCENT + DESCENT) * label.size);
+    let mut best: Option<(f64, Bounds)> = None;
+    for distance in DISTANCES {
+        for index in 0..DIRECTIONS {
+            let direction = direction(label.towards, index);
+            let bounds = beside(label.anchor, direction, distance, half);
+            let is_free = taken.iter().all(|other| !other.overlaps(&bounds));
+            if !is_free || within.is_some_and(|within| !holds(&within, &bounds)) {
+                continue;
+            }
+            let turn = 1.0 - direction.dot(&label.towards);
+            let cost = 0.35 * distance + 3.0 * turn + crossed(&bounds, obstacles);
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, bounds));
+            }
+        }
+        if best.is_some_and(|(least, _)| least < 0.35 * distance) {
+            break;
+        }
+    }
+    best.map(|(_, bounds)| bounds)
+}
+
+fn direction(towards: Point, index: usize) -> Point {
+    let angle = TAU * index as f64 / DIRECTIONS as f64;
+    let (sin, cos) = angle.sin_cos();
+    Point::new(cos * towards.x - sin * towards.y, sin * towards.x + cos * towards.y)
+}
+
+/// A box of half size `half` whose edge is at a distance from the anchor in a direction.
+fn beside(anchor: Point, direction: Point, distance: f64, half: Point) -> Bounds {
+    let reach = |part: f64, half: f64| if part.abs() > 1e-9 { half / part.abs() } else { f64::INFINITY };
+    let inside = reach(direction.x, half.x).min(reach(direction.y, half.y));
+    let middle = anchor + direction * (distance + inside);
+    Bounds { least: middle - half, greatest: middle + half }
+}
+
+fn holds(outer: &Bounds, inner: &Bounds) -> bool {
+    outer.contains(&inner.least) && outer.contains(&inner.greatest)
+}
+
+fn crossed(bounds: &Bounds, obstacles: &[(Point, f64)]) -> f64 {
+    let bounds = bounds.widened(MARGIN);
+    obstacles.iter().filter(|(place, _)| bounds.contains(place)).map(|(_, weight)| weight).sum()
+}
+
+/// Places along all lines, each with what it costs to cover it.
+pub(super) fn obstacles(scene: &Scene) -> Vec<(Point, f64)> {
+    let mut places = Vec::new();
+    for element in &scene.elements {
+        let weight = match element.class {
+            Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => 2.5,
+            Class::Hatch | Class::Slot => 0.4,
+            Class::Body => continue,
+            _ => 1.0,
+        };
+        match &element.shape {
+            Shape::Line(corners) => along(corners, weight, &mut places),
+            Shape::Area(corners) => {
+                let closed: Vec<Point> = corners.iter().chain(corners.first()).copied().collect();
+                along(&closed, weight, &mut places);
+            }
+            Shape::Circle(centre, radius) => {
+                along(&super::outline::disc(*centre, *radius), weight, &mut places);
+            }
+            Shape::Arrow { from, to } => along(&[*from, *to], weight, &mut places),
+            Shape::Head(tip, _) => places.push((*tip, weight)),
+            Shape::Text(_) => {}
+        }
+    }
+    places
+}
+
+fn along(corners: &[Point], weight: f64, places: &mut Vec<(Point, f64)>) {
+    for pair in corners.windows(2) {
+        let between = pair[1] - pair[0];
+        let steps = (between.norm() / STEP).ceil().clamp(1.0, 1000.0);
+        let mut step = 0.0;
+        while step <= steps {
+            places.push((pair[0] + between * (step / steps), weight));
+            step += 1.0;
+        }
+    }
+}

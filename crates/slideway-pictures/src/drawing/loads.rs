@@ -1,0 +1,312 @@
+//! Springs and dampers, loads, weights and the efforts of drives.
+
+use super::outline::{turned, unit};
+use super::scene::{Class, Point, Shape};
+use super::view::is_zero;
+use super::{Painter, quantity};
+use nalgebra::Vector2;
+use slideway::configuration::Configuration;
+use slideway::ids::{BodyId, Frame};
+use slideway::mechanism::{Attachment, Drive, Effort, JointKind, Load, LoadKind, Mechanism, Quantity};
+use std::f64::consts::TAU;
+
+/// Length of an arrow that is not to scale.
+const ARROW: f64 = 46.0;
+/// Greatest length of a load's arrow; a longer one is drawn broken.
+const LONGEST_LOAD: f64 = 110.0;
+/// Below this length an arrow to scale is a head alone.
+pub(super) const LEAST_ARROW: f64 = 9.0;
+/// Radius of the arrow of a torque.
+const TORQUE: f64 = 21.0;
+
+impl Painter<'_> {
+    /// Springs and dampers.
+    pub(super) fn connections(&mut self) {
+        let mechanism = self.mechanism;
+        for (index, load) in mechanism.loads.iter().enumerate() {
+            match &load.kind {
+                LoadKind::Spring { between, stiffness, .. } if !is_zero(*stiffness) => {
+                    let [from, to] = self.ends(between, index);
+                    self.anchored(between, [from, to]);
+                    self.line(Class::Spring, zigzag(from, to));
+                    self.named_connection(&load.name, from, to);
+                }
+                LoadKind::Damper { between, damping } if !is_zero(*damping) => {
+                    let [from, to] = self.ends(between, index);
+                    self.anchored(between, [from, to]);
+                    self.dashpot(from, to);
+                    self.named_connection(&load.name, from, to);
+                }
+                LoadKind::TorsionalSpring { between, stiffness, .. } if !is_zero(*stiffness) => {
+                    let centre = self.pivot(*between);
+                    let spiral = (0..=60).map(|step| {
+                        let part = f64::from(step) / 60.0;
+                        let angle = 2.25 * TAU * part;
+                        centre + Point::new(angle.cos(), angle.sin()) * (6.0 + 11.0 * part)
+                    });
+                    self.line(Class::Spring, spiral.collect());
+                    self.name(&load.name, centre + Point::new(14.0, 14.0), Point::new(0.7, 0.7));
+                }
+                LoadKind::TorsionalDamper { between, damping } if !is_zero(*damping) => {
+                    let centre = self.pivot(*between);
+                    for (radius, from, to) in [(13.0, -0.1, 0.6), (17.0, 0.05, 0.45)] {
+                        self.line(Class::Damper, arc(centre, radius, from * TAU, to * TAU));
+                    }
+                    self.name(&load.name, centre + Point::new(-14.0, 14.0), Point::new(-0.7, 0.7));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The ends of a spring or damper, beside each other where several have the same ends.
+    fn ends(&self, between: &[Attachment; 2], index: usize) -> [Point; 2] {
+        let [from, to] = between.each_ref().map(|end| self.attached(end));
+        let same = |other: &Load| match &other.kind {
+            LoadKind::Spring { between: ends, stiffness: size, .. }
+            | LoadKind::Damper { between: ends, damping: size } => {
+                let places = ends.each_ref().map(|end| self.attached(end));
+                !is_zero(*size) && (places[0] - from).norm() < 1.0 && (places[1] - to).norm() < 1.0
+            }
+            _ => false,
+        };
+        let loads = &self.mechanism.loads;
+        let before = loads[..index].iter().filter(|load| same(load)).count();
+        let all = loads.iter().filter(|load| same(load)).count();
+        let aside = 20.0 * (before as f64 - 0.5 * (all.max(1) - 1) as f64);
+        let across = turned(unit(to - from, Point::x())) * aside;
+        [from + across, to + across]
+    }
+
+    /// Ground at the ends of a spring or damper that stand on it.
+    fn anchored(&mut self, between: &[Attachment; 2], ends: [Point; 2]) {
+        for (index, end) in between.iter().enumerate() {
+            if end.frame == Frame::Ground {
+                let inwards = unit(ends[1 - index] - ends[index], Point::x());
+                let across = turned(inwards) * 12.0;
+                let [start, stop] = [ends[index] + across, ends[index] - across];
+                self.line(Class::Wall, vec![start, stop]);
+                self.hatching(stop, start);
+            }
+        }
+    }
+
+    fn dashpot(&mut self, from: Point, to: Point) {
+        let along = unit(to - from, Point::x());
+        let across = turned(along) * 6.0;
+        let middle = 0.5 * (from + to);
+        let half = along * (0.3 * (to - from).norm()).min(13.0);
+        self.line(Class::Damper, vec![from, middle - half]);
+        self.line(
+            Class::Damper,
+            vec![
+                middle + half + across,
+                middle - half + across,
+                middle - half - across,
+                middle + half - across,
+            ],
+        );
+        self.line(Class::Damper, vec![middle + 0.75 * across, middle - 0.75 * across]);
+        self.line(Class::Damper, vec![middle, to]);
+    }
+
+    fn named_connection(&mut self, name: &str, from: Point, to: Point) {
+        let across = turned(unit(to - from, Point::x()));
+        let across = if across.y > 0.0 { -across } else { across };
+        self.name(name, 0.5 * (from + to) + across * 8.0, across);
+    }
+
+    /// Where two bodies turn against each other: their hinge, or the middle of the first that moves.
+    fn pivot(&self, between: [Frame; 2]) -> Point {
+        let hinge = self.mechanism.joints.iter().find_map(|joint| match &joint.kind {
+            JointKind::Hinge(ends) if ends.iter().all(|end| between.contains(&end.frame)) => Some(&ends[0]),
+            _ => None,
+        });
+        match (hinge, between.iter().find_map(|frame| frame.body())) {
+            (Some(end), _) => self.attached(end),
+            (None, Some(body)) => self.centre(body),
+            (None, None) => Point::zeros(),
+        }
+    }
+
+    /// Forces and torques, the efforts of the drives and, where forces are to scale, weights.
+    pub(super) fn loads(&mut self) {
+        let mechanism = self.mechanism;
+        for load in &mechanism.loads {
+            match &load.kind {
+                LoadKind::Force { at, .. } => self.force_load(load, *at),
+                LoadKind::Torque { body, moment, .. } => {
+                    let moment = self.value_of(*moment);
+                    if moment != Some(0.0) {
+                        let text = named(&load.name, moment, "N m");
+                        self.torque(Class::Load, *body, moment.unwrap_or(1.0), text);
+                    }
+                }
+                _ => {}
+            }
+        }
+        for (index, drive) in mechanism.drives.iter().enumerate() {
+            self.drive(index, drive);
+        }
+        if self.options.force_scale.is_some() {
+            self.weights();
+        }
+    }
+
+    fn value_of(&self, quantity: Quantity) -> Option<f64> {
+        let state = self.configuration;
+        self.mechanism.quantity(quantity, &state.coordinates, &state.rates, state.time).ok()
+    }
+
+    fn force_load(&mut self, load: &Load, at: Attachment) {
+        let Some(force) =
+            load_force(self.mechanism, self.configuration, load).filter(|force| force.norm() > 0.0)
+        else {
+            return;
+        };
+        let text = named(&load.name, Some(force.norm()), "N");
+        self.force(Class::Load, at, force, text);
+    }
+
+    /// An arrow of a force that ends or begins where it acts, so that it lies outside of its body.
+    fn force(&mut self, class: Class, at: Attachment, force: Vector2<f64>, text: String) {
+        let place = self.attached(&at);
+        let direction = self.view.direction(force / force.norm());
+        let to_scale = self.options.force_scale.map(|scale| scale * force.norm());
+        let is_broken = to_scale.is_some_and(|length| length > LONGEST_LOAD);
+        let length = to_scale.map_or(ARROW, |length| length.min(LONGEST_LOAD));
+        let centre = at.frame.body().map_or(place, |body| self.centre(body));
+        let pushes = (centre - place).dot(&direction) > 1.0;
+        let from = if pushes { place - direction * length } else { place };
+        self.arrow(class, from, from + direction * length, text);
+        if is_broken {
+            self.broken(from + direction * (0.45 * length), direction);
+        }
+    }
+
+    /// Two strokes across an arrow that is too short for its scale.
+    fn broken(&mut self, middle: Point, direction: Point) {
+        let stroke = (turned(direction) - direction * 0.5) * 6.0;
+        for shift in [-2.5, 2.5] {
+            let centre = middle + direction * shift;
+            self.line(Class::Break, vec![centre - stroke, centre + stroke]);
+        }
+    }
+
+    /// An arrow and its value; the head alone where the arrow would be too short.
+    pub(super) fn arrow(&mut self, class: Class, from: Point, to: Point, text: String) {
+        let direction = unit(to - from, Point::x());
+        if (to - from).norm() < LEAST_ARROW {
+            self.scene.add(class, Shape::Head(from + direction * LEAST_ARROW, direction));
+            self.value(class, text, from, turned(direction));
+        } else {
+            self.scene.add(class, Shape::Arrow { from, to });
+            let side = turned(direction);
+            let side = if side.y > 0.0 { -side } else { side };
+            self.value(class, text, 0.5 * (from + to) + side * 2.0, side);
+        }
+    }
+
+    /// An arc with a head about the hinge of a body, or its centre of mass.
+    fn torque(&mut self, class: Class, body: Frame, moment: f64, text: String) {
+        let pivot = self.mechanism.joints.iter().find_map(|joint| match &joint.kind {
+            JointKind::Hinge([first, second])
+                if (first.frame == body && second.frame == Frame::Ground)
+                    || (second.frame == body && first.frame == Frame::Ground) =>
+            {
+                Some(*first)
+            }
+            _ => None,
+        });
+        let Some(centre) = pivot.map(|end| self.attached(&end)).or(body.body().map(|body| self.centre(body)))
+        else {
+            return;
+        };
+        // Counter-clockwise in the world, where y points up.
+        let (from, to) = if moment > 0.0 { (0.4, -3.5) } else { (-3.5, 0.4) };
+        let sweep = arc(centre, TORQUE, from, to);
+        let tip = sweep.last().copied().unwrap_or(centre);
+        let before = sweep.iter().rev().nth(1).copied().unwrap_or(centre);
+        let direction = unit(tip - before, Point::y());
+        self.line(class, sweep);
+        self.scene.add(class, Shape::Head(tip + direction * 6.0, direction));
+        let up = Point::new(0.0, -1.0);
+        self.value(class, text, centre + up * TORQUE, up);
+    }
+
+    /// A known effort is a load; an unknown one the direction in which it is counted.
+    fn drive(&mut self, index: usize, drive: &Drive) {
+        let effort = self.states.efforts.get(index).copied().filter(|_| self.options.force_scale.is_some());
+        let class = if effort.is_some() { Class::Load } else { Class::Drive };
+        match drive.effort {
+            Effort::Force { at, direction, turns, .. } => {
+                let direction =
+                    if turns { self.configuration.direction(at.frame, direction) } else { direction };
+                let force = direction * effort.unwrap_or(1.0);
+                if force.norm() > 0.0 {
+                    self.force(class, at, force, named(&drive.name, effort, "N"));
+                }
+            }
+            Effort::Torque { body, .. } => {
+                self.torque(class, body, effort.unwrap_or(1.0), named(&drive.name, effort, "N m"));
+            }
+        }
+    }
+
+    fn weights(&mut self) {
+        let mechanism = self.mechanism;
+        for (index, body) in mechanism.bodies.iter().enumerate() {
+            let weight = mechanism.gravity * body.mass;
+            if weight.norm() > 0.0 {
+                let at = Attachment { frame: Frame::Body(BodyId(index)), position: body.centre_of_mass };
+                self.force(Class::Load, at, weight, quantity(weight.norm(), "N"));
+            }
+        }
+    }
+}
+
+/// The force of a load in the world (N), if it is one and has a value in this state.
+pub(super) fn load_force(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    load: &Load,
+) -> Option<Vector2<f64>> {
+    let LoadKind::Force { at, components, axes, turns, .. } = &load.kind else { return None };
+    let value = |quantity| {
+        mechanism
+            .quantity(quantity, &configuration.coordinates, &configuration.rates, configuration.time)
+            .ok()
+    };
+    let force = axes[0] * value(components[0])? + axes[1] * value(components[1])?;
+    Some(if *turns { configuration.direction(at.frame, force) } else { force })
+}
+
+/// "W = 300 N", or the name alone.
+fn named(name: &str, value: Option<f64>, unit: &str) -> String {
+    value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", quantity(value, unit)))
+}
+
+/// The line of a spring.
+fn zigzag(from: Point, to: Point) -> Vec<Point> {
+    const TURNS: i32 = 12;
+    let along = to - from;
+    let across = turned(unit(along, Point::x())) * 6.0;
+    let mut places = vec![from, from + along * 0.15];
+    for turn in 0..TURNS {
+        let part = 0.15 + 0.7 * (f64::from(turn) + 0.5) / f64::from(TURNS);
+        let side = if turn % 2 == 0 { 1.0 } else { -1.0 };
+        places.push(from + along * part + across * side);
+    }
+    places.extend([from + along * 0.85, to]);
+    places
+}
+
+/// A part of a circle, angles clockwise from the x axis as one looks at the drawing.
+fn arc(centre: Point, radius: f64, from: f64, to: f64) -> Vec<Point> {
+    (0..=32)
+        .map(|step| {
+            let angle = from + (to - from) * f64::from(step) / 32.0;
+            centre + Point::new(angle.cos(), angle.sin()) * radius
+        })
+        .collect()
+}

@@ -1,0 +1,297 @@
+//! Drawings of mechanisms, to scale, with their contact modes exaggerated.
+//!
+//! [`scene`] turns a mechanism in a configuration into a list of shapes; [`sheet`] puts a drawing of the mechanism and
+//! one of each solution side by side; [`svg`] writes either.
+//!
+//! Real guides have hardly any play, so that a tipped block looks like any other. A drawing of a contact mode widens the
+//! guides by a few units and moves the whole mechanism so that each block lies on the faces that it touches
+//! ([`slideway::configuration::Configuration::displaced`]).
+
+mod bodies;
+mod dimensions;
+mod forces;
+mod labels;
+mod loads;
+mod outline;
+mod scene;
+mod sheet;
+mod sliders;
+pub mod svg;
+mod view;
+
+pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
+pub use sheet::{Caption, Panel, Sheet, Shown, sheet};
+pub use view::View;
+
+use labels::Label;
+use sliders::Slide;
+use slideway::configuration::Configuration;
+use slideway::ids::JointId;
+use slideway::mechanism::Mechanism;
+use slideway::report::Solution;
+
+/// Size of names.
+pub(crate) const NAME_SIZE: f64 = 15.0;
+/// Size of values.
+pub(crate) const VALUE_SIZE: f64 = 14.0;
+
+/// The state of the contacts that is drawn, and the efforts of the drives.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ContactStates {
+    /// One for each contact, in the order of the mechanism.
+    pub contacts: Vec<ContactState>,
+    /// The effort of each drive (N or N m).
+    pub efforts: Vec<f64>,
+}
+
+/// How a contact is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactState {
+    /// Where the block lies in its play: 1 if the normal force is positive, -1 if it is negative, 0 in the middle.
+    pub side: f64,
+    /// Its forces, if they are known.
+    pub forces: Option<ContactForces>,
+}
+
+/// Forces of a contact on its block; signs as in theory, section 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForces {
+    /// Normal force along n (N).
+    pub normal: f64,
+    /// Friction force, positive against positive sliding (N).
+    pub friction: f64,
+    /// Couple of a guided slider about the middle of the pressed face (N m).
+    pub couple: f64,
+}
+
+impl ContactStates {
+    /// What a solution says of contacts and drives.
+    pub fn of(solution: &Solution) -> Self {
+        let state = |contact: &slideway::report::Contact| ContactState {
+            side: f64::from(contact.side),
+            forces: Some(ContactForces {
+                normal: contact.normal_force,
+                friction: contact.friction_force,
+                couple: contact.couple.unwrap_or(0.0),
+            }),
+        };
+        Self {
+            contacts: solution.contacts.iter().map(state).collect(),
+            efforts: solution.drives.iter().map(|drive| drive.effort).collect(),
+        }
+    }
+
+    fn side(&self, contact: usize) -> f64 {
+        self.contacts.get(contact).map_or(0.0, |state| state.side.clamp(-1.0, 1.0))
+    }
+}
+
+/// What a scene shows beside the mechanism itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneOptions {
+    /// Guides are widened, and blocks lie on the faces that their contacts touch.
+    pub play: bool,
+    /// Names of joints.
+    pub names: bool,
+    /// Lengths and heights of blocks.
+    pub dimensions: bool,
+    /// Drawing units for a newton: forces of contacts, loads and drives are drawn to this scale. Without it loads are
+    /// arrows of one length.
+    pub force_scale: Option<f64>,
+    /// Sliding velocities.
+    pub velocities: bool,
+    /// Labels are kept within these bounds, and left out if they find no place.
+    pub within: Option<Bounds>,
+}
+
+/// A mechanism in a configuration, as shapes around the middle of the view.
+///
+/// ```
+/// use slideway::{configuration::Configuration, mechanism::Mechanism, model::Model};
+/// use slideway_pictures::drawing::{ContactStates, SceneOptions, View, scene};
+///
+/// let text = slideway::gallery::find("drawer").expect("in the gallery").text;
+/// let mechanism = Mechanism::new(&Model::parse(text)?)?;
+/// let configuration = Configuration::new(&mechanism)?;
+/// let view = View::fitting(&mechanism, &[&configuration], [400.0, 300.0]);
+/// let scene = scene(&mechanism, &configuration, &ContactStates::default(), &view, &SceneOptions::overview());
+/// assert!(scene.texts().any(|(_, text)| text.text == "guide"));
+/// # Ok::<(), slideway::fault::Faults>(())
+/// ```
+pub fn scene(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    states: &ContactStates,
+    view: &View,
+    options: &SceneOptions,
+) -> Scene {
+    let placed = if options.play { displaced(mechanism, configuration, states, view) } else { None };
+    let mut painter = Painter {
+        mechanism,
+        actual: configuration,
+        configuration: placed.as_ref().unwrap_or(configuration),
+        states,
+        view,
+        options,
+        sliders: Vec::new(),
+        scene: Scene::default(),
+        labels: Vec::new(),
+    };
+    painter.sliders = painter.slides();
+    painter.bodies();
+    painter.joints();
+    painter.connections();
+    painter.loads();
+    if options.force_scale.is_some() {
+        painter.contact_forces();
+    }
+    if options.velocities {
+        painter.velocities();
+    }
+    if options.dimensions {
+        painter.dimensions();
+    }
+    let Painter { mut scene, labels, .. } = painter;
+    labels::place(&mut scene, labels, options.within);
+    scene
+}
+
+impl SceneOptions {
+    /// The mechanism with its names, dimensions and loads.
+    pub fn overview() -> Self {
+        Self { play: false, names: true, dimensions: true, force_scale: None, velocities: true, within: None }
+    }
+
+    /// A contact mode with its forces, `force_scale` drawing units for a newton.
+    pub fn contact_mode(force_scale: f64) -> Self {
+        Self {
+            play: true,
+            names: false,
+            dimensions: false,
+            force_scale: Some(force_scale),
+            ..Self::overview()
+        }
+    }
+}
+
+/// Greatest rotation (rad) and displacement (drawing units) that a contact mode gives a body.
+const GREATEST_ROTATION: f64 = 0.25;
+const GREATEST_DISPLACEMENT: f64 = 60.0;
+
+/// The configuration with play; with less of it where levers magnify it, and none where the state is singular.
+fn displaced(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    states: &ContactStates,
+    view: &View,
+) -> Option<Configuration> {
+    let full: Vec<f64> = mechanism
+        .contacts
+        .iter()
+        .enumerate()
+        .map(|(index, contact)| {
+            -states.side(index) * sliders::gap(mechanism, contact.joint, configuration, view) / view.scale
+        })
+        .collect();
+    [1.0, 0.7, 0.5, 0.3, 0.15, 0.05].into_iter().find_map(|part| {
+        let displacements: Vec<f64> = full.iter().map(|displacement| part * displacement).collect();
+        let moved = configuration.displaced(mechanism, &displacements)?;
+        let is_near = moved.poses.iter().zip(&configuration.poses).all(|(new, old)| {
+            (new.angle - old.angle).abs() < GREATEST_ROTATION
+                && (new.position - old.position).norm() * view.scale < GREATEST_DISPLACEMENT
+        });
+        is_near.then_some(moved)
+    })
+}
+
+/// A scene that is being drawn.
+struct Painter<'a> {
+    mechanism: &'a Mechanism,
+    /// The state itself, and with the play of a contact mode.
+    actual: &'a Configuration,
+    configuration: &'a Configuration,
+    states: &'a ContactStates,
+    view: &'a View,
+    options: &'a SceneOptions,
+    /// The sliding joints, by the index of the joint.
+    sliders: Vec<Option<Slide>>,
+    scene: Scene,
+    labels: Vec<Label>,
+}
+
+impl Painter<'_> {
+    fn line(&mut self, class: Class, places: Vec<Point>) {
+        self.scene.add(class, Shape::Line(places));
+    }
+
+    fn area(&mut self, class: Class, places: Vec<Point>) {
+        self.scene.add(class, Shape::Area(places));
+    }
+
+    fn circle(&mut self, class: Class, centre: Point, radius: f64) {
+        self.scene.add(class, Shape::Circle(centre, radius));
+    }
+
+    /// A name beside a place.
+    fn name(&mut self, text: &str, anchor: Point, towards: Point) {
+        if self.options.names {
+            let label =
+                Label { class: Class::Words, text: text.to_owned(), size: NAME_SIZE, anchor, towards };
+            self.labels.push(label);
+        }
+    }
+
+    /// A value beside a place.
+    fn value(&mut self, class: Class, text: String, anchor: Point, towards: Point) {
+        self.labels.push(Label { class, text, size: VALUE_SIZE, anchor, towards });
+    }
+
+    /// Lines across the outer side of a straight line of ground, which is to the left of the way from `from` to `to`
+    /// as one looks at the drawing.
+    fn hatching(&mut self, from: Point, to: Point) {
+        const SPACING: f64 = 7.0;
+        const DEPTH: f64 = 7.0;
+        let along = outline::unit(to - from, Point::x());
+        let out = Point::new(along.y, -along.x);
+        let length = (to - from).norm();
+        let count = (length / SPACING).floor().clamp(1.0, 400.0);
+        let mut index = 0.5;
+        while index < count {
+            let foot = from + along * (length * index / count);
+            self.line(Class::Hatch, vec![foot, foot + (out - along) * DEPTH]);
+            index += 1.0;
+        }
+    }
+
+    fn slide(&self, joint: JointId) -> Option<Slide> {
+        self.sliders.get(joint.index()).copied().flatten()
+    }
+}
+
+/// A number with four significant digits and its unit; multiples of SI units where they read better.
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
+    let size = value.abs();
+    let (factor, unit) = match unit {
+        "m" if size > 0.0 && size < 0.1 => (1e3, "mm"),
+        "N" if size >= 1e4 => (1e-3, "kN"),
+        "N m" if size >= 1e4 => (1e-3, "kN m"),
+        unit => (1.0, unit),
+    };
+    format!("{} {unit}", number(value * factor))
+}
+
+/// Four significant digits, with a true minus sign.
+pub(crate) fn number(value: f64) -> String {
+    let size = value.abs();
+    let text = if size == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{value:.3e}")
+    } else {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 6")]
+        let decimals = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+        let text = format!("{value:.decimals$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    };
+    text.replace('-', "\u{2212}")
+}

@@ -1,0 +1,109 @@
+//! Outlines in drawing units: capsules, hulls, rectangles in a turned frame.
+
+use super::scene::Point;
+use std::f64::consts::{PI, TAU};
+
+/// Corners of a half circle.
+const CORNERS: usize = 10;
+
+/// A frame that is turned against the drawing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Local {
+    pub(super) origin: Point,
+    /// Unit vector along the guide.
+    pub(super) along: Point,
+    /// Unit vector across it, in the direction of positive normal forces.
+    pub(super) across: Point,
+}
+
+impl Local {
+    /// A place given by its local coordinates.
+    pub(super) fn at(&self, along: f64, across: f64) -> Point {
+        self.origin + self.along * along + self.across * across
+    }
+
+    /// The corners of a rectangle.
+    pub(super) fn rectangle(&self, [from, to]: [f64; 2], [least, greatest]: [f64; 2]) -> Vec<Point> {
+        [(from, least), (to, least), (to, greatest), (from, greatest)]
+            .into_iter()
+            .map(|(along, across)| self.at(along, across))
+            .collect()
+    }
+}
+
+/// The unit vector of a vector, or another one if it is zero.
+pub(super) fn unit(vector: Point, otherwise: Point) -> Point {
+    let norm = vector.norm();
+    if norm > 1e-9 { vector / norm } else { otherwise }
+}
+
+/// A vector turned by a right angle.
+pub(super) fn turned(vector: Point) -> Point {
+    Point::new(-vector.y, vector.x)
+}
+
+/// All places within a distance of a line.
+pub(super) fn capsule(from: Point, to: Point, radius: f64) -> Vec<Point> {
+    let direction = unit(to - from, Point::x());
+    let start = direction.y.atan2(direction.x) - 0.5 * PI;
+    let half = |centre: Point, start: f64| {
+        (0..=CORNERS).map(move |corner| {
+            let angle = start + PI * corner as f64 / CORNERS as f64;
+            centre + Point::new(angle.cos(), angle.sin()) * radius
+        })
+    };
+    half(to, start).chain(half(from, start + PI)).collect()
+}
+
+/// A disc as a polygon.
+pub(super) fn disc(centre: Point, radius: f64) -> Vec<Point> {
+    const COUNT: usize = 64;
+    (0..COUNT)
+        .map(|corner| {
+            let angle = TAU * corner as f64 / COUNT as f64;
+            centre + Point::new(angle.cos(), angle.sin()) * radius
+        })
+        .collect()
+}
+
+/// The corners of the convex hull (Andrew's monotone chain).
+pub(super) fn hull(places: &[Point]) -> Vec<Point> {
+    let mut sorted = places.to_vec();
+    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    sorted.dedup_by(|a, b| (*a - *b).norm() < 1e-6);
+    if sorted.len() < 3 {
+        return sorted;
+    }
+    let chain = |places: &mut dyn Iterator<Item = &Point>| {
+        let mut chain: Vec<Point> = Vec::new();
+        for place in places {
+            while let [.., before, last] = chain[..]
+                && (last - before).perp(&(place - last)) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(*place);
+        }
+        chain.pop();
+        chain
+    };
+    let mut corners = chain(&mut sorted.iter());
+    corners.extend(chain(&mut sorted.iter().rev()));
+    corners
+}
+
+/// Distance of a place from a line between two others, and the nearest place on it.
+pub(super) fn nearest_on_line(place: Point, [from, to]: [Point; 2]) -> (f64, Point) {
+    let along = to - from;
+    let length = along.norm_squared();
+    let part = if length > 0.0 { ((place - from).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    let nearest = from + along * part;
+    ((place - nearest).norm(), nearest)
+}
+
+/// The side of a guide that is seen as its upper one, or as its right one if it stands upright: 1 in the direction of
+/// `across`, else -1.
+pub(super) fn upper_side(across: Point) -> f64 {
+    let is_upper = if across.y.abs() > 1e-3 { across.y < 0.0 } else { across.x > 0.0 };
+    if is_upper { 1.0 } else { -1.0 }
+}

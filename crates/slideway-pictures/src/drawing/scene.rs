@@ -1,0 +1,270 @@
+//! What a drawing consists of: shapes in drawing units (x to the right, y down), each with a class that says what it
+//! shows.
+
+use nalgebra::Vector2;
+
+/// A place or direction in drawing units.
+pub type Point = Vector2<f64>;
+
+/// What a shape shows; [`super::svg`] gives each class its colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// A wall of a guide that belongs to ground.
+    Wall,
+    /// Hatching of ground.
+    Hatch,
+    /// What belongs to ground and has an outline.
+    Fixed,
+    /// What belongs to ground, without an outline.
+    Paper,
+    /// The outline of a body, drawn before its inside.
+    BodyEdge,
+    /// The inside of a body.
+    Body,
+    /// The free space of a slot in a body.
+    Slot,
+    /// A line of a body.
+    Edge,
+    /// A pin.
+    Pin,
+    /// A hinge.
+    Hinge,
+    /// A spring.
+    Spring,
+    /// A damper.
+    Damper,
+    /// Outline of the symbol of a centre of mass.
+    MassRing,
+    /// Dark quarters of the symbol of a centre of mass.
+    Mass,
+    /// A normal reaction.
+    Reaction,
+    /// A friction force.
+    Friction,
+    /// A load, a weight, or the effort of a drive.
+    Load,
+    /// A sign that an arrow is shorter than its scale says.
+    Break,
+    /// The effort of a drive before it is known.
+    Drive,
+    /// A sliding velocity.
+    Velocity,
+    /// A dimension.
+    Dimension,
+    /// A line from a label to what it names.
+    Leader,
+    /// Text of its own: headings and words.
+    Words,
+}
+
+/// A shape.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A line through places.
+    Line(Vec<Point>),
+    /// A closed area.
+    Area(Vec<Point>),
+    /// A circle: its centre and radius.
+    Circle(Point, f64),
+    /// A straight arrow.
+    Arrow {
+        /// Where it begins.
+        from: Point,
+        /// Where its head ends.
+        to: Point,
+    },
+    /// The head of an arrow alone: where it ends, and its unit direction.
+    Head(Point, Point),
+    /// One line of text.
+    Text(Text),
+}
+
+/// One line of text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Text {
+    /// What it says.
+    pub text: String,
+    /// The left, middle or right of its base line.
+    pub at: Point,
+    /// Where `at` lies in it.
+    pub anchor: Anchor,
+    /// Size of the letters.
+    pub size: f64,
+}
+
+/// Which part of a text is at its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its left end.
+    Start,
+    /// Its middle.
+    Middle,
+}
+
+/// A shape and what it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// What it shows.
+    pub class: Class,
+    /// The shape.
+    pub shape: Shape,
+}
+
+/// A rectangle with sides parallel to the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Least x and y.
+    pub least: Point,
+    /// Greatest x and y.
+    pub greatest: Point,
+}
+
+/// Shapes in the order in which they are drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scene {
+    /// The shapes.
+    pub elements: Vec<Element>,
+}
+
+impl Bounds {
+    /// The bounds of places; none without places.
+    pub fn around(places: impl IntoIterator<Item = Point>) -> Option<Self> {
+        places.into_iter().map(|place| Self { least: place, greatest: place }).reduce(Self::with)
+    }
+
+    /// The bounds of both.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
+        Self { least: self.least.inf(&other.least), greatest: self.greatest.sup(&other.greatest) }
+    }
+
+    /// The same with a margin on all sides.
+    #[must_use]
+    pub fn widened(self, margin: f64) -> Self {
+        let margin = Point::new(margin, margin);
+        Self { least: self.least - margin, greatest: self.greatest + margin }
+    }
+
+    /// The same width, with the heights of other bounds.
+    #[must_use]
+    pub(super) fn with_heights_of(self, other: &Self) -> Self {
+        Self {
+            least: Point::new(self.least.x, other.least.y),
+            greatest: Point::new(self.greatest.x, other.greatest.y),
+        }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> Point {
+        self.greatest - self.least
+    }
+
+    /// The middle.
+    pub fn middle(&self) -> Point {
+        0.5 * (self.least + self.greatest)
+    }
+
+    /// Whether a place lies inside or on the edge.
+    pub fn contains(&self, place: &Point) -> bool {
+        self.least.x <= place.x
+            && place.x <= self.greatest.x
+            && self.least.y <= place.y
+            && place.y <= self.greatest.y
+    }
+
+    /// Whether both have an area in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.least.x < other.greatest.x
+            && other.least.x < self.greatest.x
+            && self.least.y < other.greatest.y
+            && other.least.y < self.greatest.y
+    }
+}
+
+impl Text {
+    /// The rectangle that the text takes.
+    pub fn bounds(&self) -> Bounds {
+        let width = crate::typeface::width(&self.text, self.size);
+        let left = match self.anchor {
+            Anchor::Start => self.at.x,
+            Anchor::Middle => self.at.x - 0.5 * width,
+        };
+        Bounds {
+            least: Point::new(left, self.at.y - ASCENT * self.size),
+            greatest: Point::new(left + width, self.at.y + DESCENT * self.size),
+        }
+    }
+}
+
+/// Height of letters above the base line, in sizes.
+pub(super) const ASCENT: f64 = 0.78;
+/// Depth of letters below the base line, in sizes.
+pub(super) const DESCENT: f64 = 0.24;
+/// Length of the head of an arrow.
+pub(super) const HEAD: f64 = 9.0;
+/// Width of the head of an arrow.
+pub(super) const HEAD_WIDTH: f64 = 7.0;
+
+impl Shape {
+    /// The rectangle that the shape takes, without the width of its lines; none of a line without places.
+    pub fn bounds(&self) -> Option<Bounds> {
+        match self {
+            Self::Line(places) | Self::Area(places) => Bounds::around(places.iter().copied()),
+            Self::Circle(centre, radius) => Bounds::around([*centre]).map(|bounds| bounds.widened(*radius)),
+            Self::Arrow { from, to } => Bounds::around([*from, *to]),
+            Self::Head(tip, direction) => Bounds::around(head(*tip, *direction)),
+            Self::Text(text) => Some(text.bounds()),
+        }
+    }
+
+    fn shift(&mut self, by: Point) {
+        match self {
+            Self::Line(places) | Self::Area(places) => places.iter_mut().for_each(|place| *place += by),
+            Self::Circle(place, _) | Self::Head(place, _) => *place += by,
+            Self::Arrow { from, to } => {
+                *from += by;
+                *to += by;
+            }
+            Self::Text(text) => text.at += by,
+        }
+    }
+}
+
+/// The corners of the head of an arrow.
+pub(super) fn head(tip: Point, direction: Point) -> [Point; 3] {
+    let back = tip - direction * HEAD;
+    let side = Point::new(-direction.y, direction.x) * (0.5 * HEAD_WIDTH);
+    [tip, back + side, back - side]
+}
+
+impl Scene {
+    /// Adds a shape.
+    pub fn add(&mut self, class: Class, shape: Shape) {
+        self.elements.push(Element { class, shape });
+    }
+
+    /// Adds a line of text.
+    pub fn write(&mut self, class: Class, text: Text) {
+        self.add(class, Shape::Text(text));
+    }
+
+    /// The bounds of all shapes; none of an empty scene.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.elements.iter().filter_map(|element| element.shape.bounds()).reduce(Bounds::with)
+    }
+
+    /// Moves everything.
+    #[must_use]
+    pub fn shifted(mut self, by: Point) -> Self {
+        self.elements.iter_mut().for_each(|element| element.shape.shift(by));
+        self
+    }
+
+    /// The texts with their classes.
+    pub fn texts(&self) -> impl Iterator<Item = (Class, &Text)> {
+        self.elements.iter().filter_map(|element| match &element.shape {
+            Shape::Text(text) => Some((element.class, text)),
+            _ => None,
+        })
+    }
+}

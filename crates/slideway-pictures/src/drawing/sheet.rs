@@ -1,0 +1,380 @@
+//! A sheet: the mechanism, and beside it each of its solutions.
+
+use super::loads::load_force;
+use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
+use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene};
+use crate::typeface::width;
+use slideway::configuration::Configuration;
+use slideway::mechanism::Mechanism;
+use slideway::report::{CoordinateState, Report, Solution, Status};
+
+/// Width and height for the mechanism itself in each panel.
+const PANEL: [f64; 2] = [440.0, 320.0];
+/// Least width of a panel, for its caption.
+const LEAST_WIDTH: f64 = 290.0;
+/// Width that a row of panels does not exceed if it has several.
+const ROW: f64 = 1560.0;
+/// The most solutions that are drawn.
+const MOST: usize = 24;
+/// Length of the longest arrow of a force.
+const LONGEST_FORCE: f64 = 76.0;
+/// Space between panels, and around the sheet.
+const SPACE: f64 = 30.0;
+const MARGIN: f64 = 24.0;
+/// Distance of lines of text, in sizes.
+const LINE: f64 = 1.4;
+
+/// Which solutions are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shown {
+    /// All, beside the mechanism itself.
+    All,
+    /// None: the mechanism alone.
+    Mechanism,
+    /// The solution of this number, counted from 1, alone.
+    Solution(usize),
+}
+
+/// What is written below a panel.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Caption {
+    /// Its first line.
+    pub heading: String,
+    /// What follows.
+    pub lines: Vec<String>,
+}
+
+/// One drawing of a sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// The drawing.
+    pub scene: Scene,
+    /// What is written below it.
+    pub caption: Caption,
+    /// Drawing units for a newton, if its forces are to scale.
+    pub force_scale: Option<f64>,
+}
+
+/// A sheet of drawings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Everything on it.
+    pub scene: Scene,
+    /// Its edges.
+    pub bounds: Bounds,
+    /// What it shows.
+    pub title: String,
+    /// What it shows, in words.
+    pub description: String,
+}
+
+/// Drawings of a mechanism and, if they were found, of its solutions, side by side; none if there is no solution of
+/// the wanted number.
+///
+/// ```
+/// use slideway::{configuration::Configuration, mechanism::Mechanism, model::Model};
+/// use slideway_pictures::drawing::{Shown, sheet};
+///
+/// let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
+/// let model = Model::parse(text)?;
+/// let mechanism = Mechanism::new(&model)?;
+/// let configuration = Configuration::new(&mechanism)?;
+/// let report = slideway::solve::solve(&model)?;
+/// let sheet = sheet(&mechanism, &configuration, Some(&report), Shown::All).expect("solutions are there");
+/// assert!(sheet.description.contains("3 solutions"));
+/// # Ok::<(), slideway::fault::Faults>(())
+/// ```
+pub fn sheet(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    report: Option<&Report>,
+    shown: Shown,
+) -> Option<Sheet> {
+    let view = View::fitting(mechanism, &[configuration], PANEL);
+    let drawn = Drawn { mechanism, configuration, report, view: &view };
+    let panels = drawn.panels(shown)?;
+    let title = mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned());
+    let mut lines: Vec<String> = report.map(|report| state_line(&report.state)).into_iter().collect();
+    lines.extend(report.map(answer));
+    let description = described(&lines, &panels);
+    Some(Layout { view: &view, panels, title, lines }.sheet(description))
+}
+
+struct Drawn<'a> {
+    mechanism: &'a Mechanism,
+    configuration: &'a Configuration,
+    report: Option<&'a Report>,
+    view: &'a View,
+}
+
+impl Drawn<'_> {
+    fn panels(&self, shown: Shown) -> Option<Vec<Panel>> {
+        let solutions = self.report.map_or(&[][..], |report| &report.solutions);
+        let gaps = self.report.map_or(&[][..], |report| &report.preload_gap_states);
+        let count = solutions.len();
+        match shown {
+            Shown::Mechanism => Some(vec![self.overview()]),
+            Shown::Solution(number) => {
+                let solution = solutions.get(number.checked_sub(1)?)?;
+                let heading = format!("Solution {number} of {count}");
+                Some(vec![self.solution(solution, heading, true)])
+            }
+            Shown::All => {
+                let mut panels = vec![self.overview()];
+                let numbered = solutions.iter().enumerate().map(|(index, solution)| {
+                    self.solution(solution, format!("Solution {} of {count}", index + 1), false)
+                });
+                let numbered_gaps = gaps.iter().enumerate().map(|(index, state)| {
+                    self.solution(state, format!("Preload gap {} of {}", index + 1, gaps.len()), false)
+                });
+                panels.extend(numbered.chain(numbered_gaps).take(MOST));
+                Some(panels)
+            }
+        }
+    }
+
+    fn overview(&self) -> Panel {
+        let options = SceneOptions::overview();
+        let states = ContactStates::default();
+        let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
+        let lines = match self.report {
+            Some(report) if report.status == Status::None => {
+                vec!["No solution: friction locks it.".to_owned()]
+            }
+            _ => Vec::new(),
+        };
+        let caption = Caption { heading: "The mechanism, to scale".to_owned(), lines };
+        Panel { scene, caption, force_scale: None }
+    }
+
+    fn solution(&self, solution: &Solution, heading: String, names: bool) -> Panel {
+        let greatest = self.greatest_force(solution);
+        let force_scale = if greatest > 0.0 { LONGEST_FORCE / greatest } else { 1.0 };
+        let options = SceneOptions { names, ..SceneOptions::contact_mode(force_scale) };
+        let states = ContactStates::of(solution);
+        let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
+        let signs: Vec<String> = solution.pattern.chars().map(|sign| sign.to_string()).collect();
+        let signs = signs.join(" ").replace('-', "\u{2212}");
+        let mut lines: Vec<String> =
+            solution.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode)).collect();
+        lines.push(solution.attainability.in_words());
+        let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
+        let force_scale = (greatest > 0.0).then_some(force_scale);
+        Panel { scene, caption: Caption { heading, lines }, force_scale }
+    }
+
+    /// The greatest force of a contact (N), or of a load if no contact has any.
+    fn greatest_force(&self, solution: &Solution) -> f64 {
+        let contacts =
+            solution.contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
+        let greatest = contacts.map(f64::abs).fold(0.0, f64::max);
+        if greatest > 0.0 {
+            return greatest;
+        }
+        let loads = self.mechanism.loads.iter().filter_map(|load| {
+            load_force(self.mechanism, self.configuration, load).map(|force| force.norm())
+        });
+        loads.fold(0.0, f64::max)
+    }
+}
+
+/// "q = 0 m, rate 1 m/s"
+fn state_line(state: &[CoordinateState]) -> String {
+    let coordinates = state.iter().map(|coordinate| {
+        format!(
+            "{} = {}, rate {}",
+            coordinate.name,
+            quantity(coordinate.value, coordinate.unit),
+            quantity(coordinate.rate, &format!("{}/s", coordinate.unit))
+        )
+    });
+    coordinates.collect::<Vec<_>>().join("; ")
+}
+
+/// How many solutions there are.
+fn answer(report: &Report) -> String {
+    let drawn = report.solutions.len() + report.preload_gap_states.len();
+    let words = match report.status {
+        Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
+        Status::One => "One solution.".to_owned(),
+        Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
+        Status::Continuum => "Infinitely many solutions.".to_owned(),
+        Status::PreloadGap => "No solution, but a state with the preload between the faces.".to_owned(),
+        Status::Unknown => "No solution was found, but not every contact mode could be decided.".to_owned(),
+    };
+    if drawn > MOST { format!("{words} The first {MOST} are drawn.") } else { words }
+}
+
+fn described(lines: &[String], panels: &[Panel]) -> String {
+    let captions = panels.iter().map(|panel| {
+        let Caption { heading, lines } = &panel.caption;
+        std::iter::once(heading).chain(lines).map(String::as_str).collect::<Vec<_>>().join(". ")
+    });
+    lines.iter().cloned().chain(captions).collect::<Vec<_>>().join(" ")
+}
+
+struct Layout<'a> {
+    view: &'a View,
+    panels: Vec<Panel>,
+    title: String,
+    lines: Vec<String>,
+}
+
+impl Layout<'_> {
+    fn sheet(self, description: String) -> Sheet {
+        let picture = bounds_of(&self.panels)
+            .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::new(LEAST_WIDTH, LEAST_WIDTH) });
+        let panel_width = picture.size().x.max(LEAST_WIDTH);
+        let columns = columns(self.panels.len(), panel_width);
+        let row_width = columns as f64 * (panel_width + SPACE) - SPACE;
+        let mut scene = Scene::default();
+        let mut y = paragraph(&mut scene, &self.title, 20.0, Point::new(0.0, 0.0), row_width);
+        for line in &self.lines {
+            y = paragraph(&mut scene, line, VALUE_SIZE, Point::new(0.0, y), row_width);
+        }
+        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale);
+        for row in self.panels.chunks(columns) {
+            let picture = bounds_of(row).map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let mut below: f64 = 0.0;
+            for (column, panel) in row.iter().enumerate() {
+                let corner = Point::new(column as f64 * (panel_width + SPACE), y + 14.0);
+                let free = 0.5 * (panel_width - picture.size().x);
+                let by = corner + Point::new(free, 0.0) - picture.least;
+                scene.elements.extend(panel.scene.clone().shifted(by).elements);
+                let mut foot = corner.y + picture.size().y + 26.0;
+                self.legend(&mut scene, panel, length, Point::new(corner.x, foot));
+                foot += 16.0;
+                foot = paragraph(
+                    &mut scene,
+                    &panel.caption.heading,
+                    NAME_SIZE + 1.0,
+                    Point::new(corner.x, foot),
+                    panel_width,
+                );
+                for line in &panel.caption.lines {
+                    foot = paragraph(&mut scene, line, VALUE_SIZE, Point::new(corner.x, foot), panel_width);
+                }
+                below = below.max(foot);
+            }
+            y = below + 8.0;
+        }
+        y = key(&mut scene, y, row_width);
+        let bounds = Bounds { least: Point::zeros(), greatest: Point::new(row_width, y) }.widened(MARGIN);
+        Sheet { scene, bounds, title: self.title, description }
+    }
+
+    /// Bars of a length and of a force.
+    fn legend(&self, scene: &mut Scene, panel: &Panel, length: f64, corner: Point) {
+        let from = corner + Point::new(1.0, 0.0);
+        let mut right = from.x + length * self.view.scale;
+        for line in dimensions::scale_bar(from, length * self.view.scale) {
+            scene.add(Class::Edge, Shape::Line(line));
+        }
+        right = beside(scene, Point::new(right, corner.y), quantity(length, "m"));
+        if let Some(scale) = panel.force_scale {
+            let force = nice(0.7 * LONGEST_FORCE / scale);
+            let from = Point::new(right + 26.0, corner.y);
+            let to = from + Point::new(force * scale, 0.0);
+            scene.add(Class::Reaction, Shape::Arrow { from, to });
+            beside(scene, to, quantity(force, "N"));
+        }
+    }
+}
+
+/// The bounds of all pictures.
+fn bounds_of(panels: &[Panel]) -> Option<Bounds> {
+    panels.iter().filter_map(|panel| panel.scene.bounds()).reduce(Bounds::with)
+}
+
+/// A value to the right of a place; the x of its end.
+fn beside(scene: &mut Scene, place: Point, text: String) -> f64 {
+    let at = place + Point::new(9.0, 5.0);
+    let end = at.x + width(&text, VALUE_SIZE);
+    scene.write(Class::Words, Text { text, at, anchor: Anchor::Start, size: VALUE_SIZE });
+    end
+}
+
+/// So many columns that rows are not too long, and about equally filled.
+fn columns(count: usize, width: f64) -> usize {
+    let mut columns = 1;
+    while columns < count && (columns + 1) as f64 * (width + SPACE) - SPACE <= ROW {
+        columns += 1;
+    }
+    let rows = count.div_ceil(columns).max(1);
+    count.div_ceil(rows).max(1)
+}
+
+/// Writes a text in lines of at most this width below a place; the y below it.
+fn paragraph(scene: &mut Scene, text: &str, size: f64, corner: Point, most: f64) -> f64 {
+    let mut y = corner.y;
+    for line in wrapped(text, size, most) {
+        y += LINE * size;
+        let at = Point::new(corner.x, y);
+        scene.write(Class::Words, Text { text: line, at, anchor: Anchor::Start, size });
+    }
+    y
+}
+
+/// Lines of at most a width, broken between words, or within a word that is longer than a line.
+fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in text.split(' ') {
+        let Some(line) = lines.last_mut() else { continue };
+        let joined = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+        if width(&joined, size) <= most {
+            *line = joined;
+            continue;
+        }
+        if !line.is_empty() {
+            lines.push(String::new());
+        }
+        for character in word.chars() {
+            let Some(line) = lines.last_mut() else { continue };
+            line.push(character);
+            if width(line, size) > most && line.chars().count() > 1 {
+                line.pop();
+                lines.push(character.to_string());
+            }
+        }
+    }
+    lines
+}
+
+/// What the colours mean; the y below it.
+fn key(scene: &mut Scene, y: f64, most: f64) -> f64 {
+    let words = [
+        (Class::Reaction, "normal reaction on the block"),
+        (Class::Friction, "friction on the block"),
+        (Class::Load, "load, weight or drive"),
+        (Class::Drive, "drive, its size unknown"),
+        (Class::Velocity, "sliding velocity"),
+    ];
+    let used: Vec<_> = words
+        .into_iter()
+        .filter(|(class, _)| scene.elements.iter().any(|element| element.class == *class))
+        .collect();
+    let mut corner = Point::new(0.0, y + 18.0);
+    for (class, text) in &used {
+        let total = 40.0 + width(text, VALUE_SIZE);
+        if corner.x > 0.0 && corner.x + total > most {
+            corner = Point::new(0.0, corner.y + LINE * VALUE_SIZE);
+        }
+        scene.add(*class, Shape::Arrow { from: corner, to: corner + Point::new(28.0, 0.0) });
+        let end = beside(scene, corner + Point::new(26.0, 0.0), (*text).to_owned());
+        corner.x = end + 26.0;
+    }
+    if used.is_empty() { y } else { corner.y + 8.0 }
+}
+
+/// The greatest of 1, 2, 5 times a power of ten that is not above a positive value.
+fn nice(value: f64) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let power = 10.0_f64.powf(value.log10().floor());
+    [5.0, 2.0, 1.0]
+        .into_iter()
+        .map(|part| part * power)
+        .find(|nice| *nice <= value * (1.0 + 1e-9))
+        .unwrap_or(power)
+}

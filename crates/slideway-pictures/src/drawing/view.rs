@@ -1,0 +1,123 @@
+//! From metres to drawing units, and how far guides reach.
+
+use super::scene::{Bounds, Point};
+use nalgebra::Vector2;
+use slideway::configuration::Configuration;
+use slideway::ids::{BodyId, ContactId, Frame};
+use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Quantity, Shape, Slider};
+
+/// How a mechanism is laid out in a drawing: the same view serves many configurations of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// Drawing units for a metre.
+    pub scale: f64,
+    /// The place (m) at the origin of the drawing.
+    pub middle: Vector2<f64>,
+    /// Least and greatest displacement (m) of each joint, zero for hinges: guides reach that far.
+    pub slides: Vec<[f64; 2]>,
+}
+
+impl View {
+    /// A view in which every one of some configurations has its place within a width and height (drawing units);
+    /// what is drawn around it (hatching, arrows, labels) comes on top of that.
+    pub fn fitting(mechanism: &Mechanism, configurations: &[&Configuration], size: [f64; 2]) -> Self {
+        let extent = |configuration: &&Configuration| places(mechanism, configuration);
+        let bounds = Bounds::around(configurations.iter().flat_map(extent))
+            .unwrap_or(Bounds { least: Point::zeros(), greatest: Point::zeros() });
+        let wanted = bounds.size();
+        let scale = (size[0] / wanted.x).min(size[1] / wanted.y);
+        let scale = if scale.is_finite() { scale } else { 0.3 * size[0] / mechanism.size };
+        let slides = mechanism
+            .joints
+            .iter()
+            .map(|joint| match &joint.kind {
+                JointKind::Hinge(_) => [0.0; 2],
+                JointKind::Slider(slider) => slides(mechanism, configurations, slider),
+            })
+            .collect();
+        Self { scale, middle: bounds.middle(), slides }
+    }
+
+    /// Where a place (m) is in the drawing.
+    pub fn place(&self, place: Vector2<f64>) -> Point {
+        self.direction((place - self.middle) * self.scale)
+    }
+
+    /// A direction in the drawing, where y points down.
+    pub fn direction(&self, direction: Vector2<f64>) -> Point {
+        Point::new(direction.x, -direction.y)
+    }
+}
+
+/// Least and greatest displacement of a sliding joint, with its limits of travel where they are near.
+fn slides(mechanism: &Mechanism, configurations: &[&Configuration], slider: &Slider) -> [f64; 2] {
+    let displacement = |configuration: &&Configuration| configuration.slide(mechanism, slider).displacement;
+    let all = configurations.iter().map(displacement);
+    let limits = slider.travel.into_iter().flatten().filter(|limit| limit.abs() <= mechanism.size);
+    all.chain(limits)
+        .map(|value| [value; 2])
+        .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        .unwrap_or([0.0; 2])
+}
+
+/// Places (m) that have to be seen.
+fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f64>> {
+    let mut places = Vec::new();
+    for (index, body) in mechanism.bodies.iter().enumerate() {
+        let frame = Frame::Body(BodyId(index));
+        let centre = configuration.poses[index].position;
+        match body.shape {
+            Some(Shape::Bar(ends)) => {
+                let place = |position| configuration.position(mechanism, &Attachment { frame, position });
+                places.extend(ends.map(place));
+            }
+            Some(Shape::Rectangle([width, height])) => {
+                let half = if width.max(height) < mechanism.size { 0.5 * width.hypot(height) } else { 0.0 };
+                let across = Vector2::new(half.min(0.5 * width), half.min(0.5 * height));
+                places.extend([centre - across, centre + across]);
+            }
+            Some(Shape::Disc(radius)) => {
+                let across = Vector2::new(radius, radius);
+                places.extend([centre - across, centre + across]);
+            }
+            None => places.push(centre),
+        }
+    }
+    for joint in &mechanism.joints {
+        match &joint.kind {
+            JointKind::Hinge(ends) => places.push(configuration.position(mechanism, &ends[0])),
+            JointKind::Slider(slider) => places.extend(slider_places(mechanism, configuration, slider)),
+        }
+    }
+    for load in &mechanism.loads {
+        match &load.kind {
+            LoadKind::Force { at, .. } => places.push(configuration.position(mechanism, at)),
+            LoadKind::Spring { between, stiffness: size, .. }
+            | LoadKind::Damper { between, damping: size }
+                if !is_zero(*size) =>
+            {
+                places.extend(between.iter().map(|end| configuration.position(mechanism, end)));
+            }
+            _ => {}
+        }
+    }
+    places
+}
+
+/// Corners of the block and its contacts.
+fn slider_places(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Vec<Vector2<f64>> {
+    let tangent = configuration.direction(slider.block, slider.tangent);
+    let middle = configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at });
+    let across = Vector2::new(-tangent.y, tangent.x) * (0.5 * slider.height);
+    let half = tangent * (0.5 * slider.length);
+    let contacts = slider.contacts.iter().map(|id: &ContactId| configuration.contact(mechanism, *id).point);
+    [middle + half + across, middle - half + across, middle + half - across, middle - half - across]
+        .into_iter()
+        .chain(contacts)
+        .collect()
+}
+
+/// Whether a quantity is the constant zero: then there is nothing to be drawn.
+pub(super) fn is_zero(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Constant(0.0))
+}

@@ -1,0 +1,64 @@
+//! Colours of the classes of a map.
+
+use crate::plot::Hatching;
+use crate::theme::{DARK, Theme};
+use slideway::map::{ClassMeaning, MapClass};
+
+/// How a region is filled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Paint {
+    pub(super) fill: &'static str,
+    pub(super) hatching: Option<Hatching>,
+}
+
+/// Numbers of solutions, from one on: lighter to darker, blues that differ in lightness alone.
+const NUMBERS: [&str; 6] = ["#d6e6f4", "#86bbdd", "#3a87c0", "#17548f", "#0b2f5b", "#061a36"];
+/// Margins, small to large: the sequence YlGnBu of C. Brewer (ColorBrewer 2.0, Apache licence 2.0).
+const MARGINS: [&str; 7] = ["#ffffcc", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#0c2c84"];
+/// Sets of modes: lighter forms of the colours of Okabe and Ito, then the colours themselves.
+const SETS: [&str; 14] = [
+    "#8cc4e6", "#f3b184", "#7fcfb4", "#e6bcd3", "#f2cf80", "#a6a6a6", "#0072b2", "#d55e00", "#009e73",
+    "#cc79a7", "#e69f00", "#4d4d4d", "#56b4e9", "#f0e442",
+];
+const LOCKED: &str = "#e8703a";
+const SEVERAL: &str = "#d9a5c3";
+
+/// How the points of a class are filled; sets of modes take their colours in the order of the classes.
+pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Paint {
+    let plain = |fill: &'static str| Paint { fill, hatching: None };
+    match &class.meaning {
+        ClassMeaning::Locked | ClassMeaning::Moves { as_in_model: false, opposite: false } => {
+            Paint { fill: LOCKED, hatching: Some(Hatching::Rising) }
+        }
+        ClassMeaning::Solutions { .. } if is_of_margins(classes) => plain(SEVERAL),
+        ClassMeaning::Solutions { solutions, preload_gap_states } => {
+            let fill =
+                if *solutions == 0 { "#f2e2b6" } else { NUMBERS[(solutions - 1).min(NUMBERS.len() - 1)] };
+            Paint { fill, hatching: (*preload_gap_states > 0).then_some(Hatching::Falling) }
+        }
+        ClassMeaning::Modes { .. } => {
+            let sets = classes.iter().filter(|other| matches!(other.meaning, ClassMeaning::Modes { .. }));
+            let place = sets.take_while(|other| *other != class).count();
+            // After a round of colours they are hatched.
+            let hatching = (place >= SETS.len()).then_some(Hatching::Falling);
+            Paint { fill: SETS[place % SETS.len()], hatching }
+        }
+        ClassMeaning::Margin { from, .. } => {
+            let all = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0];
+            let step = all.iter().rposition(|bound| bound <= from).unwrap_or(0);
+            plain(MARGINS[step])
+        }
+        ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(NUMBERS[0]),
+        ClassMeaning::Moves { as_in_model: true, .. } => plain(NUMBERS[2]),
+        ClassMeaning::Moves { .. } => plain("#7fcfb4"),
+        ClassMeaning::Continuum => plain(theme.ink),
+        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } => {
+            let fill = if *theme == DARK { "#30363d" } else { "#e1e4e8" };
+            Paint { fill, hatching: Some(Hatching::Falling) }
+        }
+    }
+}
+
+fn is_of_margins(classes: &[MapClass]) -> bool {
+    classes.iter().any(|class| matches!(class.meaning, ClassMeaning::Margin { .. }))
+}

@@ -1,0 +1,142 @@
+//! The efforts of the drives at one value of what is varied.
+
+use super::report::{Efficiency, EfficiencyKind};
+use crate::fault::Faults;
+use crate::ids::DriveId;
+use crate::kinetics::effort_forces;
+use crate::limits::Varied;
+use crate::modes::ContactState;
+use crate::modes::existence::ModeProblemLine;
+use crate::solve::Stages;
+
+/// Powers below this share of what the single drives do are rounding.
+const NO_POWER: f64 = 1e-12;
+/// How near to an end growth is judged, as a fraction of the interval.
+const NEAR: [f64; 2] = [1e-5, 1e-7];
+/// Growth between these two places beyond which an unknown grows without bound.
+const GROWTH: f64 = 30.0;
+
+/// Everything that is known at one value.
+pub(super) struct Efforts {
+    line: ModeProblemLine,
+    drives: usize,
+    /// Without friction (N or N m).
+    pub(super) frictionless: Vec<f64>,
+    /// The velocity at which each effort works (m/s or rad/s).
+    pub(super) velocities: Vec<f64>,
+}
+
+impl Efforts {
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point.
+    pub(super) fn new(stages: &Stages, friction: f64) -> Result<Self, Faults> {
+        let parts = stages.parts_with_efforts(friction)?;
+        let drives = stages.mechanism.drives.len();
+        let effort = |drive: usize| stages.influence.layout().effort(DriveId(drive));
+        Ok(Self {
+            line: parts.line_to(&parts),
+            drives,
+            frictionless: (0..drives)
+                .map(|drive| stages.influence.frictionless[effort(drive)] + 0.0)
+                .collect(),
+            velocities: velocities(stages),
+        })
+    }
+
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(super) fn at(varied: &Varied, value: f64) -> Result<Self, Faults> {
+        varied.at(value, Self::new)
+    }
+
+    /// The efforts in the solution of a pattern; none where its determinant vanishes.
+    pub(super) fn of(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
+        let unknowns = self.line.unknowns(pattern, 0.0)?;
+        // The efforts stand at the end. Adding zero turns -0 into 0.
+        Some(unknowns.iter().skip(unknowns.len() - self.drives).map(|effort| effort + 0.0).collect())
+    }
+
+    fn normal_forces(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
+        Some(self.line.normal_force(pattern, 0.0)?.iter().copied().collect())
+    }
+
+    /// The power of efforts, and their efficiency.
+    pub(super) fn power(&self, efforts: &[f64]) -> (f64, Efficiency) {
+        (power(efforts, &self.velocities), efficiency(efforts, &self.frictionless, &self.velocities))
+    }
+}
+
+/// The velocity at which a unit effort of each drive works: force times velocity of its point, against its reaction.
+pub(super) fn velocities(stages: &Stages) -> Vec<f64> {
+    let configuration = &stages.configuration;
+    let work = |drive: &crate::mechanism::Drive| {
+        let wrenches = effort_forces(&stages.mechanism, configuration, &drive.effort);
+        let one = |wrench: &crate::kinetics::Wrench| {
+            wrench.force.dot(&configuration.velocity_at(wrench.frame, wrench.place))
+                + wrench.couple * configuration.angular_velocity(wrench.frame)
+        };
+        wrenches.iter().map(one).sum::<f64>() + 0.0
+    };
+    stages.mechanism.drives.iter().map(work).collect()
+}
+
+/// P = sum_i u_i w_i
+pub(super) fn power(efforts: &[f64], velocities: &[f64]) -> f64 {
+    efforts.iter().zip(velocities).map(|(effort, velocity)| effort * velocity).sum::<f64>() + 0.0
+}
+
+/// The share of power that is not lost to friction.
+pub(super) fn efficiency(efforts: &[f64], frictionless: &[f64], velocities: &[f64]) -> Efficiency {
+    let scale = |efforts: &[f64]| -> f64 {
+        efforts.iter().zip(velocities).map(|(effort, velocity)| (effort * velocity).abs()).sum()
+    };
+    let negligible = NO_POWER * scale(efforts).max(scale(frictionless));
+    let of = |efforts: &[f64]| {
+        let power = power(efforts, velocities);
+        if power.abs() <= negligible { 0.0 } else { power }
+    };
+    let (with, without) = (of(efforts), of(frictionless));
+    let (is, value) = if without == 0.0 {
+        (EfficiencyKind::NoPower, None)
+    } else if without > 0.0 && with > 0.0 {
+        (EfficiencyKind::Driving, Some(without / with))
+    } else if without < 0.0 && with < 0.0 {
+        (EfficiencyKind::Braking, Some(with / without))
+    } else if without < 0.0 {
+        (EfficiencyKind::HeldByFriction, None)
+    } else {
+        (EfficiencyKind::Undefined, None)
+    };
+    Efficiency { is, value }
+}
+
+/// What grows without bound in a mode towards an end.
+pub(super) struct Growing {
+    /// 1 or -1 for each drive whose effort does, with this sign, else 0.
+    pub(super) efforts: Vec<i8>,
+    /// The contacts whose normal forces do.
+    pub(super) contacts: Vec<usize>,
+}
+
+/// What grows without bound in a mode towards `end`, whose other end is `other`; none if no effort does.
+pub(super) fn growing(
+    pattern: &[ContactState],
+    [end, other]: [f64; 2],
+    at: impl Fn(f64) -> Option<Efforts>,
+) -> Option<Growing> {
+    let other = if other.is_finite() { other } else { 2.0 * end };
+    let [far, close] = NEAR.map(|fraction| at(end + fraction * (other - end)));
+    let (far, close) = (far?, close?);
+    let grows = |far: &[f64], close: &[f64]| -> Vec<i8> {
+        let one = |(far, close): (&f64, &f64)| match close.abs() > GROWTH * far.abs() {
+            true if *close > 0.0 => 1,
+            true => -1,
+            false => 0,
+        };
+        far.iter().zip(close).map(one).collect()
+    };
+    let efforts = grows(&far.of(pattern)?, &close.of(pattern)?);
+    let normal = grows(&far.normal_forces(pattern)?, &close.normal_forces(pattern)?);
+    let contacts = (0..normal.len()).filter(|&contact| normal[contact] != 0).collect();
+    efforts.iter().any(|&sign| sign != 0).then_some(Growing { efforts, contacts })
+}

@@ -1,0 +1,123 @@
+//! Driven motion: the effort that each drive needs against friction, and where it grows without bound.
+//!
+//! The efforts `u` of the drives are affine in the friction forces, as are the normal forces (theory, section 2). So they
+//! have one value in each solution, and grow without bound where the determinant of its mode vanishes (section 6). With
+//! the velocity `w_i` at which an effort works, the power of all drives is `P = sum_i u_i w_i`; `P_0` is that of the same
+//! motion without friction. The efficiency is
+//!
+//! ```text
+//! P_0 / P      P_0 > 0, P > 0: the drives push; the share of their power that is not lost to friction
+//! P / P_0      P_0 < 0, P < 0: the load pushes and the drives brake; the share of its power that reaches them
+//! ```
+//!
+//! and has no value where friction holds what would otherwise push (`P_0 < 0`, `P >= 0`), or where nothing is gained
+//! (`P_0 = 0`). Where some motions are not prescribed, they accelerate otherwise with friction than without; the
+//! comparison is that of the same instant.
+//!
+//! ```
+//! use slideway::drive::{DriveOptions, drive};
+//! use slideway::model::Model;
+//!
+//! let drawer = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
+//! let report = drive(&drawer, &DriveOptions::default())?;
+//! // P = Q / (1 - 2 mu a / L)
+//! let solution = &report.directions[0].solutions[0];
+//! assert!((solution.efforts[0] - 20.0 / 0.55).abs() < 1e-9);
+//! assert!((solution.efficiency.value.unwrap_or_default() - 0.55).abs() < 1e-12);
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
+
+mod course;
+mod efforts;
+mod report;
+mod state;
+mod text;
+
+pub use report::{
+    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution,
+    DrivenQuantity, Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
+};
+pub use text::to_text;
+
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::limits::{Varied, backwards, given_range};
+use crate::model::{Effort, Model};
+use crate::size::usual_range;
+
+/// The most rows of a table that are computed.
+pub const GREATEST_ROWS: usize = 10_001;
+
+/// What is asked of the drives.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DriveOptions {
+    /// "NAME" or "NAME=FROM..TO": a parameter, a coordinate, or [`crate::limits::FRICTION`], over which the efforts are
+    /// tabulated.
+    pub vary: Option<String>,
+    /// Evenly spaced rows of the table, at least two.
+    pub rows: usize,
+}
+
+impl Default for DriveOptions {
+    /// No table; 11 rows if there is one.
+    fn default() -> Self {
+        Self { vary: None, rows: 11 }
+    }
+}
+
+/// The efforts of all drives in both directions of motion: with friction in every solution, and without.
+///
+/// # Errors
+/// A model without drives; whatever `solve` refuses; of the table whatever [`crate::limits::limits`] refuses.
+pub fn drive(model: &Model, options: &DriveOptions) -> Result<DriveReport, Faults> {
+    if model.drives.is_empty() {
+        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
+        return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
+    }
+    let reversed = backwards(model)?;
+    let course =
+        options.vary.as_ref().map(|vary| course(model, &reversed, vary, options.rows)).transpose()?;
+    let drives = model.drives.iter().map(|drive| DriveName {
+        name: drive.name.to_string(),
+        unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
+    });
+    let (state, forwards) = state::direction(model, "model")?;
+    let (_, opposite) = state::direction(&reversed, "reversed")?;
+    let mut report = DriveReport {
+        schema: SCHEMA,
+        title: model.title.clone(),
+        state,
+        drives: drives.collect(),
+        directions: vec![forwards, opposite],
+        course,
+        conclusion: Vec::new(),
+    };
+    report.conclusion = text::conclusion(&report);
+    Ok(report)
+}
+
+fn course(model: &Model, reversed: &Model, vary: &str, rows: usize) -> Result<Course, Faults> {
+    let (name, range) = match vary.split_once('=') {
+        Some((name, range)) => (name.trim(), Some(range)),
+        None => (vary.trim(), None),
+    };
+    let varied = Varied::new(model, name)?;
+    let range = match range {
+        Some(text) => given_range(&varied, text)?,
+        None => usual_range(model, &varied)?,
+    };
+    let opposite = Varied::new(reversed, name)?;
+    let steps = rows.clamp(2, GREATEST_ROWS) - 1;
+    let (guarantee, forwards) = course::direction(&varied, range, steps, "model")?;
+    let (_, backwards) = course::direction(&opposite, range, steps, "reversed")?;
+    Ok(Course {
+        vary: DrivenQuantity {
+            name: varied.name.clone(),
+            unit: varied.unit(),
+            from: range[0],
+            to: range[1],
+            value: varied.present()?,
+        },
+        directions: vec![forwards, backwards],
+        guarantee,
+    })
+}

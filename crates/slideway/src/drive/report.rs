@@ -1,0 +1,186 @@
+//! What is told of driven motion: plain data, which are the JSON output.
+
+use crate::report::{CoordinateState, JointMode, Status, Verdict, indented_json};
+use serde::Serialize;
+
+/// Version of the layout of a [`DriveReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/drive/1";
+
+/// The efforts of all drives.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DriveReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// The title of the model.
+    pub title: Option<String>,
+    /// The coordinates, with the rates of the model.
+    pub state: Vec<CoordinateState>,
+    /// The drives; all lists of efforts have their order.
+    pub drives: Vec<DriveName>,
+    /// Motion as in the model, and with all rates reversed.
+    pub directions: Vec<DriveDirection>,
+    /// The efforts over what is varied, if anything is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub course: Option<Course>,
+    /// What it comes to, in words.
+    pub conclusion: Vec<String>,
+}
+
+/// A drive.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DriveName {
+    /// Its name.
+    pub name: String,
+    /// Unit of its effort: "N" or "N m".
+    pub unit: &'static str,
+}
+
+/// The efforts in one direction of motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DriveDirection {
+    /// "model" or "reversed".
+    pub direction: &'static str,
+    /// How many solutions there are.
+    pub status: Status,
+    /// Without friction.
+    pub frictionless: Frictionless,
+    /// Every solution, preload-gap states after the others.
+    pub solutions: Vec<DriveSolution>,
+    /// From this factor of friction on there is no solution; absent if there always is one, or it was not computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_solution: Option<f64>,
+    /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many modes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blow_ups: Option<Vec<BlowUp>>,
+}
+
+/// The efforts without friction.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Frictionless {
+    /// Of each drive (N or N m).
+    pub efforts: Vec<f64>,
+    /// Of all drives together (W).
+    pub power: f64,
+}
+
+/// The efforts in a solution.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DriveSolution {
+    /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
+    pub pattern: String,
+    /// Whether a contact rests in its preload gap.
+    pub preload_gap: bool,
+    /// The contact mode of each sliding joint.
+    pub joints: Vec<JointMode>,
+    /// Whether a mechanism with slightly elastic guides settles on it.
+    pub attainability: Verdict,
+    /// Of each drive (N or N m).
+    pub efforts: Vec<f64>,
+    /// Of all drives together (W).
+    pub power: f64,
+    /// Against the same motion without friction.
+    pub efficiency: Efficiency,
+}
+
+/// The share of power that is not lost to friction.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Efficiency {
+    /// Which way power flows.
+    pub is: EfficiencyKind,
+    /// The share; null where it has no meaning.
+    pub value: Option<f64>,
+}
+
+/// Which way power flows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EfficiencyKind {
+    /// The drives push, with and without friction: power without friction over power with it.
+    Driving,
+    /// The load pushes and the drives brake, with and without friction: power with friction over power without it.
+    Braking,
+    /// Without friction the load would push; friction holds it, and the drives have to push.
+    HeldByFriction,
+    /// Without friction the motion takes no power.
+    NoPower,
+    /// Without friction the drives would push, with it they brake; possible where some motions are not prescribed.
+    Undefined,
+}
+
+/// A value at which efforts grow without bound.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BlowUp {
+    /// The value.
+    pub at: f64,
+    /// The mode in which they do.
+    pub pattern: String,
+    /// Whether the mode exists below the value ("below") or above it ("above").
+    pub side: &'static str,
+    /// 1 or -1 for each drive whose effort grows without bound, with this sign, else 0.
+    pub efforts: Vec<i8>,
+    /// The contacts whose normal forces grow without bound, too.
+    pub contacts: Vec<String>,
+}
+
+/// The efforts over what is varied.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Course {
+    /// What is varied.
+    pub vary: DrivenQuantity,
+    /// Motion as in the model, and with all rates reversed.
+    pub directions: Vec<CourseDirection>,
+    /// What can be missed, in words.
+    pub guarantee: String,
+}
+
+/// What is varied, in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DrivenQuantity {
+    /// Its name.
+    pub name: String,
+    /// Its unit; empty where there is none, or none is known.
+    pub unit: String,
+    /// Where the range begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Its value in the model.
+    pub value: f64,
+}
+
+/// The efforts over what is varied in one direction of motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CourseDirection {
+    /// "model" or "reversed".
+    pub direction: &'static str,
+    /// One row for each value and each solution there; a value without a solution has one row without a pattern.
+    pub rows: Vec<CourseRow>,
+    /// Values at which efforts grow without bound, in ascending order.
+    pub blow_ups: Vec<BlowUp>,
+    /// Ranges in which the mechanism cannot be assembled or solved.
+    pub without_mode_problem: Vec<[f64; 2]>,
+}
+
+/// The efforts in one solution at one value.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CourseRow {
+    /// The value.
+    pub at: f64,
+    /// The mode; null where there is no solution or no position.
+    pub pattern: Option<String>,
+    /// Of each drive (N or N m); null where they grow without bound, or without a solution.
+    pub efforts: Option<Vec<f64>>,
+    /// 1 or -1 for each drive whose effort grows without bound there, else 0.
+    pub grows: Vec<i8>,
+    /// Without friction; null where there is no position.
+    pub frictionless: Option<Vec<f64>>,
+    /// Of all drives together (W).
+    pub power: Option<f64>,
+    /// Against the same motion without friction.
+    pub efficiency: Option<Efficiency>,
+}
+
+/// The report as indented JSON, ending in a line end.
+pub fn to_json(report: &DriveReport) -> String {
+    indented_json(report)
+}

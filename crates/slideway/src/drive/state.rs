@@ -1,0 +1,101 @@
+//! The efforts in the state of the model.
+
+use super::efforts::{Efforts, efficiency, growing, power, velocities};
+use super::report::{BlowUp, DriveDirection, DriveSolution, Frictionless};
+use crate::fault::Faults;
+use crate::ids::DriveId;
+use crate::model::Model;
+use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
+use crate::report::{CoordinateState, Solution};
+use crate::solve::{Stages, pattern, solve};
+
+/// The most patterns whose locking is sought.
+const PATTERNS: u64 = 1 << 12;
+/// Less and more friction than in the model, as factors.
+const FACTORS: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, f64::INFINITY]];
+/// Blow-ups of a mode at the same factor count once.
+const SAME: f64 = 1e-12;
+
+/// The efforts in one direction of motion, and the state.
+///
+/// # Errors
+/// Whatever `solve` refuses.
+pub(super) fn direction(
+    model: &Model,
+    direction: &'static str,
+) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
+    let report = solve(model)?;
+    let stages = Stages::new(model)?;
+    let velocities = velocities(&stages);
+    let layout = stages.influence.layout();
+    let frictionless: Vec<f64> = (0..velocities.len())
+        .map(|drive| stages.influence.frictionless[layout.effort(DriveId(drive))] + 0.0)
+        .collect();
+    let solution = |solution: &Solution, preload_gap: bool| {
+        let efforts: Vec<f64> = solution.drives.iter().map(|drive| drive.effort + 0.0).collect();
+        DriveSolution {
+            pattern: solution.pattern.clone(),
+            preload_gap,
+            joints: solution.joints.clone(),
+            attainability: solution.attainability.verdict,
+            power: power(&efforts, &velocities),
+            efficiency: efficiency(&efforts, &frictionless, &velocities),
+            efforts,
+        }
+    };
+    let pressed = report.solutions.iter().map(|one| solution(one, false));
+    let gaps = report.preload_gap_states.iter().map(|one| solution(one, true));
+    let found = DriveDirection {
+        direction,
+        status: report.status,
+        solutions: pressed.chain(gaps).collect(),
+        no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
+        blow_ups: blow_ups(&stages)?,
+        frictionless: Frictionless { power: power(&frictionless, &velocities), efforts: frictionless },
+    };
+    Ok((report.state, found))
+}
+
+/// The factors of friction at which efforts grow without bound; none if there are too many modes.
+fn blow_ups(stages: &Stages) -> Result<Option<Vec<BlowUp>>, Faults> {
+    let line = stages.parts(0.0)?.line_to(&stages.parts(1.0)?);
+    let mut all = Vec::new();
+    for range in FACTORS {
+        let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
+        let Ok(existence) = line.existence(&options) else { return Ok(None) };
+        all.extend(growing_ends(&existence, stages, |factor| Efforts::new(stages, factor).ok()));
+    }
+    all.sort_by(|one, other| one.at.total_cmp(&other.at));
+    all.dedup_by(|next, kept| {
+        next.pattern == kept.pattern && next.side == kept.side && next.at - kept.at <= SAME * next.at
+    });
+    Ok(Some(all))
+}
+
+/// The ends of modes at which efforts grow without bound, in ascending order.
+pub(super) fn growing_ends(
+    existence: &Existence,
+    stages: &Stages,
+    at: impl Fn(f64) -> Option<Efforts>,
+) -> Vec<BlowUp> {
+    let names = |contacts: &[usize]| {
+        contacts.iter().map(|&contact| stages.mechanism.contacts[contact].name.to_string()).collect()
+    };
+    let ends = |mode: &ModeInterval| {
+        let ends = [(mode.to.at, mode.from.at, "below"), (mode.from.at, mode.to.at, "above")];
+        let one = |&(end, other, side): &(f64, f64, &'static str)| {
+            let growing = growing(&mode.pattern, [end, other], &at).filter(|_| end.is_finite())?;
+            Some(BlowUp {
+                at: end,
+                pattern: pattern(&mode.pattern),
+                side,
+                efforts: growing.efforts,
+                contacts: names(&growing.contacts),
+            })
+        };
+        ends.iter().filter_map(one).collect::<Vec<_>>()
+    };
+    let mut all: Vec<BlowUp> = existence.modes.iter().flat_map(ends).collect();
+    all.sort_by(|one, other| one.at.total_cmp(&other.at));
+    all
+}

@@ -1,0 +1,70 @@
+//! What can be wrong with a quantity that is varied.
+
+use super::Faults;
+
+/// What is wrong with a quantity that is varied.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the message above each variant says what it and its values mean")]
+pub enum AxisProblem {
+    #[error("it is not of the form NAME=VALUES")]
+    Malformed,
+    #[error("it does not say how many values there are")]
+    NoCount,
+    #[error("`{text}` is no number of values from 2 on")]
+    Count { text: String },
+    #[error("`{text}` is no spacing")]
+    Spacing { text: String },
+    #[error("the range is empty: it begins and ends at {from}")]
+    Empty { from: f64 },
+    #[error("the range is reversed: it goes from {from} down to {to}")]
+    Reversed { from: f64, to: f64 },
+    #[error("logarithmic spacing needs a range above zero, but it begins at {from}")]
+    NotPositive { from: f64 },
+    #[error("{message}")]
+    Value { message: String, hint: Option<String> },
+    #[error("the factor of friction cannot be negative, but it is {value}")]
+    NegativeFriction { value: f64 },
+    #[error("it is a distribution, but there are no samples")]
+    WithoutSamples,
+    #[error("samples are drawn from a distribution or from a plain range")]
+    GridWithSamples,
+    #[error("{distribution} takes two values, {arguments}")]
+    Arguments { distribution: &'static str, arguments: &'static str },
+    #[error("{what} must be positive, but is {value}")]
+    Parameter { what: &'static str, value: f64 },
+    #[error("all of it lies below zero, where there is no friction")]
+    NoSupport,
+    #[error("{name} is varied twice")]
+    Twice { name: String },
+    #[error("with it there are more than {limit} points")]
+    TooMany { limit: u64 },
+}
+
+impl AxisProblem {
+    /// The first fault of a value, without its place: the text that is meant is no text of a setting.
+    pub(crate) fn of(faults: &Faults) -> Self {
+        let first = faults.sorted().first().map(|fault| (fault.kind.to_string(), fault.kind.hint()));
+        let (message, hint) = first.unwrap_or_default();
+        Self::Value { message, hint }
+    }
+
+    /// What to do about it, where there is something better to say than the message itself.
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Self::Malformed => "for instance `mu=0..0.8:801`, `mu=0.1,0.2,0.5` or `mu=normal(0.3, 0.05)`",
+            Self::NoCount => "write it behind the range, for instance `mu=0..0.8:801`",
+            Self::Spacing { .. } => "evenly spaced values are usual; `:log` spaces them logarithmically",
+            Self::Empty { .. } => "for one value write NAME=VALUE",
+            Self::Reversed { .. } => "write the smaller value first",
+            Self::NotPositive { .. } => "leave `:log` out, or begin above zero",
+            Self::WithoutSamples => "say how many, for instance `--samples 10000`",
+            Self::GridWithSamples => {
+                "leave the number of values out: FROM..TO; without --samples it is a grid"
+            }
+            Self::Value { hint, .. } => return hint.clone(),
+            _ => return None,
+        };
+        Some(hint.to_owned())
+    }
+}

@@ -1,0 +1,166 @@
+//! The classes into which the points of a map fall.
+
+use super::ColourBy;
+use crate::fault::{FaultKind, Faults};
+use crate::modes::existence::{ExistenceOptions, counts};
+use crate::modes::{ContactState, Limits, Solutions, enumerate};
+use crate::solve::{Parts, pattern};
+use nalgebra::DVector;
+use serde::Serialize;
+
+/// Bounds of the classes of margins.
+const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
+/// Ends closer to the present friction than this belong to it.
+const AT_ONCE: f64 = 1e-9;
+/// The most patterns for which margins are computed.
+const PATTERNS: u64 = 1 << 12;
+
+/// What the points of a class have in common.
+#[derive(Debug, Clone, PartialEq, PartialOrd, Serialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum ClassMeaning {
+    /// There is neither a solution nor a state with the preload between the faces.
+    Locked,
+    /// So many solutions, and states with the preload between the faces.
+    Solutions {
+        /// Number of solutions.
+        solutions: usize,
+        /// Number of preload-gap states.
+        preload_gap_states: usize,
+    },
+    /// The solutions have these patterns of signs, "0" in a preload gap.
+    Modes {
+        /// The patterns, in the order of enumeration.
+        patterns: Vec<String>,
+    },
+    /// There is one solution, and there are none or several from a factor of friction on that lies in this range.
+    Margin {
+        /// The least factor.
+        from: f64,
+        /// The greatest; null where there is none.
+        to: Option<f64>,
+    },
+    /// In which directions there is a solution or a preload-gap state.
+    Moves {
+        /// As in the model.
+        as_in_model: bool,
+        /// The other way.
+        opposite: bool,
+    },
+    /// Infinitely many solutions.
+    Continuum,
+    /// Too many patterns to try all of them.
+    TooLarge,
+    /// There is no mode problem, for this reason.
+    NotSolved {
+        /// The reason.
+        reason: &'static str,
+    },
+}
+
+/// A class, with an order: what is found first does not matter.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ClassKey(pub(super) ClassMeaning);
+
+/// All states of a mode problem.
+#[derive(Default)]
+struct States {
+    solutions: Vec<Vec<ContactState>>,
+    gaps: Vec<Vec<ContactState>>,
+    continuum: bool,
+}
+
+/// The class of a point by the mode problems of both directions, of which the opposite one is looked at by `Jam` alone.
+pub(super) fn class(
+    colour_by: ColourBy,
+    forwards: Result<&Parts, &'static str>,
+    opposite: Option<Result<&Parts, &'static str>>,
+) -> ClassMeaning {
+    let parts = match forwards {
+        Ok(parts) => parts,
+        Err(reason) => return ClassMeaning::NotSolved { reason },
+    };
+    let Some(states) = states(parts) else { return ClassMeaning::TooLarge };
+    let moves =
+        |states: &States| states.continuum || !(states.solutions.is_empty() && states.gaps.is_empty());
+    if colour_by == ColourBy::Jam {
+        let as_in_model = moves(&states);
+        return match opposite.map(|opposite| opposite.map(self::states)) {
+            None | Some(Ok(None)) => ClassMeaning::TooLarge,
+            Some(Err(reason)) => ClassMeaning::NotSolved { reason },
+            Some(Ok(Some(other))) => ClassMeaning::Moves { as_in_model, opposite: moves(&other) },
+        };
+    }
+    if states.continuum {
+        return ClassMeaning::Continuum;
+    }
+    if !moves(&states) {
+        return ClassMeaning::Locked;
+    }
+    let number =
+        ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
+    match colour_by {
+        ColourBy::Margin if states.solutions.len() == 1 => margin(parts).unwrap_or(ClassMeaning::TooLarge),
+        ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam => number,
+        ColourBy::Modes => {
+            let mut all: Vec<&Vec<ContactState>> = states.solutions.iter().chain(&states.gaps).collect();
+            all.sort_unstable();
+            ClassMeaning::Modes { patterns: all.into_iter().map(|states| pattern(states)).collect() }
+        }
+    }
+}
+
+/// All states in which no guided slider tips; none if there are too many patterns.
+fn states(parts: &Parts) -> Option<States> {
+    let problem = parts.problem().ok()?;
+    let found: Solutions = enumerate(&problem, &Limits::default()).ok()?;
+    let stands = |pattern: &[ContactState], force: &DVector<f64>, shares: &[Option<f64>]| {
+        !parts.tips(pattern, force, shares)
+    };
+    let none = vec![None; problem.contacts()];
+    let mut states = States::default();
+    for solution in &found.solutions {
+        let pattern: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
+        if stands(&pattern, &solution.normal_force, &none) {
+            states.solutions.push(pattern);
+        }
+    }
+    for gap in &found.gaps {
+        let mut shares = none.clone();
+        gap.shares.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
+        if stands(&gap.pattern, &gap.normal_force, &shares) {
+            states.gaps.push(gap.pattern.clone());
+        }
+    }
+    states.continuum = found.singular.iter().any(|mode| mode.set.is_continuum());
+    Some(states)
+}
+
+/// The margin of a point with one solution, as a range of factors; none if there are too many patterns.
+fn margin(parts: &Parts) -> Option<ClassMeaning> {
+    let range = [1.0, f64::INFINITY];
+    let line = parts.without_pressure_friction().line_to(parts);
+    let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
+    let existence = line.existence(&options).ok()?;
+    let counts = counts(&line, &existence, range);
+    let changes = counts.iter().find(|count| count.to > 1.0 + AT_ONCE && count.solutions != 1);
+    let factor = changes.map_or(f64::INFINITY, |count| count.from.max(1.0));
+    let above = MARGINS.iter().position(|&bound| factor < bound).unwrap_or(MARGINS.len() - 1);
+    let [from, to] = [MARGINS[above.max(1) - 1], MARGINS[above.max(1)]];
+    Some(ClassMeaning::Margin { from, to: to.is_finite().then_some(to) })
+}
+
+/// Why there is no mode problem, in few words, so that neighbouring points agree.
+pub(super) fn reason(faults: &Faults) -> &'static str {
+    match faults.sorted().first().map(|fault| &fault.kind) {
+        Some(FaultKind::NotAssembled { .. }) => "cannot be assembled",
+        Some(FaultKind::TravelExceeded { .. } | FaultKind::OverlapVanished { .. }) => {
+            "beyond the travel of a joint"
+        }
+        Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
+        Some(FaultKind::OutOfRange { .. } | FaultKind::StaticBelowKinetic { .. }) => {
+            "values that the model does not allow"
+        }
+        _ => "cannot be solved",
+    }
+}

@@ -1,0 +1,140 @@
+//! The mode problem at a point of the plane: interpolated where it depends bilinearly on both quantities, else made anew.
+
+use super::class::{ClassKey, class, reason};
+use super::{Axis, ColourBy};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::limits::backwards;
+use crate::model::{Model, Settings};
+use crate::solve::{Parts, Stages};
+
+/// Shares of both ranges at which it is seen whether the mode problem depends bilinearly on both quantities.
+const PROBES: [f64; 3] = [0.271_828, 0.577_216, 0.834_627];
+
+/// What finds the class of a point.
+pub(super) struct Evaluator<'a> {
+    axes: &'a [Axis; 2],
+    colour_by: ColourBy,
+    forwards: Source,
+    /// Motion the other way, for `Jam`.
+    opposite: Option<Source>,
+}
+
+/// Where mode problems come from.
+enum Source {
+    /// The corners of the plane: (0, 0), (1, 0), (0, 1), (1, 1).
+    Bilinear(Box<[Parts; 4]>),
+    /// The model, at every point.
+    Anew(Model),
+}
+
+impl<'a> Evaluator<'a> {
+    /// # Errors
+    /// A quantity on which nothing depends; a model that cannot be turned round.
+    pub(super) fn new(model: &Model, axes: &'a [Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
+        let forwards = Source::new(model.clone(), axes)?;
+        let opposite = match colour_by {
+            ColourBy::Jam => Some(Source::new(backwards(model)?, axes)?),
+            _ => None,
+        };
+        Ok(Self { axes, colour_by, forwards, opposite })
+    }
+
+    /// Whether mode problems are interpolated.
+    pub(super) fn is_bilinear(&self) -> bool {
+        matches!(self.forwards, Source::Bilinear(_))
+    }
+
+    /// The class of the point with these values.
+    pub(super) fn class(&self, x: f64, y: f64) -> ClassKey {
+        let at = |source: &Source| source.parts(self.axes, [x, y]).map_err(|faults| reason(&faults));
+        let forwards = at(&self.forwards);
+        let opposite = self.opposite.as_ref().map(at);
+        ClassKey(class(
+            self.colour_by,
+            forwards.as_ref().map_err(|reason| *reason),
+            opposite.as_ref().map(|other| other.as_ref().map_err(|reason| *reason)),
+        ))
+    }
+}
+
+impl Source {
+    fn new(model: Model, axes: &[Axis; 2]) -> Result<Self, Faults> {
+        let at = |[u, v]: [f64; 2]| parts_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)]);
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at);
+        let probes: Vec<([f64; 2], Result<Parts, Faults>)> =
+            PROBES.iter().flat_map(|&u| PROBES.map(|v| [u, v])).map(|place| (place, at(place))).collect();
+        nothing_varies(axes, &probes)?;
+        if let [Ok(a), Ok(b), Ok(c), Ok(d)] = corners {
+            let corners = Box::new([a, b, c, d]);
+            let bilinear = probes.iter().all(|(place, parts)| {
+                parts.as_ref().is_ok_and(|parts| parts.is_mixture(&weighted(&corners, *place)))
+            });
+            if bilinear {
+                return Ok(Self::Bilinear(corners));
+            }
+        }
+        Ok(Self::Anew(model))
+    }
+
+    fn parts(&self, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, Faults> {
+        match self {
+            Self::Bilinear(corners) => {
+                let share =
+                    |axis: &Axis, value: f64| (value - axis.range[0]) / (axis.range[1] - axis.range[0]);
+                let place = [share(&axes[0], values[0]), share(&axes[1], values[1])];
+                Parts::mixture(&weighted(corners, place)).ok_or_else(Faults::default)
+            }
+            Self::Anew(model) => parts_at(model, axes, values),
+        }
+    }
+}
+
+/// The corners with their weights at a place of the unit square.
+fn weighted(corners: &[Parts; 4], [u, v]: [f64; 2]) -> [(f64, &Parts); 4] {
+    let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+    [0, 1, 2, 3].map(|corner| (weights[corner], &corners[corner]))
+}
+
+fn along(axis: &Axis, share: f64) -> f64 {
+    if share == 1.0 { axis.range[1] } else { axis.range[0] + share * (axis.range[1] - axis.range[0]) }
+}
+
+fn parts_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, Faults> {
+    let mut settings = Settings::default();
+    let mut friction = 1.0;
+    for (axis, value) in axes.iter().zip(values) {
+        if axis.varied.is_friction_factor() {
+            friction = value;
+        } else {
+            settings = axis.varied.set(settings, value);
+        }
+    }
+    Stages::new(&model.with(&settings)?)?.parts(friction)
+}
+
+/// Refuses a quantity that changes nothing between any two probes.
+fn nothing_varies(axes: &[Axis; 2], probes: &[([f64; 2], Result<Parts, Faults>)]) -> Result<(), Faults> {
+    let mut faults = Faults::default();
+    for (index, axis) in axes.iter().enumerate() {
+        let other = 1 - index;
+        let mut pairs = probes.iter().flat_map(|one| probes.iter().map(move |next| (one, next)));
+        let mut compared = false;
+        let varies = pairs.any(|((place, parts), (next, others))| {
+            if place[other] != next[other] || place[index] == next[index] {
+                return false;
+            }
+            match (parts, others) {
+                (Ok(parts), Ok(others)) => {
+                    compared = true;
+                    !parts.is_same(others)
+                }
+                (one, two) => one.is_ok() != two.is_ok(),
+            }
+        });
+        if compared && !varies {
+            let [from, to] = axis.range;
+            faults.push(Fault::general(FaultKind::NothingVaries { what: axis.varied.in_words(), from, to }));
+        }
+    }
+    faults.or(())
+}

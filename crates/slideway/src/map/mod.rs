@@ -1,0 +1,169 @@
+//! Maps: which solutions there are over the plane of two parameters or coordinates.
+//!
+//! ```
+//! use slideway::map::{ColourBy, MapOptions, map};
+//! use slideway::model::{Model, Settings};
+//!
+//! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
+//! let model = Model::parse(text)?.with(&Settings::default().parameter("F_20", "0"))?;
+//! let options = MapOptions { width: 40, height: 40, ..MapOptions::of("mu_1=0..0.8", "mu_2=0..0.4") };
+//! let report = map(&model, &options)?;
+//! // One solution on the left of the locking value, two on the right of it.
+//! let words: Vec<&str> = report.classes.iter().map(|class| &*class.words).collect();
+//! assert_eq!(words, ["one solution", "two solutions"]);
+//! assert_eq!(report.class_at(0, 0), 0);
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
+
+mod class;
+mod evaluate;
+mod refine;
+mod report;
+
+pub use class::ClassMeaning;
+pub use report::{MapAxis, MapClass, MapReport, SCHEMA, to_json};
+
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::limits::{ShownIn, Varied, given_range};
+use crate::model::Model;
+use class::ClassKey;
+use evaluate::Evaluator;
+use refine::{Grid, Raster};
+use std::ops::ControlFlow;
+
+/// Pixels of the usual map along each side.
+const USUAL_SIZE: usize = 400;
+/// Pixels between probes.
+const USUAL_PROBE: usize = 8;
+/// The most pixels along a side.
+pub const GREATEST_SIZE: usize = 8192;
+
+/// What the colours of a map tell.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum ColourBy {
+    /// The number of solutions, and of states with the preload between the faces.
+    #[default]
+    Solutions,
+    /// The set of contact modes that have a solution.
+    Modes,
+    /// The factor by which all friction may grow before there are no or several solutions.
+    Margin,
+    /// Whether it moves as in the model, and the other way.
+    Jam,
+}
+
+/// What to map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapOptions {
+    /// "NAME=FROM..TO", from left to right: a parameter, a coordinate, or [`FRICTION`](crate::limits::FRICTION).
+    pub x: String,
+    /// The same from bottom to top.
+    pub y: String,
+    /// Pixels from left to right.
+    pub width: usize,
+    /// Pixels from bottom to top.
+    pub height: usize,
+    /// What the colours tell.
+    pub colour_by: ColourBy,
+    /// Pixels between probes: narrower regions may be missed. 1 looks at every pixel.
+    pub probe: usize,
+}
+
+impl MapOptions {
+    /// A map of 400 x 400 pixels by the number of solutions, with probes every 8 pixels.
+    pub fn of(x: &str, y: &str) -> Self {
+        Self {
+            x: x.to_owned(),
+            y: y.to_owned(),
+            width: USUAL_SIZE,
+            height: USUAL_SIZE,
+            colour_by: ColourBy::default(),
+            probe: USUAL_PROBE,
+        }
+    }
+}
+
+/// How far a map is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapProgress {
+    /// Points that were solved.
+    pub points: usize,
+    /// Pixels of the map.
+    pub pixels: usize,
+}
+
+/// An axis while the map is computed.
+struct Axis {
+    varied: Varied,
+    range: [f64; 2],
+    shown_in: ShownIn,
+}
+
+impl Axis {
+    fn new(model: &Model, text: &str) -> Result<Self, Faults> {
+        let (name, range) = match text.split_once('=') {
+            Some((name, range)) => (name.trim(), range),
+            None => (text.trim(), ""),
+        };
+        let varied = Varied::new(model, name)?;
+        if range.is_empty() {
+            let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
+            return Err(Fault::general(kind).into());
+        }
+        let range_of = given_range(&varied, range)?;
+        Ok(Self { shown_in: varied.shown_in(range), range: range_of, varied })
+    }
+
+    /// The value in the middle of a pixel.
+    fn value(&self, pixel: usize, pixels: usize) -> f64 {
+        let share = (pixel as f64 + 0.5) / pixels as f64;
+        self.range[0] + share * (self.range[1] - self.range[0])
+    }
+}
+
+/// The map of a model over two of its quantities.
+///
+/// Every pixel has the class of its middle. Probes are spaced evenly; between probes that agree the plane is filled, where
+/// they differ it is divided down to single pixels, and boundaries that were met are followed from pixel to pixel. So a
+/// region is missed only if it lies between probes and touches no boundary that was found. Solutions are those of
+/// [`modes::enumerate`](crate::modes::enumerate), within its tolerances, not certified as those of `solve`.
+///
+/// Where the mode problem depends bilinearly on both quantities (friction, preloads, loads), which is tried at a few points,
+/// its numbers are interpolated, else the mechanism is assembled anew at every point.
+///
+/// # Errors
+/// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a point cannot be
+/// assembled or solved is no error: it has a class of its own.
+pub fn map(model: &Model, options: &MapOptions) -> Result<MapReport, Faults> {
+    Ok(map_with(model, options, &mut |_| ControlFlow::Continue(()))?.unwrap_or_default())
+}
+
+/// [`map`] with a callback that is called now and then and ends the work when it breaks; nothing is returned then.
+///
+/// # Errors
+/// As [`map`].
+pub fn map_with(
+    model: &Model,
+    options: &MapOptions,
+    progress: &mut dyn FnMut(MapProgress) -> ControlFlow<()>,
+) -> Result<Option<MapReport>, Faults> {
+    let axes = axes(model, options)?;
+    let [width, height] = [options.width, options.height].map(|size| size.clamp(1, GREATEST_SIZE));
+    let evaluator = Evaluator::new(model, &axes, options.colour_by)?;
+    let class = |[i, j]: [usize; 2]| evaluator.class(axes[0].value(i, width), axes[1].value(j, height));
+    let grid = Grid { width, height, probe: options.probe.max(1) };
+    let Some(raster) = Raster::<ClassKey>::new(grid, &class, progress) else { return Ok(None) };
+    report::report(model, options, &axes, &evaluator, raster).map(Some)
+}
+
+fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {
+    let mut faults = Faults::default();
+    let mut axis = |text: &str| Axis::new(model, text).map_err(|found| faults.append(found)).ok();
+    let both = (axis(&options.x), axis(&options.y));
+    let (Some(x), Some(y)) = both else { return Err(faults) };
+    if x.varied.name == y.varied.name {
+        let kind = FaultKind::SameAxes { what: x.varied.in_words() };
+        return Err(Fault::general(kind).into());
+    }
+    Ok([x, y])
+}

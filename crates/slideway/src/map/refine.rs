@@ -1,0 +1,272 @@
+//! Classes of pixels, solved only where neighbours differ.
+
+use super::MapProgress;
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+
+/// Points that are solved between two calls of the callback.
+const AT_ONCE: usize = 2048;
+
+/// A plane of pixels, counted from the lower left corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Grid {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Pixels between probes.
+    pub(super) probe: usize,
+}
+
+/// The class of every pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Raster<K> {
+    pub(super) grid: Grid,
+    /// The classes that were found, in the order in which they were.
+    pub(super) classes: Vec<K>,
+    /// Index of the class of every pixel, row by row from the bottom.
+    pub(super) pixels: Vec<u32>,
+    /// Points that were solved.
+    pub(super) solved: usize,
+}
+
+/// A rectangle between pixels whose classes are known: left, right, bottom, top, all four included.
+type Cell = [usize; 4];
+
+/// No class yet.
+const OPEN: u32 = u32::MAX;
+
+struct Work<'w, K> {
+    grid: Grid,
+    class: &'w (dyn Fn([usize; 2]) -> K + Sync),
+    progress: &'w mut dyn FnMut(MapProgress) -> ControlFlow<()>,
+    classes: Vec<K>,
+    pixels: Vec<u32>,
+    /// Whether the class of a pixel is its own, not that of what lies around it.
+    is_solved: Vec<bool>,
+    solved: usize,
+}
+
+impl<K: PartialEq + Send> Raster<K> {
+    /// The classes of all pixels; none if the callback broke. The same for any number of threads.
+    pub(super) fn new(
+        grid: Grid,
+        class: &(dyn Fn([usize; 2]) -> K + Sync),
+        progress: &mut dyn FnMut(MapProgress) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        let pixels = grid.width * grid.height;
+        let mut work = Work {
+            grid,
+            class,
+            progress,
+            classes: Vec::new(),
+            pixels: vec![OPEN; pixels],
+            is_solved: vec![false; pixels],
+            solved: 0,
+        };
+        work.divide()?;
+        work.follow()?;
+        Some(Self { grid, classes: work.classes, pixels: work.pixels, solved: work.solved })
+    }
+}
+
+impl<K: PartialEq + Send> Work<'_, K> {
+    fn index(&self, [i, j]: [usize; 2]) -> usize {
+        j * self.grid.width + i
+    }
+
+    /// Solves the points among these that are not solved yet, in parallel, and enters them in their order.
+    fn solve(&mut self, mut points: Vec<[usize; 2]>) -> Option<()> {
+        points.sort_unstable_by_key(|&[i, j]| [j, i]);
+        points.dedup();
+        points.retain(|&point| !self.is_solved[self.index(point)]);
+        for chunk in points.chunks(AT_ONCE) {
+            let found: Vec<K> = chunk.par_iter().with_min_len(16).map(|&point| (self.class)(point)).collect();
+            for (&point, class) in chunk.iter().zip(found) {
+                let known = self.classes.iter().position(|other| *other == class);
+                let number = known.unwrap_or_else(|| {
+                    self.classes.push(class);
+                    self.classes.len() - 1
+                });
+                let index = self.index(point);
+                self.pixels[index] = u32::try_from(number).unwrap_or(OPEN);
+                self.is_solved[index] = true;
+            }
+            self.solved += chunk.len();
+            let progress = MapProgress { points: self.solved, pixels: self.pixels.len() };
+            if (self.progress)(progress).is_break() {
+                return None;
+            }
+        }
+        Some(())
+    }
+
+    /// Solves the probes, fills between those that agree, and divides the rest down to pixels.
+    fn divide(&mut self) -> Option<()> {
+        let stops = |size: usize| {
+            let mut stops: Vec<usize> = (0..size).step_by(self.grid.probe).collect();
+            if stops.last() != Some(&(size - 1)) {
+                stops.push(size - 1);
+            }
+            stops
+        };
+        let (columns, rows) = (stops(self.grid.width), stops(self.grid.height));
+        let mut probes: Vec<[usize; 2]> =
+            rows.iter().flat_map(|&j| columns.iter().map(move |&i| [i, j])).collect();
+        let mut cells: Vec<Cell> = Vec::new();
+        for pair in spans(&rows) {
+            cells.extend(spans(&columns).into_iter().map(|[left, right]| [left, right, pair[0], pair[1]]));
+        }
+        probes.extend(cells.iter().map(middle));
+        self.solve(probes)?;
+        while !cells.is_empty() {
+            let (alike, mixed): (Vec<Cell>, Vec<Cell>) =
+                cells.into_iter().partition(|cell| self.is_alike(cell));
+            alike.iter().for_each(|cell| self.fill(cell));
+            cells = mixed.iter().flat_map(parts).collect();
+            self.solve(cells.iter().flat_map(corners).collect())?;
+        }
+        Some(())
+    }
+
+    /// Whether the corners of a cell agree, and its middle if it is solved.
+    fn is_alike(&self, cell: &Cell) -> bool {
+        let first = self.pixels[self.index([cell[0], cell[2]])];
+        let middle = self.index(middle(cell));
+        corners(cell).iter().all(|&corner| self.pixels[self.index(corner)] == first)
+            && (!self.is_solved[middle] || self.pixels[middle] == first)
+    }
+
+    fn fill(&mut self, &[left, right, bottom, top]: &Cell) {
+        let class = self.pixels[self.index([left, bottom])];
+        for j in bottom..=top {
+            for i in left..=right {
+                let index = self.index([i, j]);
+                if !self.is_solved[index] {
+                    self.pixels[index] = class;
+                }
+            }
+        }
+    }
+
+    /// Solves filled pixels beside solved ones of another class, until there are none: boundaries are followed into cells
+    /// whose corners agree.
+    fn follow(&mut self) -> Option<()> {
+        let mut suspects: Vec<[usize; 2]> =
+            (0..self.grid.height).flat_map(|j| (0..self.grid.width).map(move |i| [i, j])).collect();
+        loop {
+            suspects.retain(|&point| self.is_suspect(point));
+            if suspects.is_empty() {
+                return Some(());
+            }
+            let solved = suspects.clone();
+            self.solve(solved)?;
+            let grid = self.grid;
+            suspects = suspects.iter().flat_map(|&point| neighbours(grid, point)).collect();
+            suspects.sort_unstable();
+            suspects.dedup();
+        }
+    }
+
+    fn is_suspect(&self, point: [usize; 2]) -> bool {
+        let index = self.index(point);
+        !self.is_solved[index]
+            && neighbours(self.grid, point).any(|next| {
+                let next = self.index(next);
+                self.is_solved[next] && self.pixels[next] != self.pixels[index]
+            })
+    }
+}
+
+/// Neighbouring stops; a single one twice.
+fn spans(stops: &[usize]) -> Vec<[usize; 2]> {
+    if let [only] = stops {
+        return vec![[*only; 2]];
+    }
+    stops.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+fn corners(&[left, right, bottom, top]: &Cell) -> [[usize; 2]; 4] {
+    [[left, bottom], [right, bottom], [left, top], [right, top]]
+}
+
+fn middle(&[left, right, bottom, top]: &Cell) -> [usize; 2] {
+    [left.midpoint(right), bottom.midpoint(top)]
+}
+
+/// The cell in up to four parts; none of a cell without pixels between its corners.
+fn parts(&[left, right, bottom, top]: &Cell) -> Vec<Cell> {
+    let halves = |from: usize, to: usize| {
+        if to - from > 1 {
+            vec![[from, from.midpoint(to)], [from.midpoint(to), to]]
+        } else {
+            vec![[from, to]]
+        }
+    };
+    let (columns, rows) = (halves(left, right), halves(bottom, top));
+    if columns.len() == 1 && rows.len() == 1 {
+        return Vec::new();
+    }
+    rows.iter().flat_map(|row| columns.iter().map(|column| [column[0], column[1], row[0], row[1]])).collect()
+}
+
+fn neighbours(grid: Grid, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+    let beside = [
+        i.checked_sub(1).map(|i| [i, j]),
+        (i + 1 < grid.width).then(|| [i + 1, j]),
+        j.checked_sub(1).map(|j| [i, j]),
+        (j + 1 < grid.height).then(|| [i, j + 1]),
+    ];
+    beside.into_iter().flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn raster(
+        width: usize,
+        height: usize,
+        probe: usize,
+        class: impl Fn([usize; 2]) -> u8 + Sync,
+    ) -> Raster<u8> {
+        let grid = Grid { width, height, probe };
+        Raster::new(grid, &class, &mut |_| ControlFlow::Continue(())).expect("nothing breaks")
+    }
+
+    fn is_exact(raster: &Raster<u8>, class: impl Fn([usize; 2]) -> u8) -> bool {
+        let Grid { width, height, .. } = raster.grid;
+        let pixels = (0..height).flat_map(|j| (0..width).map(move |i| [i, j]));
+        pixels.zip(&raster.pixels).all(|(point, &found)| raster.classes[found as usize] == class(point))
+    }
+
+    #[test]
+    fn boundaries_are_exact_to_the_pixel() {
+        // A disc, a line, and a wedge thinner than a cell that starts in the disc.
+        let class = |[i, j]: [usize; 2]| {
+            let (x, y) = (i as f64, j as f64);
+            let wedge = x > 130.0 && (y - 60.0).abs() < 0.05 * (200.0 - x);
+            u8::from((x - 100.0).hypot(y - 60.0) < 35.0)
+                + 2 * u8::from(3.0 * y > x + 200.0)
+                + 4 * u8::from(wedge)
+        };
+        for (width, height) in [(200, 150), (201, 97), (1, 150), (200, 1), (1, 1), (7, 5)] {
+            let found = raster(width, height, 8, class);
+            assert!(is_exact(&found, class), "{width} x {height}");
+        }
+        let found = raster(200, 150, 8, class);
+        assert!(found.solved < 200 * 150 / 4, "{} points", found.solved);
+    }
+
+    #[test]
+    fn what_lies_between_probes_is_missed_unless_every_pixel_is_probed() {
+        let dot = |point: [usize; 2]| u8::from(point == [2, 1]);
+        assert!(!is_exact(&raster(40, 40, 8, dot), dot));
+        assert!(is_exact(&raster(40, 40, 1, dot), dot));
+    }
+
+    #[test]
+    fn the_callback_ends_the_work() {
+        let grid = Grid { width: 100, height: 100, probe: 1 };
+        let ended = Raster::new(grid, &|[i, _]: [usize; 2]| i % 2, &mut |_| ControlFlow::Break(()));
+        assert!(ended.is_none());
+    }
+}

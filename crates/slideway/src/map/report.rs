@@ -1,0 +1,234 @@
+//! What is told of a map: plain data, which are the JSON output.
+
+use super::class::{ClassKey, ClassMeaning};
+use super::evaluate::Evaluator;
+use super::refine::Raster;
+use super::{Axis, ColourBy, MapOptions};
+use crate::fault::Faults;
+use crate::limits::Naming;
+use crate::model::Model;
+use crate::report::{indented_json, precise, spaced};
+use serde::Serialize;
+
+/// Version of the layout of a [`MapReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/map/1";
+
+/// A map of pixels and what their classes mean.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct MapReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// The title of the model.
+    pub title: Option<String>,
+    /// "solutions", "modes", "margin" or "jam".
+    pub colour_by: &'static str,
+    /// From left to right.
+    pub x: MapAxis,
+    /// From bottom to top.
+    pub y: MapAxis,
+    /// The classes that occur.
+    pub classes: Vec<MapClass>,
+    /// Number of points that were solved.
+    pub points: usize,
+    /// What can have been missed, in words.
+    pub guarantee: String,
+    /// Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels it has on end.
+    pub rows: Vec<Vec<[usize; 2]>>,
+}
+
+/// An axis of a map.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct MapAxis {
+    /// Its name.
+    pub name: String,
+    /// Where it begins (SI units).
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Its value in the model.
+    pub value: f64,
+    /// Number of pixels.
+    pub pixels: usize,
+    /// The unit in which it is to be shown; empty for pure numbers.
+    pub unit: String,
+    /// That unit in SI units.
+    pub scale: f64,
+}
+
+/// A class of points.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MapClass {
+    /// What its points have in common.
+    pub meaning: ClassMeaning,
+    /// The same in words.
+    pub words: String,
+    /// For modes: each of them in words.
+    pub modes: Vec<String>,
+    /// Number of its pixels.
+    pub pixels: usize,
+}
+
+impl MapReport {
+    /// The class of a pixel, counted from the lower left corner.
+    ///
+    /// # Panics
+    /// If there is no such pixel.
+    pub fn class_at(&self, column: usize, row: usize) -> usize {
+        let mut end = 0;
+        let run = self.rows[row].iter().find(|[_, length]| {
+            end += length;
+            column < end
+        });
+        run.expect("a pixel of the map")[0]
+    }
+
+    /// The classes of all pixels, row by row from the bottom.
+    pub fn pixels(&self) -> Vec<usize> {
+        let runs = self.rows.iter().flatten();
+        runs.flat_map(|&[class, length]| std::iter::repeat_n(class, length)).collect()
+    }
+}
+
+/// The report as JSON, indented but for the rows, of which each has a line.
+pub fn to_json(report: &MapReport) -> String {
+    let row = |row: &Vec<[usize; 2]>| serde_json::to_string(row).unwrap_or_default();
+    let rows: Vec<String> = report.rows.iter().map(row).collect();
+    let empty = indented_json(&MapReport { rows: Vec::new(), ..report.clone() });
+    empty.replace("\"rows\": []", &format!("\"rows\": [\n    {}\n  ]", rows.join(",\n    ")))
+}
+
+pub(super) fn report(
+    model: &Model,
+    options: &MapOptions,
+    axes: &[Axis; 2],
+    evaluator: &Evaluator<'_>,
+    raster: Raster<ClassKey>,
+) -> Result<MapReport, Faults> {
+    let names = Naming::new(model).ok();
+    let mut order: Vec<usize> = (0..raster.classes.len()).collect();
+    let meaning = |index: usize| &raster.classes[index].0;
+    order.sort_by(|&one, &other| {
+        meaning(one).partial_cmp(meaning(other)).unwrap_or(std::cmp::Ordering::Equal)
+    });
+    let mut place = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
+    let pixels: Vec<usize> = raster.pixels.iter().map(|&class| place[class as usize]).collect();
+    let mut counts = vec![0; order.len()];
+    pixels.iter().for_each(|&class| counts[class] += 1);
+    let classes = order
+        .iter()
+        .zip(&counts)
+        .map(|(&old, &pixels)| MapClass {
+            words: words(meaning(old)),
+            modes: modes(meaning(old), names.as_ref()),
+            meaning: meaning(old).clone(),
+            pixels,
+        })
+        .collect();
+    let axis = |axis: &Axis, pixels: usize| MapAxis {
+        name: axis.varied.name.clone(),
+        from: axis.range[0],
+        to: axis.range[1],
+        value: axis.varied.present().unwrap_or_default(),
+        pixels,
+        unit: axis.shown_in.unit.clone(),
+        scale: axis.shown_in.scale,
+    };
+    Ok(MapReport {
+        schema: SCHEMA,
+        title: model.title.clone(),
+        colour_by: match options.colour_by {
+            ColourBy::Solutions => "solutions",
+            ColourBy::Modes => "modes",
+            ColourBy::Margin => "margin",
+            ColourBy::Jam => "jam",
+        },
+        x: axis(&axes[0], raster.grid.width),
+        y: axis(&axes[1], raster.grid.height),
+        classes,
+        points: raster.solved,
+        guarantee: guarantee(&raster, evaluator.is_bilinear()),
+        rows: pixels.chunks(raster.grid.width).map(runs).collect(),
+    })
+}
+
+fn guarantee(raster: &Raster<ClassKey>, is_bilinear: bool) -> String {
+    let source = if is_bilinear {
+        "The mode problem depends bilinearly on both, so that its numbers were interpolated."
+    } else {
+        "The mechanism was assembled anew at every point."
+    };
+    let missed = match raster.grid.probe {
+        1 => "Every pixel was solved.".to_owned(),
+        probe => format!(
+            "Probes every {probe} pixels and midway between them: regions that lie between probes and touch no boundary that was found are missed."
+        ),
+    };
+    format!("{source} {missed}")
+}
+
+/// Pairs of a class and a number of pixels.
+fn runs(row: &[usize]) -> Vec<[usize; 2]> {
+    let runs = row.chunk_by(|one, next| one == next);
+    runs.map(|run| [run[0], run.len()]).collect()
+}
+
+fn words(meaning: &ClassMeaning) -> String {
+    match meaning {
+        ClassMeaning::Locked => "no solution: friction locks it".to_owned(),
+        ClassMeaning::Solutions { solutions, preload_gap_states } => {
+            let gaps = match preload_gap_states {
+                0 => String::new(),
+                1 => ", one preload-gap state".to_owned(),
+                several => format!(", {} preload-gap states", counted(*several)),
+            };
+            match solutions {
+                0 => format!("no solution{gaps}"),
+                1 => format!("one solution{gaps}"),
+                several => format!("{} solutions{gaps}", counted(*several)),
+            }
+        }
+        ClassMeaning::Modes { patterns } => {
+            patterns.iter().map(|pattern| spaced(pattern)).collect::<Vec<_>>().join(" | ")
+        }
+        ClassMeaning::Margin { from: 1.0, to: Some(to) } => {
+            format!("one solution; friction may grow up to {} times", precise(*to))
+        }
+        ClassMeaning::Margin { from, to: Some(to) } => {
+            format!("one solution; friction may grow {} to {} times", precise(*from), precise(*to))
+        }
+        ClassMeaning::Margin { from, to: None } => {
+            format!("one solution; friction may grow more than {} times", precise(*from))
+        }
+        ClassMeaning::Moves { as_in_model: true, opposite: true } => "can move both ways".to_owned(),
+        ClassMeaning::Moves { as_in_model: true, opposite: false } => {
+            "can move as in the model only; the other way friction locks it".to_owned()
+        }
+        ClassMeaning::Moves { as_in_model: false, opposite: true } => {
+            "can move against the direction of the model only".to_owned()
+        }
+        ClassMeaning::Moves { as_in_model: false, opposite: false } => {
+            "friction locks it both ways".to_owned()
+        }
+        ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
+        ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
+        ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
+    }
+}
+
+fn counted(number: usize) -> String {
+    match number {
+        2 => "two".to_owned(),
+        3 => "three".to_owned(),
+        4 => "four".to_owned(),
+        5 => "five".to_owned(),
+        6 => "six".to_owned(),
+        several => several.to_string(),
+    }
+}
+
+/// The contact modes of a class, one by one.
+fn modes(meaning: &ClassMeaning, names: Option<&Naming>) -> Vec<String> {
+    let (ClassMeaning::Modes { patterns }, Some(names)) = (meaning, names) else { return Vec::new() };
+    patterns.iter().map(|pattern| names.in_words(pattern)).collect()
+}

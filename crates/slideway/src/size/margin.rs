@@ -1,0 +1,135 @@
+//! The margin at one value of what is varied.
+
+use super::Against;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::limits::Varied;
+use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
+use crate::standstill::self_locking_factor;
+
+/// The most patterns for which a margin is computed.
+const PATTERNS: u64 = 1 << 12;
+/// From the friction of the model without end, as a factor.
+const GROWING: [f64; 2] = [1.0, f64::INFINITY];
+/// From no friction to that of the model.
+const FALLING: [f64; 2] = [0.0, 1.0];
+/// Gaps between modes that are narrower than this, relative to where they are, come from rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// How far friction is from a limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Margin {
+    /// This factor.
+    Finite(f64),
+    /// No friction reaches the limit.
+    Infinite,
+}
+
+impl Margin {
+    /// Wanted over present margin: 1 where it is just met, below where it is exceeded. Continuous where margins become
+    /// infinite.
+    pub(super) fn demand(self, wanted: f64) -> f64 {
+        match self {
+            Self::Infinite => 0.0,
+            Self::Finite(factor) if factor <= 0.0 => f64::INFINITY,
+            Self::Finite(factor) => wanted / factor,
+        }
+    }
+
+    pub(super) fn meets(self, wanted: f64) -> bool {
+        match self {
+            Self::Infinite => true,
+            Self::Finite(factor) => factor >= wanted,
+        }
+    }
+
+    fn least(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Finite(one), Self::Finite(other)) => Self::Finite(one.min(other)),
+            (Self::Infinite, finite) | (finite, Self::Infinite) => finite,
+        }
+    }
+
+    /// The factor; nothing where it is infinite.
+    pub(super) fn factor(self) -> Option<f64> {
+        match self {
+            Self::Finite(factor) => Some(factor),
+            Self::Infinite => None,
+        }
+    }
+}
+
+/// What is varied, and which margin is asked for.
+pub(super) struct Question<'v> {
+    pub(super) varied: &'v Varied,
+    /// The same with all rates reversed, if both directions count.
+    pub(super) reversed: Option<&'v Varied>,
+    pub(super) against: &'v Against,
+}
+
+impl Question<'_> {
+    /// The margin at a value; with both directions the smaller one.
+    ///
+    /// # Errors
+    /// Whatever keeps the mechanism from being assembled or solved there.
+    pub(super) fn margin(&self, value: f64) -> Result<Margin, Faults> {
+        match self.against {
+            Against::Locking => {
+                let margin = against_locking(self.varied, value)?;
+                match self.reversed {
+                    Some(reversed) => Ok(margin.least(against_locking(reversed, value)?)),
+                    None => Ok(margin),
+                }
+            }
+            Against::SelfLocking { load } => {
+                Ok(self.threshold(load, value)?.map_or(Margin::Infinite, Margin::Finite))
+            }
+            Against::Hold { load } => Ok(match self.threshold(load, value)? {
+                None => Margin::Finite(0.0),
+                Some(0.0) => Margin::Infinite,
+                Some(factor) => Margin::Finite(factor.recip()),
+            }),
+        }
+    }
+
+    /// The factor of static friction at which the mechanism becomes self-locking.
+    fn threshold(&self, load: &str, value: f64) -> Result<Option<f64>, Faults> {
+        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?.0, load)?;
+        if undecided > 0 {
+            return Err(Fault::general(FaultKind::UndecidedAtRest { load: load.to_owned() }).into());
+        }
+        let scale = if self.varied.is_friction_factor() { value } else { 1.0 };
+        Ok(threshold.map(|factor| factor / scale).filter(|factor| factor.is_finite()))
+    }
+}
+
+fn against_locking(varied: &Varied, value: f64) -> Result<Margin, Faults> {
+    let line = varied.growing_friction(value)?;
+    locking_margin(&line).map_err(|TooManyModes { contacts, limit, .. }| {
+        Fault::general(FaultKind::TooManyModes { contacts, limit }).into()
+    })
+}
+
+/// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where there is none
+/// as it is, the factor to which it has to fall.
+fn locking_margin(line: &ModeProblemLine) -> Result<Margin, TooManyModes> {
+    let existence =
+        |range| line.existence(&ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS });
+    Ok(match covered(&existence(GROWING)?) {
+        Some(end) if end.is_infinite() => Margin::Infinite,
+        Some(end) => Margin::Finite(end),
+        None => {
+            let ends = existence(FALLING)?.modes.into_iter().map(|mode| mode.to.at);
+            Margin::Finite(ends.fold(0.0, f64::max))
+        }
+    })
+}
+
+/// Up to where some mode exists without interruption, from the friction of the model on; nothing if none exists there.
+fn covered(existence: &Existence) -> Option<f64> {
+    let mut modes: Vec<[f64; 2]> = existence.modes.iter().map(|mode| [mode.from.at, mode.to.at]).collect();
+    modes.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    modes.into_iter().fold(None, |end: Option<f64>, [from, to]| {
+        let reached = end.unwrap_or(GROWING[0]);
+        if from <= reached * (1.0 + ROUNDING) { Some(reached.max(to)) } else { end }
+    })
+}

@@ -1,0 +1,154 @@
+//! Design: the value of a parameter at which a wanted margin against locking is just met.
+//!
+//! The margin against locking is the factor by which all kinetic coefficients of friction may grow before there is no
+//! solution (`margins.no_solution` of [`crate::solve`]). Where there is none already, it is the factor to which they
+//! have to fall, below 1. At one value it is known in closed form ([`crate::modes::existence`]); over a parameter it is
+//! bracketed. The margin against self-locking is the factor by which all static coefficients may grow before a load is
+//! held however great it is; the margin of holding is its inverse, the factor by which they may be smaller.
+//!
+//! ```
+//! use slideway::model::Model;
+//! use slideway::size::{SizeOptions, size};
+//!
+//! // A drawer jams at mu = L / (2 a): for a margin x it needs L = 2 a mu x.
+//! let drawer = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
+//! let report = size(&drawer, &SizeOptions::against_locking("L", 2.0))?;
+//! assert!((report.met[0].from - 2.0 * 0.3 * 0.3 * 2.0).abs() < 1e-14);
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
+
+mod margin;
+mod report;
+mod search;
+mod text;
+mod words;
+
+pub use report::{
+    MarginKind, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, SizedQuantity,
+    to_json,
+};
+pub use text::to_text;
+
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::limits::{Varied, backwards, given_range, linear};
+use crate::model::Model;
+use margin::{Margin, Question};
+use search::Search;
+
+/// Steps of the evenly spaced values against locking.
+const STEPS: usize = 500;
+/// The same at rest, where each value takes linear programs.
+const STEPS_AT_REST: usize = 100;
+/// Without a range a parameter goes from its value divided by this to its value multiplied by it.
+const USUAL_FACTOR: f64 = 5.0;
+
+/// Against what there is to be a margin.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Against {
+    /// Locking in motion: there is no solution.
+    Locking,
+    /// Self-locking at rest: this load, or effort of a drive, is held however great it is.
+    SelfLocking {
+        /// Name of the load or drive.
+        load: String,
+    },
+    /// The opposite wish: this load is to be held however great it is.
+    Hold {
+        /// Name of the load or drive.
+        load: String,
+    },
+}
+
+/// What is to be sized.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SizeOptions {
+    /// "NAME" or "NAME=FROM..TO": a parameter, a coordinate, or [`crate::limits::FRICTION`].
+    pub vary: String,
+    /// The wanted margin, positive: a factor of friction.
+    pub margin: f64,
+    /// Against what.
+    pub against: Against,
+    /// Whether motion in the opposite direction counts, too: the smaller margin of both.
+    pub both_directions: bool,
+}
+
+impl SizeOptions {
+    /// A margin against locking in the direction of the model.
+    pub fn against_locking(vary: &str, margin: f64) -> Self {
+        Self { vary: vary.to_owned(), margin, against: Against::Locking, both_directions: false }
+    }
+}
+
+/// The values of a parameter at which a wanted margin is just met, and the intervals in which it is met.
+///
+/// Evenly spaced values are tried, and what changes between them is bisected to neighbouring floating-point numbers; dips
+/// and humps between them are followed to their extremum. The report says what such a search can miss.
+///
+/// # Errors
+/// An unknown name, a range that is empty, reversed, or needed and absent, one on which nothing depends; a load that is
+/// unknown or zero; too many contact modes or states at rest. Values at which the mechanism cannot be assembled or
+/// solved are no error but part of the report.
+pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> {
+    let (name, range) = match options.vary.split_once('=') {
+        Some((name, range)) => (name.trim(), Some(range)),
+        None => (options.vary.trim(), None),
+    };
+    let at_rest = options.against != Against::Locking;
+    if at_rest && options.both_directions {
+        return Err(Fault::general(FaultKind::NoDirectionAtRest).into());
+    }
+    let varied = Varied::new(model, name)?;
+    let range = match range {
+        Some(text) => given_range(&varied, text)?,
+        None => usual_range(model, &varied)?,
+    };
+    let opposite = if options.both_directions { Some(Varied::new(&backwards(model)?, name)?) } else { None };
+    if !at_rest {
+        linear(&varied, range)?;
+    }
+    let question = Question { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
+    let value = varied.present()?;
+    let present = present(&question, value)?;
+    let steps = if at_rest { STEPS_AT_REST } else { STEPS };
+    let found = Search { question: &question, wanted: options.margin, range, steps }.run();
+    Ok(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
+}
+
+/// The margin in the model; nothing where it has no position, which other values may have.
+fn present(question: &Question<'_>, value: f64) -> Result<Option<Margin>, Faults> {
+    let everywhere = |fault: &&Fault| {
+        matches!(
+            fault.kind,
+            FaultKind::UnknownName { .. }
+                | FaultKind::NoLoadAtRest { .. }
+                | FaultKind::TooManyStates { .. }
+                | FaultKind::TooManyModes { .. }
+                | FaultKind::TooManyContacts { .. }
+        )
+    };
+    match question.margin(value) {
+        Ok(margin) => Ok(Some(margin)),
+        Err(faults) if faults.sorted().iter().any(everywhere) => Err(faults),
+        Err(_) => Ok(None),
+    }
+}
+
+/// A range around the value in the model; coordinates and values of zero need one.
+///
+/// # Errors
+/// A fault if a range is needed.
+pub(crate) fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
+    if varied.is_friction_factor() {
+        return Ok([0.0, 2.0 * USUAL_FACTOR]);
+    }
+    let present = varied.present()?;
+    if model.is_friction_coefficient(&varied.name) {
+        Ok([0.0, (2.0 * present).max(1.0)])
+    } else if varied.is_coordinate() || present == 0.0 {
+        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
+        Err(Fault::general(kind).into())
+    } else {
+        let ends = [present / USUAL_FACTOR, present * USUAL_FACTOR];
+        Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })
+    }
+}

@@ -1,0 +1,201 @@
+//! The values at which a margin is just met: evenly spaced values, and bisection of what changes between them.
+
+use super::margin::{Margin, Question};
+use crate::fault::Faults;
+
+/// Halvings between two values: down to neighbouring numbers.
+const HALVINGS: usize = 100;
+/// Steps towards the extremum of a dip or hump.
+const GOLDEN_STEPS: usize = 40;
+/// (sqrt(5) - 1) / 2
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Margins on both sides of a crossing that differ by more than this share of the wanted one jump there.
+const JUMP: f64 = 1e-6;
+
+/// The margin at a value.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) at: f64,
+    /// None where the mechanism cannot be assembled or solved.
+    pub(super) margin: Option<Margin>,
+}
+
+/// Why an interval ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Cause {
+    /// The range ends.
+    Range,
+    /// The margin is just met.
+    Margin,
+    /// The margin jumps to this one outside.
+    Jump(Margin),
+    /// The mechanism cannot be assembled or solved beyond.
+    NoPosition,
+}
+
+/// An end of an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct End {
+    pub(super) at: f64,
+    pub(super) cause: Cause,
+}
+
+/// A range without a position, and why.
+pub(super) struct Gap {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) faults: Faults,
+}
+
+/// What a search finds.
+pub(super) struct Found {
+    /// The margin at evenly spaced values, and where dips and humps made more necessary.
+    pub(super) places: Vec<Place>,
+    /// Where the margin is met.
+    pub(super) met: Vec<[End; 2]>,
+    pub(super) gaps: Vec<Gap>,
+}
+
+/// A search over a range.
+pub(super) struct Search<'q> {
+    pub(super) question: &'q Question<'q>,
+    pub(super) wanted: f64,
+    pub(super) range: [f64; 2],
+    pub(super) steps: usize,
+}
+
+impl Search<'_> {
+    pub(super) fn run(&self) -> Found {
+        let [from, to] = self.range;
+        // Both ends of the range stay exact.
+        let value = |step: usize| {
+            if step == self.steps { to } else { from + (to - from) * step as f64 / self.steps as f64 }
+        };
+        let mut places: Vec<Place> = (0..=self.steps).map(|step| self.place(value(step))).collect();
+        self.follow_extrema(&mut places);
+        Found { met: self.met(&places), gaps: self.gaps(&places), places }
+    }
+
+    fn place(&self, at: f64) -> Place {
+        Place { at, margin: self.question.margin(at).ok() }
+    }
+
+    fn is_met(&self, place: &Place) -> bool {
+        place.margin.is_some_and(|margin| margin.meets(self.wanted))
+    }
+
+    /// Adds the extremum of a dip or hump that crosses the wanted margin between values that do not.
+    fn follow_extrema(&self, places: &mut Vec<Place>) {
+        let found: Vec<Place> = places.windows(3).filter_map(|three| self.extremum(three)).collect();
+        places.extend(found);
+        places.sort_by(|one, other| one.at.total_cmp(&other.at));
+    }
+
+    /// A value between three neighbours on the other side of the wanted margin, sought where the middle one comes nearest.
+    fn extremum(&self, three: &[Place]) -> Option<Place> {
+        let is_met = self.is_met(&three[1]);
+        let [before, middle, after] =
+            [three[0].margin?, three[1].margin?, three[2].margin?].map(|margin| margin.demand(self.wanted));
+        let nearer = |one: f64, other: f64| if is_met { one > other } else { one < other };
+        let is_extreme = (nearer(middle, before) && !nearer(after, middle))
+            || (nearer(middle, after) && !nearer(before, middle));
+        if !is_extreme || three.iter().any(|place| self.is_met(place) != is_met) {
+            return None;
+        }
+        let [mut low, mut high] = [three[0].at, three[2].at];
+        let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let mut pair = inner(low, high).map(|at| self.place(at));
+        for _ in 0..GOLDEN_STEPS {
+            if let Some(crossed) = pair.iter().find(|place| self.is_met(place) != is_met) {
+                return crossed.margin.map(|_| *crossed);
+            }
+            let [one, other] = pair.map(|place| place.margin.map(|margin| margin.demand(self.wanted)));
+            if nearer(one?, other?) {
+                high = pair[1].at
+            } else {
+                low = pair[0].at
+            }
+            let next = inner(low, high);
+            pair = if nearer(one?, other?) {
+                [self.place(next[0]), pair[0]]
+            } else {
+                [pair[1], self.place(next[1])]
+            };
+        }
+        None
+    }
+
+    /// The intervals in which the margin is met.
+    fn met(&self, places: &[Place]) -> Vec<[End; 2]> {
+        let mut intervals = Vec::new();
+        let mut start: Option<End> = None;
+        for (index, place) in places.iter().enumerate() {
+            match (self.is_met(place), start) {
+                (true, None) => {
+                    start = Some(match index.checked_sub(1) {
+                        None => End { at: place.at, cause: Cause::Range },
+                        Some(before) => self.end(place.at, places[before].at),
+                    });
+                }
+                (false, Some(from)) => {
+                    intervals.push([from, self.end(places[index - 1].at, place.at)]);
+                    start = None;
+                }
+                _ => {}
+            }
+        }
+        if let (Some(from), Some(last)) = (start, places.last()) {
+            intervals.push([from, End { at: last.at, cause: Cause::Range }]);
+        }
+        intervals
+    }
+
+    /// Where the margin ceases to be met between a value where it is and one where it is not.
+    fn end(&self, inside: f64, outside: f64) -> End {
+        let (near, beyond) = bisect(inside, outside, |at| self.is_met(&self.place(at)));
+        let cause = match (self.place(near).margin, self.place(beyond).margin) {
+            (Some(one), Some(other)) => {
+                let change = (one.demand(self.wanted) - other.demand(self.wanted)).abs();
+                if change > JUMP { Cause::Jump(other) } else { Cause::Margin }
+            }
+            _ => Cause::NoPosition,
+        };
+        End { at: near, cause }
+    }
+
+    /// The ranges in which the mechanism cannot be assembled or solved.
+    fn gaps(&self, places: &[Place]) -> Vec<Gap> {
+        let mut gaps: Vec<Gap> = Vec::new();
+        let has_position = |at: f64| self.question.margin(at).is_ok();
+        for (index, place) in places.iter().enumerate().filter(|(_, place)| place.margin.is_none()) {
+            let edge = |neighbour: Option<&Place>| match neighbour {
+                Some(neighbour) if neighbour.margin.is_some() => {
+                    bisect(neighbour.at, place.at, has_position).1
+                }
+                _ => place.at,
+            };
+            let before = index.checked_sub(1).map(|before| &places[before]);
+            let to = edge(places.get(index + 1));
+            match gaps.last_mut() {
+                Some(last) if before.is_some_and(|before| before.margin.is_none()) => last.to = to,
+                _ => {
+                    let faults = self.question.margin(place.at).err().unwrap_or_default();
+                    gaps.push(Gap { from: edge(before), to, faults });
+                }
+            }
+        }
+        gaps
+    }
+}
+
+/// Neighbouring values, of which only the first is inside.
+fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) -> bool) -> (f64, f64) {
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(inside, outside);
+        if middle == inside || middle == outside {
+            break;
+        }
+        if is_inside(middle) { inside = middle } else { outside = middle }
+    }
+    (inside, outside)
+}

@@ -1,0 +1,81 @@
+//! A design as text for people.
+
+use super::report::{MetInterval, SampleKind, SizeReport};
+use super::words::quantity;
+use crate::report::Style;
+use crate::report::number::precise;
+use crate::report::page::Page;
+use crate::report::table::table;
+
+/// The report as text: what it comes to, where the margin is met, and a table of margins.
+pub fn to_text(report: &SizeReport, style: Style) -> String {
+    let mut text = Page::new(report, style);
+    text.heading();
+    text.intervals();
+    text.margins();
+    text.out
+}
+
+impl Page<'_, SizeReport> {
+    fn heading(&mut self) {
+        let report = self.report;
+        if let Some(title) = &report.title {
+            self.headline(title);
+        }
+        let vary = &report.vary;
+        self.line(&format!("{} from {} to {}", vary.name, precise(vary.from), quantity(report, vary.to)));
+        self.line("");
+        for sentence in &report.conclusion {
+            self.headline(sentence);
+        }
+        self.line(&report.guarantee);
+    }
+
+    fn intervals(&mut self) {
+        let report = self.report;
+        if report.met.is_empty() {
+            return;
+        }
+        self.line("");
+        self.headline(&format!("Where the margin is at least {}", precise(report.margin)));
+        let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
+        self.out.push_str(&table(&["from", "to", "begins with", "ends with"], &rows, 0));
+    }
+
+    fn margins(&mut self) {
+        let report = self.report;
+        self.line("");
+        self.headline("Margins");
+        let name = match report.vary.unit.as_str() {
+            "" => report.vary.name.clone(),
+            unit => format!("{} in {unit}", report.vary.name),
+        };
+        let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
+            (SampleKind::Infinite, _) => "infinite".to_owned(),
+            (_, Some(margin)) => precise(margin),
+            _ => "no position".to_owned(),
+        };
+        let rows: Vec<Vec<String>> =
+            report.samples.iter().map(|sample| vec![precise(sample.at), margin(sample)]).collect();
+        self.out.push_str(&table(&[&name, "margin"], &rows, 0));
+    }
+}
+
+fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
+    vec![
+        precise(interval.from),
+        precise(interval.to),
+        cause(report, interval.from_is, interval.from_jumps_to),
+        cause(report, interval.to_is, interval.to_jumps_to),
+    ]
+}
+
+fn cause(report: &SizeReport, is: &str, jumps_to: Option<f64>) -> String {
+    match (is, jumps_to) {
+        ("range", _) => "the range".to_owned(),
+        ("margin", _) => format!("margin {}", precise(report.margin)),
+        ("jump", Some(margin)) => format!("a jump of the margin to {}", precise(margin)),
+        ("jump", None) => "a jump of the margin".to_owned(),
+        _ => "no position".to_owned(),
+    }
+}

@@ -1,0 +1,171 @@
+//! What a design comes to, in words.
+
+use super::report::{MarginKind, MetInterval, Sample, SampleKind, SizeReport};
+use super::search::Place;
+use crate::report::number::number;
+use crate::report::number::precise;
+
+/// Margins closer than this, relative to the greater one, are the same.
+const SAME: f64 = 1e-9;
+
+/// A report whose conclusion is sought.
+pub(super) struct Words<'r> {
+    pub(super) report: &'r SizeReport,
+    pub(super) places: &'r [Place],
+}
+
+pub(super) fn guarantee([from, to]: [f64; 2], steps: usize) -> String {
+    let step = (to - from) / steps as f64;
+    format!(
+        "{} evenly spaced values were tried, and where the margin passes the wanted one between them was bisected to machine precision; dips and humps between them were followed to their extremum. Only a jump of the margin there and back, or a second dip, within two steps of {} may be missed.",
+        steps + 1,
+        number(step)
+    )
+}
+
+impl Words<'_> {
+    pub(super) fn conclusion(&self) -> Vec<String> {
+        let mut sentences = vec![self.answer()];
+        sentences.push(self.present());
+        sentences.extend(self.constant());
+        let report = self.report;
+        for gap in &report.without_position {
+            sentences.push(format!(
+                "From {} to {} the question has no answer, which is no locking: {}.",
+                quantity(report, gap.from),
+                quantity(report, gap.to),
+                gap.reason
+            ));
+        }
+        sentences
+    }
+
+    /// "For a margin of 2 against locking: L at least 0.36 m."
+    fn answer(&self) -> String {
+        let report = self.report;
+        let wish = wish(report);
+        let name = &report.vary.name;
+        match report.met.as_slice() {
+            [] => {
+                let best = self.places.iter().filter_map(|place| Some((place.at, place.margin?)));
+                let best = best.min_by(|(_, one), (_, other)| one.demand(1.0).total_cmp(&other.demand(1.0)));
+                let range = format!("{} to {}", precise(report.vary.from), quantity(report, report.vary.to));
+                match best.and_then(|(at, margin)| Some((at, margin.factor()?))) {
+                    Some((at, margin)) => format!(
+                        "{wish}: no {name} from {range} gives it; the greatest margin of the values that were tried is {}, at {}.",
+                        precise(margin),
+                        quantity(report, at)
+                    ),
+                    None => format!("{wish}: no {name} from {range} gives it."),
+                }
+            }
+            intervals => {
+                let parts: Vec<String> = intervals.iter().map(|interval| self.interval(interval)).collect();
+                format!("{wish}: {name} {}.", parts.join(", or "))
+            }
+        }
+    }
+
+    /// "at least 0.36 m", "at most 30", "from a to b", "anything from a to b".
+    fn interval(&self, interval: &MetInterval) -> String {
+        let report = self.report;
+        let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
+        let bare = precise(interval.from);
+        match (interval.from_is, interval.to_is) {
+            ("range", "range") => format!("anything from {bare} to {to}"),
+            (_, "range") => format!("at least {from} (looked at up to {to})"),
+            ("range", _) => format!("at most {to} (looked at down to {from})"),
+            _ if interval.from == interval.to => format!("{from} alone"),
+            _ => format!("from {bare} to {to}"),
+        }
+    }
+
+    /// "In the model L = 0.4 m: friction may grow 2.2222 times before nothing moves."
+    fn present(&self) -> String {
+        let report = self.report;
+        let model = format!("In the model {} = {}", report.vary.name, quantity(report, report.present.at));
+        let Sample { is, margin, .. } = report.present;
+        let is_met = |margin: f64| {
+            if margin >= report.margin { "the wanted margin is met" } else { "the wanted margin is not met" }
+        };
+        let load = report.load.as_deref().unwrap_or_default();
+        match (is, margin) {
+            (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
+                MarginKind::Locking => format!("{model}: it is on the verge of locking."),
+                _ => format!("{model}: {load} is just held however great it is."),
+            },
+            (SampleKind::NoPosition, _) => format!("{model}: it cannot be assembled or solved."),
+            (_, None) => format!("{model}: {}.", never(report)),
+            (_, Some(margin)) => {
+                let met = is_met(margin);
+                let factor = number(margin);
+                match (report.against, margin >= 1.0) {
+                    (MarginKind::Locking, true) => {
+                        format!("{model}: friction may grow {factor} times before nothing moves; {met}.")
+                    }
+                    (MarginKind::Locking, false) => {
+                        format!(
+                            "{model}: it is locked; friction would have to fall to {factor} of its value."
+                        )
+                    }
+                    (MarginKind::SelfLocking, true) => format!(
+                        "{model}: static friction may grow {factor} times before {load} is held however great it is; {met}."
+                    ),
+                    (MarginKind::SelfLocking, false) => format!(
+                        "{model}: {load} is held however great it is; static friction would have to fall to {factor} of its value."
+                    ),
+                    (MarginKind::Hold, _) if margin == 0.0 => {
+                        format!("{model}: no static friction holds {load} however great it is.")
+                    }
+                    (MarginKind::Hold, true) => format!(
+                        "{model}: static friction may be {factor} times smaller and {load} is still held however great it is; {met}."
+                    ),
+                    (MarginKind::Hold, false) => format!(
+                        "{model}: {load} is not held however great it is; static friction would have to be {} times greater.",
+                        number(margin.recip())
+                    ),
+                }
+            }
+        }
+    }
+
+    /// Says so if the margin is the same wherever there is one.
+    fn constant(&self) -> Option<String> {
+        let demands = self.places.iter().filter_map(|place| Some(place.margin?.demand(1.0)));
+        let [least, greatest] =
+            demands.fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
+        (greatest - least <= SAME * greatest || least == f64::INFINITY && greatest == f64::INFINITY)
+            .then(|| format!("The margin does not depend on {}.", self.report.vary.name))
+    }
+}
+
+fn never(report: &SizeReport) -> String {
+    let load = report.load.as_deref().unwrap_or_default();
+    match report.against {
+        MarginKind::Locking => "no friction, however great, locks it".to_owned(),
+        MarginKind::SelfLocking => format!("no static friction, however great, holds every {load}"),
+        MarginKind::Hold => format!("{load} is held without friction, however great it is"),
+    }
+}
+
+fn wish(report: &SizeReport) -> String {
+    let margin = precise(report.margin);
+    let load = report.load.as_deref().unwrap_or_default();
+    match report.against {
+        MarginKind::Locking if report.both_directions => {
+            format!("For a margin of {margin} against locking in both directions")
+        }
+        MarginKind::Locking => format!("For a margin of {margin} against locking"),
+        MarginKind::SelfLocking => format!("For a margin of {margin} against self-locking under {load}"),
+        MarginKind::Hold => format!("To hold any {load} with a margin of {margin}"),
+    }
+}
+
+/// A value of what is varied, with its unit.
+pub(super) fn quantity(report: &SizeReport, value: f64) -> String {
+    match report.vary.unit.as_str() {
+        "" => precise(value),
+        "rad" => format!("{} rad ({} deg)", precise(value), number(value.to_degrees())),
+        unit => format!("{} {unit}", precise(value)),
+    }
+}

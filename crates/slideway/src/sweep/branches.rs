@@ -1,0 +1,197 @@
+//! Branches: which state of a point continues which state of its neighbour.
+//!
+//! A state continues another one if it has the same pattern and its determinant the same sign. Where contacts have changed side
+//! in between, it does if the oriented determinants `D prod sigma` have the same sign (theory, section 8) and the forces differ
+//! little. A normal force that is zero goes with either side.
+
+use super::rows::{RowKind, Rows};
+use serde::{Deserialize, Serialize};
+
+/// States of neighbours differ by less than this part of their forces, unless their patterns are the same.
+const NEAR: f64 = 0.5;
+
+/// Numbers branches along the axes of a grid, from point to point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Branches {
+    /// The last branch that was numbered.
+    last: u32,
+    /// For each axis the states of the last point at which all later axes were at their first value.
+    neighbours: Vec<Vec<Tracked>>,
+}
+
+/// A state that may be continued.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Tracked {
+    branch: u32,
+    pattern: Vec<u8>,
+    normal_forces: Vec<f64>,
+    kind: RowKind,
+    negative_determinant: Option<bool>,
+}
+
+/// A state of the next point.
+#[derive(Clone, Copy)]
+struct Next<'r> {
+    pattern: &'r [u8],
+    normal_forces: &'r [f64],
+    kind: RowKind,
+    negative_determinant: Option<bool>,
+}
+
+/// How well a state continues another one: least is best.
+type Cost = (usize, f64);
+
+impl Branches {
+    /// No branch yet; for so many axes.
+    pub(super) fn new(axes: usize) -> Self {
+        Self { last: 0, neighbours: vec![Vec::new(); axes] }
+    }
+
+    /// How many branches there are.
+    pub fn count(&self) -> u32 {
+        self.last
+    }
+
+    /// Numbers the states of a point: `rows` are its rows, `varied` numbers stand before the normal forces. `place` is that of
+    /// the point on each axis.
+    pub(super) fn number(&mut self, rows: &mut Rows, range: std::ops::Range<usize>, place: &[u64]) {
+        // The neighbour on the last axis on which the point is not the first.
+        let moved = place.iter().rposition(|&index| index > 0);
+        let mut taken: Vec<bool> = Vec::new();
+        if let Some(axis) = moved {
+            taken.resize(self.neighbours[axis].len(), false);
+            self.continue_states(rows, range.clone(), axis, &mut taken);
+        }
+        for row in range.clone() {
+            if rows.heads[row].branch == 0 && is_state(rows.heads[row].kind) {
+                self.last += 1;
+                rows.heads[row].branch = self.last;
+            }
+        }
+        let first = moved.unwrap_or(0);
+        for axis in first..self.neighbours.len() {
+            remember(&mut self.neighbours[axis], rows, range.clone());
+        }
+    }
+
+    fn continue_states(
+        &self,
+        rows: &mut Rows,
+        range: std::ops::Range<usize>,
+        axis: usize,
+        taken: &mut [bool],
+    ) {
+        let known = &self.neighbours[axis];
+        // Nearly always nothing has changed but the numbers.
+        let same = known.len() == range.len()
+            && range.clone().zip(known).all(|(row, known)| {
+                let next = next(rows, row);
+                known.kind == next.kind
+                    && known.pattern == next.pattern
+                    && known.negative_determinant == next.negative_determinant
+                    && is_state(next.kind)
+            });
+        if same {
+            range.zip(known).for_each(|(row, known)| rows.heads[row].branch = known.branch);
+            return;
+        }
+        let mut pairs: Vec<(Cost, usize, usize)> = Vec::new();
+        for (at, tracked) in known.iter().enumerate() {
+            for row in range.clone() {
+                if let Some(cost) = cost(tracked, next(rows, row)) {
+                    pairs.push((cost, at, row));
+                }
+            }
+        }
+        pairs.sort_by(|one, other| {
+            let ((differing, distance), at, row) = one;
+            let ((others, other_distance), other_at, other_row) = other;
+            differing
+                .cmp(others)
+                .then(distance.total_cmp(other_distance))
+                .then((at, row).cmp(&(other_at, other_row)))
+        });
+        for (_, at, row) in pairs {
+            if !taken[at] && rows.heads[row].branch == 0 {
+                taken[at] = true;
+                rows.heads[row].branch = known[at].branch;
+            }
+        }
+    }
+}
+
+fn is_state(kind: RowKind) -> bool {
+    matches!(kind, RowKind::Solution | RowKind::Boundary | RowKind::PreloadGap)
+}
+
+fn next(rows: &Rows, row: usize) -> Next<'_> {
+    let head = &rows.heads[row];
+    let varied = rows.varied;
+    Next {
+        pattern: rows.pattern(row),
+        normal_forces: &rows.numbers(row)[varied..varied + rows.contacts],
+        kind: head.kind,
+        negative_determinant: head.negative_determinant,
+    }
+}
+
+fn remember(list: &mut Vec<Tracked>, rows: &Rows, range: std::ops::Range<usize>) {
+    let states = range.filter(|&row| is_state(rows.heads[row].kind));
+    let mut count = 0;
+    for row in states {
+        let next = next(rows, row);
+        let branch = rows.heads[row].branch;
+        if let Some(place) = list.get_mut(count) {
+            place.branch = branch;
+            place.pattern.clear();
+            place.pattern.extend_from_slice(next.pattern);
+            place.normal_forces.clear();
+            place.normal_forces.extend_from_slice(next.normal_forces);
+            place.kind = next.kind;
+            place.negative_determinant = next.negative_determinant;
+        } else {
+            list.push(Tracked {
+                branch,
+                pattern: next.pattern.to_vec(),
+                normal_forces: next.normal_forces.to_vec(),
+                kind: next.kind,
+                negative_determinant: next.negative_determinant,
+            });
+        }
+        count += 1;
+    }
+    list.truncate(count);
+}
+
+/// Number of contacts with opposite sides, and distance of the forces; none if the one cannot continue the other.
+fn cost(known: &Tracked, next: Next<'_>) -> Option<Cost> {
+    if !is_state(next.kind) {
+        return None;
+    }
+    let largest = |forces: &[f64]| forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
+    let scale = largest(&known.normal_forces).max(largest(next.normal_forces));
+    let pairs = known.normal_forces.iter().zip(next.normal_forces);
+    let distance = pairs.clone().map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+    let distance = if scale > 0.0 { distance / scale } else { 0.0 };
+    let opposite = pairs.filter(|(one, other)| *one * *other < 0.0).count();
+    let signs = match (known.negative_determinant, next.negative_determinant) {
+        (Some(one), Some(other)) => Some((one, other)),
+        _ => None,
+    };
+    if known.pattern == next.pattern {
+        // The same mode on the other side of a pole is another branch.
+        let same = signs.is_none_or(|(one, other)| one == other);
+        return same.then_some((0, distance));
+    }
+    let in_gap = |pattern: &[u8]| pattern.contains(&b'0');
+    let orientation = |pattern: &[u8], negative: bool| {
+        negative ^ (pattern.iter().filter(|side| **side == b'-').count() % 2 == 1)
+    };
+    let continues = match signs {
+        Some((one, other)) if !in_gap(&known.pattern) && !in_gap(next.pattern) => {
+            orientation(&known.pattern, one) == orientation(next.pattern, other)
+        }
+        _ => true,
+    };
+    (continues && distance <= NEAR).then_some((1 + opposite, distance))
+}

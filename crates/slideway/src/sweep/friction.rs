@@ -1,0 +1,146 @@
+//! The coefficients of friction and preloads that follow from varied parameters, without the rest of the model.
+
+use super::quantity::Kind;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::FormulaId;
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use std::sync::Arc;
+
+/// Coefficients of friction and preload of a contact at its two faces, before the common factor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Friction {
+    pub(super) mu: [f64; 2],
+    pub(super) preload: [f64; 2],
+}
+
+impl Friction {
+    /// That of every contact.
+    pub(super) fn of(mechanism: &Mechanism) -> Vec<Self> {
+        let contacts = mechanism.contacts.iter();
+        contacts.map(|contact| Self { mu: contact.mu, preload: contact.preload }).collect()
+    }
+}
+
+/// Which formulas to evaluate anew at a point.
+#[derive(Debug, Clone)]
+pub(super) struct FrictionFormulas {
+    /// The varied parameters: their number, and their place among the varied quantities.
+    given: Vec<(usize, usize)>,
+    /// Parameters that follow from them, in the order in which they are evaluated.
+    following: Vec<usize>,
+    /// Coefficients and preloads that follow from them.
+    contacts: Vec<ContactFormulas>,
+    /// All parameters in the model's own state.
+    parameters: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+struct ContactFormulas {
+    contact: usize,
+    name: Arc<str>,
+    mu: [FormulaId; 2],
+    mu_static: [FormulaId; 2],
+    preload: [Option<FormulaId>; 2],
+}
+
+impl FrictionFormulas {
+    /// The formulas of friction that the varied parameters change; none if they change something else, too.
+    ///
+    /// # Errors
+    /// Values of the model that are not allowed.
+    pub(super) fn new(model: &Model, varied: &[Kind]) -> Result<Option<Self>, Faults> {
+        let given: Vec<(usize, usize)> = varied
+            .iter()
+            .enumerate()
+            .filter_map(
+                |(place, kind)| if let Kind::Parameter(index) = kind { Some((*index, place)) } else { None },
+            )
+            .collect();
+        let uses = |id: FormulaId| given.iter().any(|(index, _)| model.uses(id, *index));
+        let mut contacts = Vec::new();
+        let mut friction = Vec::new();
+        for (number, contact) in contacts_of(model).enumerate() {
+            let ids: Vec<FormulaId> = contact
+                .mu
+                .into_iter()
+                .chain(contact.mu_static)
+                .chain(contact.preload.into_iter().flatten())
+                .collect();
+            if ids.iter().any(|id| uses(*id)) {
+                contacts.push(ContactFormulas {
+                    contact: number,
+                    name: contact.name.clone(),
+                    mu: contact.mu,
+                    mu_static: contact.mu_static,
+                    preload: contact.preload,
+                });
+            }
+            friction.extend(ids);
+        }
+        let own: Vec<FormulaId> = model.parameters.iter().map(|parameter| parameter.value).collect();
+        let others =
+            (0..model.formulas.len()).map(FormulaId).filter(|id| !own.contains(id) && !friction.contains(id));
+        if others.into_iter().any(uses) {
+            return Ok(None);
+        }
+        let numbers: Vec<usize> = given.iter().map(|(index, _)| *index).collect();
+        let following = model.following(&numbers);
+        let parameters = model.parameter_values(&model.constants()?);
+        Ok(Some(Self { given, following, contacts, parameters }))
+    }
+
+    /// Puts the friction of a point into that of all contacts; `parameters` is memory.
+    ///
+    /// # Errors
+    /// Values that are not allowed.
+    pub(super) fn apply(
+        &self,
+        model: &Model,
+        values: &[f64],
+        parameters: &mut Vec<f64>,
+        friction: &mut [Friction],
+    ) -> Result<(), Faults> {
+        parameters.clear();
+        parameters.extend_from_slice(&self.parameters);
+        for (index, place) in &self.given {
+            parameters[*index] = values[*place];
+        }
+        for index in &self.following {
+            if self.given.iter().all(|(given, _)| given != index) {
+                parameters[*index] = model.formula(model.parameters[*index].value).constant(parameters)?;
+            }
+        }
+        for formulas in &self.contacts {
+            let contact = &mut friction[formulas.contact];
+            let value = |id: FormulaId| model.formula(id).constant(parameters);
+            for side in 0..2 {
+                let mu = value(formulas.mu[side])?;
+                contact.mu[side] = mu;
+                if let Some(preload) = formulas.preload[side] {
+                    contact.preload[side] = value(preload)?;
+                }
+                if formulas.mu_static[side] == formulas.mu[side] {
+                    continue;
+                }
+                let mu_static = value(formulas.mu_static[side])?;
+                if mu_static < mu {
+                    let kind =
+                        FaultKind::StaticBelowKinetic { contact: formulas.name.to_string(), mu, mu_static };
+                    let place = model.formula(formulas.mu_static[side]).origin.place();
+                    return Err(Fault::new(kind, place).into());
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The contacts of a model in the order of the mechanism's.
+fn contacts_of(model: &Model) -> impl Iterator<Item = &crate::model::Contact> {
+    let sliders = model.joints.iter().filter_map(|joint| match &joint.kind {
+        crate::model::JointKind::Slider(slider) => Some(slider),
+        crate::model::JointKind::Hinge(_) => None,
+    });
+    sliders.flat_map(|slider| &slider.contacts)
+}

@@ -1,0 +1,334 @@
+//! Sweeps: all solutions at every point of a grid, or of random samples, of parameters, coordinates and rates.
+//!
+//! ```
+//! use slideway::model::{Model, Settings};
+//! use slideway::sweep::{Sweep, SweepOptions};
+//!
+//! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
+//! let model = Model::parse(text)?.with(&Settings::default().parameter("F_20", "0"))?;
+//! let sweep = Sweep::new(&model, &SweepOptions::of(&["mu_1=0..0.8:801"]))?;
+//! let tally = sweep.tally();
+//! // Klepp (2002), section 7: two solutions from mu_1 = 0.4526 on, so at 0.453 and the 347 points behind it.
+//! assert_eq!((tally.solutions[&1], tally.solutions[&2]), (453, 348));
+//! # Ok::<(), slideway::fault::Faults>(())
+//! ```
+//!
+//! # Method
+//! Each point goes through the stages of [`crate::solve`] without the proof. What the varied quantities leave as it is, is
+//! not computed anew: where only coefficients of friction and preloads change, the influence coefficients stay; a position is
+//! reached from those of the last points ([`crate::configuration::Configuration::near`]). Up to 8 contacts all patterns are tried
+//! by elimination. Where that leaves a pattern in doubt, because it is close to a boundary between modes or to locking, and for
+//! more contacts, the point is searched as [`crate::solve`] does, with bounds of rounding that are assumed, not proven.
+//!
+//! # Order
+//! Points are numbered with the last quantity varying fastest. They are computed in chunks of a fixed size, so that nothing
+//! depends on the number of threads.
+
+mod axis;
+mod branches;
+mod breakpoints;
+mod columns;
+mod distribution;
+mod evaluator;
+mod friction;
+mod quantity;
+mod rows;
+mod stages;
+mod summary;
+mod text;
+mod told;
+
+pub use branches::Branches;
+pub use columns::Column;
+pub use distribution::{Sampling, Spread};
+pub use rows::{Breakpoint, PointStatus, RowHead, RowKind, RowVerdict, Rows};
+pub use summary::{Probability, Tally};
+pub use text::to_text;
+
+use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::solve::check_size;
+use axis::{Axis, Values};
+use breakpoints::Inserted;
+use columns::Columns;
+use evaluator::{Evaluator, Plan, Point};
+use friction::FrictionFormulas;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Points that are computed one after another: the unit of parallel work.
+const CHUNK: u64 = 1024;
+/// Chunks of which each thread may hold the rows at a time.
+const CHUNKS_PER_THREAD: usize = 4;
+/// The most points of a sweep.
+const MOST_POINTS: u64 = 1_000_000_000_000;
+
+/// What to sweep over.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SweepOptions {
+    /// "NAME=FROM..TO:COUNT", "NAME=FROM..TO:COUNT:log", "NAME=VALUE,VALUE,..."; with samples "NAME=FROM..TO",
+    /// "NAME=uniform(FROM, TO)", "NAME=normal(MEAN, DEVIATION)", "NAME=lognormal(MEDIAN, DEVIATION OF THE LOGARITHM)". A name
+    /// is that of a parameter or coordinate, `COORDINATE.rate`, `friction` for the common factor of all coefficients, or
+    /// `time`.
+    pub vary: Vec<String>,
+    /// Random samples in place of a grid.
+    pub samples: Option<Sampling>,
+    /// Whether exact ends of modes are not inserted into sweeps over one quantity.
+    pub without_breakpoints: bool,
+    /// Whether the attainability of each solution is examined.
+    pub attainability: bool,
+    /// Whether accelerations of bodies and hinge forces are told, too.
+    pub all_columns: bool,
+}
+
+impl SweepOptions {
+    /// A grid of these quantities.
+    pub fn of(vary: &[&str]) -> Self {
+        Self { vary: vary.iter().map(|text| (*text).to_owned()).collect(), ..Self::default() }
+    }
+}
+
+/// A sweep that is ready to be computed.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    plan: Plan,
+    axes: Vec<Axis>,
+    samples: Option<Sampling>,
+    inserted: Vec<Inserted>,
+    without_breakpoints: Option<String>,
+    points: u64,
+}
+
+/// How far a sweep has come: all that is needed to go on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepState {
+    /// Points that are done.
+    pub done: u64,
+    branches: Branches,
+    /// What they come to.
+    pub tally: Tally,
+}
+
+impl SweepState {
+    /// How many branches there are so far.
+    pub fn branches(&self) -> u32 {
+        self.branches.count()
+    }
+}
+
+impl Sweep {
+    /// Prepares a sweep: reads the axes, finds the exact ends of modes between their points.
+    ///
+    /// # Errors
+    /// Every axis that makes no sense; values of the model that are not allowed.
+    pub fn new(model: &Model, options: &SweepOptions) -> Result<Self, Faults> {
+        let mechanism = Mechanism::new(model)?;
+        check_size(&mechanism)?;
+        let axes = axes(model, options)?;
+        let varied: Vec<_> = axes.iter().map(|axis| axis.quantity.kind).collect();
+        let friction = FrictionFormulas::new(model, &varied)?;
+        let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
+        let attainability = options.attainability;
+        let plan = Plan { model: model.clone(), mechanism, varied, columns, friction, attainability };
+        let own = options
+            .samples
+            .map_or_else(|| axes.iter().map(|axis| axis.values.len()).product(), |samples| samples.count);
+        let (inserted, without_breakpoints) = match &axes[..] {
+            [axis] if !options.without_breakpoints && options.samples.is_none() => {
+                breakpoints::between(model, axis)
+            }
+            _ => (Vec::new(), None),
+        };
+        let points = own + inserted.iter().filter(|breakpoint| breakpoint.own).count() as u64;
+        Ok(Self { plan, axes, samples: options.samples, inserted, without_breakpoints, points })
+    }
+
+    /// Number of points, inserted ones included.
+    pub fn points(&self) -> u64 {
+        self.points
+    }
+
+    /// The numbers of each row, in their order: the varied quantities first.
+    pub fn columns(&self) -> &[Column] {
+        &self.plan.columns.list
+    }
+
+    /// The contacts, in the order of the patterns.
+    pub fn contacts(&self) -> impl Iterator<Item = &str> {
+        self.plan.mechanism.contacts.iter().map(|contact| &*contact.name)
+    }
+
+    /// Whether there are branches: samples have no neighbours.
+    pub fn has_branches(&self) -> bool {
+        self.samples.is_none()
+    }
+
+    /// Why no exact ends of modes were inserted though they were asked for.
+    pub fn without_breakpoints(&self) -> Option<&str> {
+        self.without_breakpoints.as_deref()
+    }
+
+    /// Distributions that were cut off at zero because friction is never negative: name, and the part that was left out.
+    pub fn cut_off(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.axes.iter().filter_map(|axis| match axis.values {
+            Values::Drawn(distribution) if distribution.left_out() > 0.0 => {
+                Some((axis.quantity.name.as_str(), distribution.left_out()))
+            }
+            _ => None,
+        })
+    }
+
+    /// Where a sweep begins.
+    pub fn start(&self) -> SweepState {
+        SweepState { done: 0, branches: Branches::new(self.axes.len()), tally: Tally::default() }
+    }
+
+    /// What the whole sweep comes to.
+    pub fn tally(&self) -> Tally {
+        let mut state = self.start();
+        self.run(&mut state, &|_| (), &mut |_, _| ControlFlow::Continue(()));
+        state.tally
+    }
+
+    /// Computes the points that are not done yet, in parallel. `encode` makes of neighbouring rows what is wanted, in
+    /// parallel, too. `take` gets that in the order of the points, with the state behind it, and ends the sweep when it breaks;
+    /// from that state it can be continued.
+    pub fn run<E: Send>(
+        &self,
+        state: &mut SweepState,
+        encode: &(dyn Fn(&Rows) -> E + Sync),
+        take: &mut (dyn FnMut(Vec<E>, &SweepState) -> ControlFlow<()> + Send),
+    ) {
+        let mut ready = self.compute(state.done);
+        while !ready.is_empty() {
+            for rows in &mut ready {
+                self.number(rows, &mut state.branches);
+                state.tally.add(rows);
+                state.done += rows.points;
+            }
+            let encoded: Vec<E> = ready.par_iter().map(encode).collect();
+            let next = state.done;
+            // The next rows are computed while these are taken.
+            let (computed, flow) = rayon::join(|| self.compute(next), || take(encoded, state));
+            if flow.is_break() {
+                return;
+            }
+            ready = computed;
+        }
+    }
+
+    /// The rows of some chunks of points, from this one on.
+    fn compute(&self, from: u64) -> Vec<Rows> {
+        let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
+        let starts: Vec<u64> = (0..chunks as u64)
+            .map(|chunk| (from / CHUNK + chunk) * CHUNK)
+            .filter(|start| *start < self.points)
+            .collect();
+        starts.into_par_iter().map(|start| self.chunk(start)).collect()
+    }
+
+    fn chunk(&self, start: u64) -> Rows {
+        let columns = &self.plan.columns;
+        let mut rows = Rows::new(columns.contacts, columns.varied, columns.width());
+        let mut evaluator = Evaluator::new(&self.plan);
+        let mut values = vec![0.0; self.axes.len()];
+        for number in start..(start + CHUNK).min(self.points) {
+            let (breakpoint, inserted) = self.values(number, &mut values);
+            evaluator.evaluate(Point { number, breakpoint, inserted, values: &values }, &mut rows);
+        }
+        rows
+    }
+
+    /// The values of a point, and what is exact about it.
+    fn values(&self, number: u64, values: &mut [f64]) -> (Breakpoint, bool) {
+        let dimensions = self.axes.len();
+        if let Some(sampling) = self.samples {
+            for (dimension, (axis, value)) in self.axes.iter().zip(values).enumerate() {
+                if let Values::Drawn(distribution) = axis.values {
+                    *value = distribution.quantile(sampling.at(number, dimension, dimensions));
+                }
+            }
+            return (Breakpoint::No, false);
+        }
+        if let [axis] = &self.axes[..] {
+            let before = self.inserted.partition_point(|breakpoint| breakpoint.number < number);
+            let exact = self.inserted.get(before).filter(|breakpoint| breakpoint.number == number);
+            if let Some(exact) = exact {
+                values[0] = exact.at;
+                return (exact.breakpoint, exact.own);
+            }
+            let own = self.inserted[..before].iter().filter(|breakpoint| breakpoint.own).count() as u64;
+            values[0] = axis.values.at(number - own);
+            return (Breakpoint::No, false);
+        }
+        let mut rest = number;
+        for (axis, value) in self.axes.iter().zip(values).rev() {
+            *value = axis.values.at(rest % axis.values.len());
+            rest /= axis.values.len();
+        }
+        (Breakpoint::No, false)
+    }
+
+    /// Numbers the branches of neighbouring rows.
+    fn number(&self, rows: &mut Rows, branches: &mut Branches) {
+        if !self.has_branches() {
+            return;
+        }
+        let mut place = vec![0; self.axes.len()];
+        let mut first = 0;
+        while first < rows.len() {
+            let point = rows.heads[first].point;
+            let states = rows.heads[first..].iter().take_while(|head| head.point == point).count();
+            self.place(point, &mut place);
+            branches.number(rows, first..first + states, &place);
+            first += states;
+        }
+    }
+
+    /// The place of a point on each axis.
+    fn place(&self, number: u64, place: &mut [u64]) {
+        if let [only] = place {
+            *only = number;
+            return;
+        }
+        let mut rest = number;
+        for (axis, place) in self.axes.iter().zip(place).rev() {
+            *place = rest % axis.values.len();
+            rest /= axis.values.len();
+        }
+    }
+}
+
+/// The axes, with every fault of each.
+fn axes(model: &Model, options: &SweepOptions) -> Result<Vec<Axis>, Faults> {
+    let mut faults = Faults::default();
+    let mut axes: Vec<Axis> = Vec::new();
+    let mut points = Some(1_u64);
+    for text in &options.vary {
+        let axis = match Axis::parse(model, text, options.samples.is_some()) {
+            Ok(axis) => axis,
+            Err(list) => {
+                faults.append(list);
+                continue;
+            }
+        };
+        let fault = |problem| Fault::general(FaultKind::Axis { text: text.clone(), problem });
+        if axes.iter().any(|other| other.quantity.kind == axis.quantity.kind) {
+            faults.push(fault(AxisProblem::Twice { name: axis.quantity.name.clone() }));
+        }
+        let more = points.and_then(|points| points.checked_mul(axis.values.len()));
+        points = more.filter(|points| *points <= MOST_POINTS);
+        if points.is_none() {
+            faults.push(fault(AxisProblem::TooMany { limit: MOST_POINTS }));
+            points = Some(1);
+        }
+        axes.push(axis);
+    }
+    if axes.is_empty() && faults.is_empty() {
+        let problem = AxisProblem::Malformed;
+        faults.push(Fault::general(FaultKind::Axis { text: String::new(), problem }));
+    }
+    faults.or(axes)
+}

@@ -1,0 +1,123 @@
+//! What is varied: parameters, coordinates, rates, the time, all friction together.
+
+use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
+use crate::limits::FRICTION;
+use crate::model::{Model, Setting, SettingKind};
+
+/// What follows the name of a coordinate whose rate is meant.
+const RATE: &str = ".rate";
+/// The name of the time of the state.
+const TIME: &str = "time";
+
+/// What a varied quantity is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A parameter, by its number.
+    Parameter(usize),
+    /// The value of a coordinate, by its number.
+    Coordinate(usize),
+    /// The rate of a coordinate.
+    Rate(usize),
+    /// The time of the state.
+    Time,
+    /// The factor of all coefficients of friction.
+    Friction,
+}
+
+/// Something that is varied.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Quantity {
+    /// Its name, as it was written.
+    pub(super) name: String,
+    pub(super) kind: Kind,
+}
+
+impl Quantity {
+    /// The quantity of this name: a parameter, a coordinate, `coordinate.rate`, `friction`, `time`.
+    ///
+    /// # Errors
+    /// An unknown name.
+    pub(super) fn find(model: &Model, name: &str) -> Result<Self, Faults> {
+        let parameter = |name: &str| model.parameters.iter().position(|other| &*other.name == name);
+        let coordinate = |name: &str| model.coordinates.iter().position(|other| &*other.name == name);
+        let rate = || coordinate(name.strip_suffix(RATE)?);
+        let kind = parameter(name).map(Kind::Parameter);
+        let kind = kind.or_else(|| coordinate(name).map(Kind::Coordinate));
+        let kind = kind.or_else(|| rate().map(Kind::Rate)).or(match name {
+            FRICTION => Some(Kind::Friction),
+            TIME => Some(Kind::Time),
+            _ => None,
+        });
+        match kind {
+            Some(kind) => Ok(Self { name: name.to_owned(), kind }),
+            None => Err(unknown(model, name)),
+        }
+    }
+
+    /// The value that a text stands for, in SI units.
+    ///
+    /// # Errors
+    /// A text that is no quantity of the right dimension.
+    pub(super) fn value_of(&self, model: &Model, text: &str) -> Result<f64, AxisProblem> {
+        let name = self.name.strip_suffix(RATE).filter(|_| matches!(self.kind, Kind::Rate(_)));
+        let setting = |kind| Setting {
+            kind,
+            name: name.unwrap_or(&self.name).to_owned(),
+            value: text.trim().to_owned(),
+        };
+        let value = match self.kind {
+            Kind::Friction => return factor(text),
+            Kind::Parameter(_) => model.setting_value(&setting(SettingKind::Parameter)),
+            Kind::Coordinate(_) => model.setting_value(&setting(SettingKind::Position)),
+            Kind::Rate(_) => model.setting_value(&setting(SettingKind::Rate)),
+            Kind::Time => model.setting_value(&setting(SettingKind::Time)),
+        };
+        value.map_err(|faults| AxisProblem::of(&faults))
+    }
+
+    /// Whether negative values make no sense because it is friction.
+    pub(super) fn is_friction(&self, model: &Model) -> bool {
+        self.kind == Kind::Friction || model.is_friction_coefficient(&self.name)
+    }
+
+    /// Its unit, "SI" where that depends on the parameter.
+    pub(super) fn unit(&self, model: &Model) -> &'static str {
+        let is_angle = |index: usize| model.coordinates[index].kind.is_angle();
+        match self.kind {
+            Kind::Parameter(_) => "SI",
+            Kind::Coordinate(index) if is_angle(index) => "rad",
+            Kind::Coordinate(_) => "m",
+            Kind::Rate(index) if is_angle(index) => "rad/s",
+            Kind::Rate(_) => "m/s",
+            Kind::Time => "s",
+            Kind::Friction => "1",
+        }
+    }
+}
+
+/// A factor of all friction: a plain number, not below zero.
+fn factor(text: &str) -> Result<f64, AxisProblem> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value < 0.0 => Err(AxisProblem::NegativeFriction { value }),
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => {
+            let message = format!("`{}` is no factor of friction, a plain number", text.trim());
+            Err(AxisProblem::Value { message, hint: None })
+        }
+    }
+}
+
+fn unknown(model: &Model, name: &str) -> Faults {
+    let parameters = model.parameters.iter().map(|parameter| parameter.name.to_string());
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.name.to_string());
+    let rates = model.coordinates.iter().map(|coordinate| format!("{}{RATE}", coordinate.name));
+    let known: Vec<String> =
+        parameters.chain(coordinates).chain(rates).chain([FRICTION.to_owned(), TIME.to_owned()]).collect();
+    let kind = FaultKind::UnknownName {
+        what: "parameter, coordinate or rate",
+        name: name.to_owned(),
+        nearest: nearest(name, known.iter().map(String::as_str)),
+        known,
+    };
+    Fault::general(kind).into()
+}

@@ -1,0 +1,242 @@
+//! Rows of a sweep: one for each state of each point.
+
+/// What became of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PointStatus {
+    /// No solution: friction locks the mechanism.
+    None,
+    /// Exactly one.
+    One,
+    /// Several, each in its own contact mode.
+    Several,
+    /// Infinitely many.
+    Continuum,
+    /// No solution, but a state with the preload between the faces.
+    PreloadGap,
+    /// Nothing was found, but not every pattern could be decided.
+    Unknown,
+    /// The mechanism cannot be assembled there, or lies outside of its travel.
+    NoPosition,
+    /// `solve` refuses the point for another reason.
+    Refused,
+}
+
+impl PointStatus {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::None,
+        Self::One,
+        Self::Several,
+        Self::Continuum,
+        Self::PreloadGap,
+        Self::Unknown,
+        Self::NoPosition,
+        Self::Refused,
+    ];
+
+    /// Its word in tables; as in the report of `solve` where that has it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::One => "one",
+            Self::Several => "several",
+            Self::Continuum => "continuum",
+            Self::PreloadGap => "preload_gap",
+            Self::Unknown => "unknown",
+            Self::NoPosition => "no_position",
+            Self::Refused => "refused",
+        }
+    }
+
+    /// Whether there is an answer at the point.
+    pub fn is_solved(self) -> bool {
+        !matches!(self, Self::NoPosition | Self::Refused)
+    }
+}
+
+/// What a row tells of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RowKind {
+    /// A point without any state.
+    #[default]
+    Nothing,
+    /// A solution inside of its contact mode.
+    Solution,
+    /// A solution with some normal force or determinant that is zero within rounding.
+    Boundary,
+    /// A state with a contact between its faces.
+    PreloadGap,
+    /// A corner of infinitely many solutions.
+    Continuum,
+    /// A mode of which it cannot be told whether it has a solution.
+    Undecided,
+}
+
+impl RowKind {
+    /// Its word in tables; nothing for [`Self::Nothing`].
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Nothing => "",
+            Self::Solution => "solution",
+            Self::Boundary => "boundary",
+            Self::PreloadGap => "preload_gap",
+            Self::Continuum => "continuum",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// What is exact about a point that was inserted: where a mode begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Breakpoint {
+    /// An ordinary point.
+    #[default]
+    No,
+    /// A determinant vanishes.
+    Locking,
+    /// A normal force vanishes.
+    SideChange,
+    /// The preload friction has moved to one face.
+    GapCloses,
+    /// A guided slider tips.
+    Tipping,
+    /// Beyond it there is no position.
+    NoPosition,
+}
+
+impl Breakpoint {
+    /// Its word in tables; nothing for an ordinary point.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::No => "",
+            Self::Locking => "locking",
+            Self::SideChange => "side_change",
+            Self::GapCloses => "gap_closes",
+            Self::Tipping => "tipping",
+            Self::NoPosition => "no_position",
+        }
+    }
+}
+
+/// Whether a mechanism with slightly elastic guides settles on a state (theory, section 7).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RowVerdict {
+    /// It was not asked for, or cannot be told.
+    #[default]
+    NotComputed,
+    /// It does.
+    Attainable,
+    /// It does, if contacts damp enough.
+    Flutter,
+    /// It never does.
+    Unattainable,
+    /// The eigenvalues do not tell.
+    Undecided,
+}
+
+impl RowVerdict {
+    /// Its word in tables; nothing where it was not computed.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::NotComputed => "",
+            Self::Attainable => "attainable",
+            Self::Flutter => "flutter",
+            Self::Unattainable => "unattainable",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// One row, but for its numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowHead {
+    /// Number of the point, from 0, inserted ones included.
+    pub point: u64,
+    /// What is exact about the point.
+    pub breakpoint: Breakpoint,
+    /// Whether the point was inserted, because it is none of the sweep's own.
+    pub inserted: bool,
+    /// What became of the point.
+    pub status: PointStatus,
+    /// Number of its solutions.
+    pub solutions: u32,
+    /// Number of its states with a contact between its faces.
+    pub gap_states: u32,
+    /// Number of solutions that a guided slider rejects because it would tip.
+    pub rejected: u32,
+    /// What the row tells of.
+    pub kind: RowKind,
+    /// Number of the branch, from 1; 0 if there is none.
+    pub branch: u32,
+    /// Whether the state is attainable.
+    pub verdict: RowVerdict,
+    /// Whether the determinant of the mode is negative; nothing if it is not known.
+    pub(super) negative_determinant: Option<bool>,
+}
+
+/// Rows of neighbouring points, in their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rows {
+    /// Contacts of the mechanism.
+    pub contacts: usize,
+    /// Varied quantities.
+    pub varied: usize,
+    /// Numbers in each row: the varied quantities, then what [`super::Sweep::columns`] lists.
+    pub width: usize,
+    /// One for each row.
+    pub heads: Vec<RowHead>,
+    /// `width` numbers for each row; not a number where there is none.
+    pub numbers: Vec<f64>,
+    /// One character of each row for each contact: "+", "-", "0" in a gap; blank where there is no state.
+    pub patterns: Vec<u8>,
+    /// Numbers of points that are not solved, and why.
+    pub refusals: Vec<(u64, PointStatus, String)>,
+    /// How many points there are.
+    pub points: u64,
+}
+
+impl Rows {
+    /// No rows yet.
+    pub(super) fn new(contacts: usize, varied: usize, width: usize) -> Self {
+        Self {
+            contacts,
+            varied,
+            width,
+            heads: Vec::new(),
+            numbers: Vec::new(),
+            patterns: Vec::new(),
+            refusals: Vec::new(),
+            points: 0,
+        }
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.heads.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.heads.is_empty()
+    }
+
+    /// The numbers of a row.
+    pub fn numbers(&self, row: usize) -> &[f64] {
+        &self.numbers[row * self.width..][..self.width]
+    }
+
+    /// The pattern of a row.
+    pub fn pattern(&self, row: usize) -> &[u8] {
+        &self.patterns[row * self.contacts..][..self.contacts]
+    }
+
+    /// Adds a row without a state: its varied quantities are known alone.
+    pub(super) fn push_empty(&mut self, head: RowHead, varied: &[f64]) {
+        self.heads.push(head);
+        self.numbers.extend_from_slice(varied);
+        self.numbers.resize(self.heads.len() * self.width, f64::NAN);
+        self.patterns.resize(self.heads.len() * self.contacts, b' ');
+    }
+}

@@ -1,0 +1,120 @@
+//! What a sweep comes to, as text for people.
+
+use super::{PointStatus, Sweep, SweepState};
+use crate::report::Style;
+use crate::report::number::number;
+use crate::report::page::Page;
+
+/// What the points that are done come to. With samples also the probability that it jams.
+pub fn to_text(sweep: &Sweep, state: &SweepState, style: Style) -> String {
+    let mut text = Page::new(state, style);
+    text.points(sweep);
+    text.solutions();
+    text.probability(sweep);
+    text.remarks(sweep);
+    text.out
+}
+
+impl Page<'_, SweepState> {
+    fn points(&mut self, sweep: &Sweep) {
+        let tally = &self.report.tally;
+        let own = tally.points - tally.breakpoints;
+        let what = if sweep.has_branches() { "point" } else { "sample" };
+        let inserted = match tally.breakpoints {
+            0 => String::new(),
+            1 => " and 1 exact end of a mode between them".to_owned(),
+            count => format!(" and {count} exact ends of modes between them"),
+        };
+        let branches = if sweep.has_branches() {
+            format!(", {}", counted(u64::from(self.report.branches()), "branch"))
+        } else {
+            String::new()
+        };
+        let rows = counted(tally.rows, "row");
+        self.headline(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
+    }
+
+    fn solutions(&mut self) {
+        let tally = &self.report.tally;
+        let share = |count: u64| {
+            let all = (tally.points - tally.breakpoints).max(1);
+            format!("{} %", number(100.0 * count as f64 / all as f64))
+        };
+        let mut lines: Vec<(String, u64)> = Vec::new();
+        for (&solutions, &count) in &tally.solutions {
+            let what = match solutions {
+                0 => continue,
+                1 => "1 solution".to_owned(),
+                more => format!("{more} solutions"),
+            };
+            lines.push((what, count));
+        }
+        for (status, what) in [
+            (PointStatus::PreloadGap, "no solution, but a state with the preload between the faces"),
+            (PointStatus::None, "no solution: friction locks it"),
+            (PointStatus::Unknown, "undecided"),
+            (PointStatus::NoPosition, "no position"),
+            (PointStatus::Refused, "refused"),
+        ] {
+            let count = tally.with_status(status);
+            // Continua count among their numbers of solutions.
+            if count > 0 {
+                lines.push((what.to_owned(), count));
+            }
+        }
+        let continua = tally.with_status(PointStatus::Continuum);
+        if continua > 0 {
+            lines.push(("infinitely many solutions (some of them counted above)".to_owned(), continua));
+        }
+        for (what, count) in lines {
+            self.line(&format!("  {count:>9}  {:>9}  {what}", share(count)));
+        }
+    }
+
+    fn probability(&mut self, sweep: &Sweep) {
+        if sweep.has_branches() {
+            return;
+        }
+        let Some(probability) = self.report.tally.probability_of_jamming() else { return };
+        let [from, to] = probability.interval.map(|end| number(100.0 * end));
+        self.line("");
+        self.headline(&format!(
+            "It jams with a probability of {} %, with 95 % confidence between {from} % and {to} %.",
+            number(100.0 * probability.share)
+        ));
+        let unsolved = self.report.tally.points - self.report.tally.solved();
+        if unsolved > 0 {
+            self.line(&format!("  Samples that could not be solved ({unsolved}) are left out of it."));
+        }
+    }
+
+    fn remarks(&mut self, sweep: &Sweep) {
+        for (name, part) in sweep.cut_off() {
+            self.line(&format!(
+                "  Friction is never negative: {} % of the distribution of {name} lay below zero and was left out.",
+                number(100.0 * part)
+            ));
+        }
+        let tally = &self.report.tally;
+        if tally.boundary_rows > 0 {
+            let rows = counted(tally.boundary_rows, "row");
+            self.line(&format!(
+                "  {rows} on the boundary between modes: a normal force is zero within rounding."
+            ));
+        }
+        if let Some(reason) = sweep.without_breakpoints() {
+            self.line(&format!("  No exact ends of modes were inserted: {reason}"));
+        }
+        for (status, (point, reason)) in &tally.refusals {
+            let count = tally.with_status(*status);
+            let others = if count > 1 { format!(", and {} more", count - 1) } else { String::new() };
+            self.line(&format!("  Point {point}{others}: {}", reason.replace('\n', "; ")));
+        }
+    }
+}
+
+/// "1 point", "2 points", "2 branches"
+fn counted(count: u64, what: &str) -> String {
+    let ending = if what.ends_with("ch") { "es" } else { "s" };
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}{ending}") }
+}

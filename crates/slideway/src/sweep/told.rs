@@ -1,0 +1,109 @@
+//! Rows of a point from the report of a careful search.
+
+use super::evaluator::{Plan, Point, head, verdict};
+use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
+use crate::report::{CertificateKind, Report, Solution, Status};
+
+/// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.
+pub(super) fn write(report: &Report, plan: &Plan, point: Point<'_>, rows: &mut Rows) {
+    let first = rows.len();
+    let status = match report.status {
+        Status::None => PointStatus::None,
+        Status::One => PointStatus::One,
+        Status::Several => PointStatus::Several,
+        Status::Continuum => PointStatus::Continuum,
+        Status::PreloadGap => PointStatus::PreloadGap,
+        Status::Unknown => PointStatus::Unknown,
+    };
+    let mut telling = Telling { plan, point, status, rows };
+    for solution in &report.solutions {
+        let inside = !solution.on_boundary
+            && !matches!(solution.certificate, CertificateKind::OnBoundary)
+            && solution.determinant != 0.0;
+        telling.state(solution, if inside { RowKind::Solution } else { RowKind::Boundary });
+    }
+    for state in &report.preload_gap_states {
+        telling.state(state, RowKind::PreloadGap);
+    }
+    for continuum in &report.continua {
+        telling.corners(&continuum.pattern, &continuum.vertices);
+    }
+    for mode in &report.undecided_modes {
+        telling.corners_of(RowKind::Undecided, &mode.pattern, &[]);
+    }
+    if rows.len() == first {
+        rows.push_empty(head(point, status), point.values);
+    }
+    let count = |text: &str| text.parse().unwrap_or(u32::MAX);
+    for head in &mut rows.heads[first..] {
+        head.solutions = count(&report.count);
+        head.gap_states = count(&report.gap_state_count);
+        head.rejected = u32::try_from(report.rejected.len()).unwrap_or(u32::MAX);
+    }
+}
+
+struct Telling<'t> {
+    plan: &'t Plan,
+    point: Point<'t>,
+    status: PointStatus,
+    rows: &'t mut Rows,
+}
+
+impl Telling<'_> {
+    fn state(&mut self, state: &Solution, kind: RowKind) {
+        let columns = &self.plan.columns;
+        let numbers = &mut self.rows.numbers;
+        numbers.extend_from_slice(self.point.values);
+        numbers.extend(state.contacts.iter().map(|contact| contact.normal_force));
+        numbers.extend(state.contacts.iter().map(|contact| contact.friction_force));
+        let share = |&k: &usize| state.contacts[k].preload_share.unwrap_or(f64::NAN);
+        numbers.extend(columns.shares.iter().map(share));
+        let couples = columns.couples.iter().filter_map(|(_, contact, _)| state.contacts[*contact].couple);
+        numbers.extend(couples);
+        numbers.extend(state.coordinates.iter().map(|coordinate| coordinate.acceleration));
+        numbers.extend(state.drives.iter().map(|drive| drive.effort));
+        if columns.all {
+            for body in &state.bodies {
+                numbers.extend([body.acceleration[0], body.acceleration[1], body.angular_acceleration]);
+            }
+            numbers.extend(state.hinges.iter().flat_map(|hinge| hinge.force));
+        }
+        self.finish(
+            &state.pattern,
+            RowHead {
+                kind,
+                negative_determinant: (kind == RowKind::Solution || kind == RowKind::PreloadGap)
+                    .then_some(state.determinant < 0.0),
+                verdict: if self.plan.attainability {
+                    verdict(state.attainability.verdict)
+                } else {
+                    RowVerdict::NotComputed
+                },
+                ..head(self.point, self.status)
+            },
+        );
+    }
+
+    fn corners(&mut self, pattern: &str, corners: &[Vec<f64>]) {
+        self.corners_of(RowKind::Continuum, pattern, corners);
+    }
+
+    /// One row for each corner, with its normal forces alone; one without numbers if there are none.
+    fn corners_of(&mut self, kind: RowKind, pattern: &str, corners: &[Vec<f64>]) {
+        let nothing = [Vec::new()];
+        let corners = if corners.is_empty() { &nothing } else { corners };
+        for corner in corners {
+            self.rows.numbers.extend_from_slice(self.point.values);
+            self.rows.numbers.extend_from_slice(corner);
+            self.finish(pattern, RowHead { kind, ..head(self.point, self.status) });
+        }
+    }
+
+    fn finish(&mut self, pattern: &str, head: RowHead) {
+        let rows = &mut self.rows;
+        rows.heads.push(head);
+        rows.numbers.resize(rows.heads.len() * rows.width, f64::NAN);
+        rows.patterns.extend_from_slice(pattern.as_bytes());
+        rows.patterns.resize(rows.heads.len() * rows.contacts, b' ');
+    }
+}
