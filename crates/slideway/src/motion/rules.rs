@@ -1,6 +1,6 @@
 //! What the simulation asks at an event: how the motion can go on.
 
-use super::decision;
+use super::decision::{self, Limit, Standing};
 use super::phase::Phase;
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
@@ -73,7 +73,12 @@ pub struct Thorough;
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
         let Instant { mechanism, configuration, stopped, previous } = *instant;
-        let found = decision::successors(mechanism, configuration, stopped, previous)?;
+        let mut found = decision::successors(mechanism, configuration, stopped, previous)?;
+        // A joint that could just as well stick slides only if nothing else is possible: it would not move.
+        found.list.sort_by_key(|successor| match &successor.standing {
+            Standing::Undecided(limits) => limits.iter().any(|limit| matches!(limit, Limit::Slip(_))),
+            _ => false,
+        });
         let one = |successor: decision::Successor| Successor {
             phase: successor.phase,
             verdict: successor.attainability.verdict,

@@ -354,13 +354,18 @@ impl<'o, 'm> Smooth<'o, 'm> {
         for &index in fallen {
             let watched = self.watch.list[index];
             let values = [self.values[part][index], self.values[part + 1][index]];
-            let zero = if values[0] > 0.0 {
-                falling_root(ends, values, ROOT_TOLERANCE, |fraction| {
-                    self.evaluate_within(dense, fraction, step, watched.needs())?;
-                    self.value(watched, phase, decisions)
-                })?
+            let mut function = |fraction: f64| {
+                self.evaluate_within(dense, fraction, step, watched.needs())?;
+                self.value(watched, phase, decisions)
+            };
+            let bracket = if values[0] > 0.0 {
+                Some((ends, values))
             } else {
-                ends[0]
+                rising_part(ends, values[1], &mut function)?
+            };
+            let zero = match bracket {
+                Some((ends, values)) => falling_root(ends, values, ROOT_TOLERANCE, function)?,
+                None => ends[0],
             };
             zeros.push((zero, watched));
         }
@@ -410,4 +415,22 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
     }
+}
+
+/// A part of the way on which a function that begins with zero, or below it within rounding, and ends below zero falls
+/// from above zero; none if it does not rise first.
+fn rising_part(
+    [left, mut right]: [f64; 2],
+    mut at_right: f64,
+    function: &mut impl FnMut(f64) -> Result<f64, Failure>,
+) -> Result<Option<([f64; 2], [f64; 2])>, Failure> {
+    while right - left > SAME_INSTANT {
+        let middle = f64::midpoint(left, right);
+        let value = function(middle)?;
+        if value > 0.0 {
+            return Ok(Some(([middle, right], [value, at_right])));
+        }
+        (right, at_right) = (middle, value);
+    }
+    Ok(None)
 }

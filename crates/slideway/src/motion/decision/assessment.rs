@@ -38,6 +38,8 @@ pub(super) struct Assessment {
     pub(super) slacks: Vec<Slack>,
     /// The least slack of what concerns the joints that stick; infinite if none does.
     pub(super) margin: f64,
+    /// Whether some of its equations follow from others, so that they could contradict each other at another instant.
+    pub(super) redundant: bool,
 }
 
 impl Assessment {
@@ -94,6 +96,7 @@ fn assess_sides(
     let Some(system) = System::new(instant, question, &phase) else { return Ok(None) };
     let dimension = system.dimension();
     let inequalities = system.inequalities();
+    let redundant = system.is_redundant();
     let depends = |inequality: &&Inequality| inequality.slack.coefficients.iter().any(|a| *a != 0.0);
     let together: Vec<Affine> =
         inequalities.iter().filter(depends).map(|inequality| inequality.slack.clone()).collect();
@@ -118,7 +121,7 @@ fn assess_sides(
     };
     let margins = slacks.iter().filter(|slack| sticks(&slack.subject)).map(|slack| slack.value);
     let margin = margins.fold(f64::INFINITY, f64::min);
-    Ok(Some(Assessment { phase, open, slacks, margin }))
+    Ok(Some(Assessment { phase, open, slacks, margin, redundant }))
 }
 
 fn without_rounding(slack: f64) -> f64 {

@@ -25,7 +25,8 @@ struct Accelerations {
     coordinates: Vec<f64>,
 }
 
-/// How a phase stands to its bounds; nothing if it violates one at once.
+/// How a phase stands to its bounds; nothing if it violates one at once, or if its equations contradict each other a
+/// little later.
 ///
 /// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
 /// differences over two steps of Heun's method.
@@ -39,7 +40,7 @@ pub(super) fn standing(
     }
     let bounds: Vec<usize> =
         (0..assessment.slacks.len()).filter(|&index| assessment.slacks[index].value <= BOUNDARY).collect();
-    if bounds.is_empty() {
+    if bounds.is_empty() && !assessment.redundant {
         return Some(Standing::Inside);
     }
     let limits = |indices: &[usize]| -> Vec<Limit> {
@@ -47,8 +48,10 @@ pub(super) fn standing(
     };
     let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped };
     let scale = time_scale(instant, configuration);
-    let Ok(Some(later)) = flow.slacks(configuration, (instant, question, assessment), STEP * scale) else {
-        return Some(Standing::Undecided(limits(&bounds)));
+    let later = match flow.slacks(configuration, (instant, question, assessment), STEP * scale) {
+        Ok(Later::Lasts(later)) => later,
+        Ok(Later::Ends) => return None,
+        Ok(Later::Unsolved) | Err(_) => return Some(Standing::Undecided(limits(&bounds))),
     };
     let mut constant = Vec::new();
     for &index in &bounds {
@@ -67,7 +70,9 @@ pub(super) fn standing(
             constant.push(index);
         }
     }
-    Some(if constant.is_empty() {
+    Some(if bounds.is_empty() {
+        Standing::Inside
+    } else if constant.is_empty() {
         Standing::Leaves(limits(&bounds))
     } else {
         Standing::Undecided(limits(&constant))
@@ -103,20 +108,37 @@ struct Flow<'f> {
 
 type Slacks = Vec<super::assessment::Slack>;
 
+/// What becomes of a phase along its own motion.
+enum Later<T> {
+    Lasts(T),
+    /// Its equations contradict each other.
+    Ends,
+    /// A linear program was not solved.
+    Unsolved,
+}
+
+impl<T> Later<T> {
+    fn and_then<U>(self, next: impl FnOnce(T) -> Result<Later<U>, Faults>) -> Result<Later<U>, Faults> {
+        match self {
+            Self::Lasts(found) => next(found),
+            Self::Ends => Ok(Later::Ends),
+            Self::Unsolved => Ok(Later::Unsolved),
+        }
+    }
+}
+
 impl Flow<'_> {
-    /// The slacks after one step and after two; nothing if the phase has no accelerations there.
+    /// The slacks after one step and after two.
     fn slacks(
         &self,
         configuration: &Configuration,
         (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
         step: f64,
-    ) -> Result<Option<[Slacks; 2]>, Faults> {
-        let Some(start) = accelerations(instant, question, assessment) else { return Ok(None) };
-        let Some((next, next_accelerations, first)) = self.step(configuration, &start, step)? else {
-            return Ok(None);
-        };
-        let second = self.step(&next, &next_accelerations, step)?;
-        Ok(second.map(|(_, _, second)| [first, second]))
+    ) -> Result<Later<[Slacks; 2]>, Faults> {
+        let Some(start) = accelerations(instant, question, assessment) else { return Ok(Later::Ends) };
+        self.step(configuration, &start, step)?.and_then(|(next, start, first)| {
+            self.step(&next, &start, step)?.and_then(|(_, _, second)| Ok(Later::Lasts([first, second])))
+        })
     }
 
     /// A step of Heun's method: the configuration after it, its accelerations and slacks.
@@ -125,19 +147,24 @@ impl Flow<'_> {
         from: &Configuration,
         start: &Accelerations,
         step: f64,
-    ) -> Result<Option<(Configuration, Accelerations, Slacks)>, Faults> {
-        let predicted = advanced(from, start, start, step);
-        let Some((end, _)) = self.at(&predicted)? else { return Ok(None) };
-        let corrected = advanced(from, start, &end, step);
-        Ok(self.at(&corrected)?.map(|(accelerations, slacks)| (corrected, accelerations, slacks)))
+    ) -> Result<Later<(Configuration, Accelerations, Slacks)>, Faults> {
+        self.at(&advanced(from, start, start, step))?.and_then(|(end, _)| {
+            let corrected = advanced(from, start, &end, step);
+            self.at(&corrected)?
+                .and_then(|(accelerations, slacks)| Ok(Later::Lasts((corrected, accelerations, slacks))))
+        })
     }
 
-    fn at(&self, configuration: &Configuration) -> Result<Option<(Accelerations, Slacks)>, Faults> {
+    fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
         let instant = Instant::new(self.mechanism, configuration)?;
         let question = instant.question(self.stopped);
-        let Ok(Some(assessment)) = assess(&instant, &question, self.phase, BOUNDARY) else { return Ok(None) };
+        let assessment = match assess(&instant, &question, self.phase, BOUNDARY) {
+            Ok(Some(assessment)) => assessment,
+            Ok(None) => return Ok(Later::Ends),
+            Err(_) => return Ok(Later::Unsolved),
+        };
         let found = accelerations(&instant, &question, &assessment);
-        Ok(found.map(|accelerations| (accelerations, assessment.slacks)))
+        Ok(found.map_or(Later::Ends, |found| Later::Lasts((found, assessment.slacks))))
     }
 }
 

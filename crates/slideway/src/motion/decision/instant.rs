@@ -15,6 +15,8 @@ use nalgebra::{DMatrix, DVector};
 const NO_INFLUENCE: f64 = 1e-13;
 /// Versions of an influence column that differ by less than this multiple of it are the same.
 const SAME: f64 = 1e-12;
+/// Mobilities that cancel to within this multiple of themselves are zero.
+const DEPENDENT: f64 = 1e-10;
 
 /// Units in which the numbers of a decision are of order one.
 #[derive(Debug, Clone, Copy)]
@@ -128,6 +130,42 @@ impl<'m> Instant<'m> {
     /// The mass by which forces and accelerations, or impulses and velocities, are related in these units (kg).
     pub(super) fn mass_unit(&self) -> f64 {
         self.units.force / self.units.acceleration
+    }
+
+    /// Whether a joint cannot begin to slide while others are held: no force along its guide accelerates it.
+    ///
+    /// With `A_ij` the acceleration of joint i under a unit force along the guide of joint j (in the middle of the block)
+    /// this is `A_jj - A_jH A_HH^-1 A_Hj = 0`, by elimination with complete pivoting among the held joints H.
+    pub(super) fn is_held(&self, joint: usize, held: &[usize]) -> bool {
+        let joints: Vec<usize> = held.iter().copied().chain([joint]).collect();
+        let mut mobility =
+            DMatrix::from_fn(joints.len(), joints.len(), |i, j| self.mobility(joints[i], joints[j]));
+        let greatest = mobility.diagonal().amax();
+        let own = mobility[(joints.len() - 1, joints.len() - 1)].abs();
+        for step in 0..held.len() {
+            let rest = mobility.view((step, step), (held.len() - step, held.len() - step));
+            let (row, column) = rest.iamax_full();
+            if rest[(row, column)].abs() <= DEPENDENT * greatest {
+                break;
+            }
+            mobility.swap_rows(step, step + row);
+            mobility.swap_columns(step, step + column);
+            for other in step + 1..joints.len() {
+                let factor = mobility[(other, step)] / mobility[(step, step)];
+                for k in step..joints.len() {
+                    mobility[(other, k)] -= factor * mobility[(step, k)];
+                }
+            }
+        }
+        mobility[(joints.len() - 1, joints.len() - 1)].abs() <= DEPENDENT * own.max(DEPENDENT * greatest)
+    }
+
+    /// Acceleration of a sliding joint under a unit force along the guide of another one, in units.
+    fn mobility(&self, joint: usize, pushed: usize) -> f64 {
+        let Some(&k) = self.joints[pushed].contacts.first() else { return 0.0 };
+        let row = self.sliding_output(joint);
+        let [plus, minus] = [0, 1].map(|face| self.outputs.columns[face][(row, k)]);
+        -f64::midpoint(plus, minus)
     }
 
     /// A contact by its number.

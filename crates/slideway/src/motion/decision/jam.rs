@@ -11,7 +11,7 @@ use crate::ids::JointId;
 use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
 use crate::motion::{ContactPhase, JointPhase, Phase};
-use nalgebra::Vector2;
+use nalgebra::{DVector, Vector2};
 
 /// Sliding velocities below this multiple of the greatest are zero.
 const AT_REST: f64 = 1e-9;
@@ -19,9 +19,9 @@ const AT_REST: f64 = 1e-9;
 /// What an impulse that ends a jam does.
 #[derive(Debug, Clone)]
 pub struct Impulse {
-    /// The joint that stops; its tangential impulse is a reaction.
-    pub stopped: JointId,
-    /// All sliding joints without velocity afterwards, that one included.
+    /// The joint that wedges; its tangential impulse is a reaction.
+    pub wedged: JointId,
+    /// The sliding joints without velocity afterwards: those that stopped first, and those that were at rest and stay so.
     pub at_rest: Vec<JointId>,
     /// The sides at which the contacts are pressed during the impulse.
     pub sides: Vec<ContactPhase>,
@@ -44,11 +44,9 @@ pub struct Impulse {
 pub enum Jam {
     /// These impulses, the one with the greatest margin first.
     Stops(Vec<Impulse>),
-    /// No impulse is consistent: with every joint that could stop first, friction is not great enough to stop it, or
-    /// another sliding velocity would reverse before, or a guided slider would tip.
+    /// No impulse is consistent: whichever joint wedges, its friction would not be great enough, or a guided slider would
+    /// tip.
     NoImpulse {
-        /// Patterns in which only another velocity would reverse.
-        reversing: usize,
         /// Patterns of which a linear program was not solved.
         unsolved: usize,
     },
@@ -59,8 +57,9 @@ pub enum Jam {
 
 /// The impulses that can act when there is no admissible acceleration though joints slide: dynamic jamming.
 ///
-/// Reactions grow beyond all bounds for a short time, until the first sliding velocity reaches zero. For every joint
-/// `j` that slides the mode problem of impulses is solved, without loads and preloads:
+/// Reactions grow beyond all bounds for a short time, until the first sliding velocity reaches zero. They do so because
+/// some joint `j` wedges: for every joint that slides the mode problem of impulses is solved, without loads and preloads,
+/// as if it stopped:
 ///
 /// ```text
 /// M dv - G^T Lambda - B U - sum_k W_k Phi_k = 0      G dv = 0      C dv = 0      jump of the sliding velocity of j = -ds_j
@@ -68,11 +67,12 @@ pub enum Jam {
 /// 0 <= Phi_k s_k <= mu_static_k |Lambda_k| of joint j
 /// ```
 ///
-/// A solution counts if no other sliding velocity has reversed. Joints that were at rest stay so within static
-/// friction, or are set going against kinetic friction. With one degree of freedom everything stops. The distribution
-/// between the contacts of joint `j` is indeterminate; the one with the greatest margin is told. Whether the
-/// mechanism is jammed is not asked: that is an empty list of [`successors`](super::successors). Afterwards ask for them
-/// again, with the joints that have stopped.
+/// If another sliding velocity would reverse before that, the impulse ends where it is zero, in proportion. Joints that
+/// were at rest stay so within static friction, or are set going against kinetic friction. With one degree of freedom
+/// everything stops. The distribution between the contacts of joint `j` is indeterminate; the one with the greatest
+/// margin is told. Whether the mechanism is jammed is not asked: that is an empty list of
+/// [`successors`](super::successors). Afterwards ask for them again, with the joints that have stopped; if there are
+/// none, it is still jammed.
 ///
 /// # Errors
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are tried.
@@ -94,7 +94,7 @@ pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, 
         search.stop(joint, &mut found)?;
     }
     if found.impulses.is_empty() {
-        return Ok(Jam::NoImpulse { reversing: found.reversing, unsolved: found.unsolved });
+        return Ok(Jam::NoImpulse { unsolved: found.unsolved });
     }
     found.impulses.sort_by(|one, other| other.margin.total_cmp(&one.margin));
     Ok(Jam::Stops(found.impulses))
@@ -103,7 +103,6 @@ pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, 
 #[derive(Default)]
 struct Found {
     impulses: Vec<Impulse>,
-    reversing: usize,
     unsolved: usize,
 }
 
@@ -115,7 +114,7 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Looks for impulses that stop this joint first.
+    /// Looks for impulses in which this joint wedges.
     fn stop(&self, joint: usize, found: &mut Found) -> Result<(), Faults> {
         let stopped = vec![false; self.instant.joints.len()];
         let velocity = self.instant.joints[joint].velocity;
@@ -132,10 +131,7 @@ impl Search<'_> {
             match assess(self.instant, &question, &phase, BOUNDARY) {
                 Err(_) => found.unsolved += 1,
                 Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => {
-                    match self.impulse(joint, &question, &assessment) {
-                        Some(impulse) => found.impulses.push(impulse),
-                        None => found.reversing += 1,
-                    }
+                    found.impulses.extend(self.impulse(joint, &question, &assessment));
                 }
                 Ok(_) => {}
             }
@@ -189,35 +185,32 @@ impl Search<'_> {
         }
     }
 
-    /// The impulse of an admissible state, unless a sliding velocity would have reversed.
+    /// The impulse of an admissible state, as far as the first sliding velocity reaches zero; nothing if a joint that was
+    /// at rest would slide against its friction's sense.
     fn impulse(&self, joint: usize, question: &Question<'_>, assessment: &Assessment) -> Option<Impulse> {
         let system = system_of(self.instant, question, assessment)?;
         let unit = self.instant.mass_unit() * self.speed;
-        let scaled = |friction: ContactFriction| ContactFriction {
+        let scaled = |friction: ContactFriction, unit: f64| ContactFriction {
             positive_face: friction.positive_face * unit,
             negative_face: friction.negative_face * unit,
         };
-        let frictions: Vec<ContactFriction> =
-            system.frictions(&assessment.open).into_iter().map(scaled).collect();
-        let jumps = self.instant.influence.of_friction(&frictions);
-        let mut sliding_velocities = Vec::new();
-        for (index, phase) in assessment.phase.joints.iter().enumerate() {
-            let after = self.instant.joints[index].velocity + self.instant.joints[index].row.change(&jumps);
-            let is_zero = *phase == JointPhase::Sticking || after.abs() <= AT_REST * self.speed;
-            let reversed = matches!(phase, JointPhase::Sliding(sign) if sign * after < 0.0);
-            if reversed && !is_zero && self.instant.joints[index].has_friction {
-                return None;
-            }
-            sliding_velocities.push(if is_zero { 0.0 } else { after });
-        }
+        let whole: Vec<ContactFriction> =
+            system.frictions(&assessment.open).into_iter().map(|friction| scaled(friction, unit)).collect();
+        let jumps = self.instant.influence.of_friction(&whole);
+        let part = self.part(&assessment.phase, &jumps)?;
+        let jumps = jumps * part;
+        let sliding_velocities: Vec<f64> = (0..self.instant.joints.len())
+            .map(|joint| self.sliding_after(joint, &assessment.phase, &jumps))
+            .collect();
         let rest = self.instant.joints.iter().zip(&sliding_velocities).filter(|(_, after)| **after == 0.0);
         let after = self.after(&jumps);
+        let normals = system.normal_forces(&assessment.open);
         Some(Impulse {
-            stopped: self.instant.joints[joint].id,
+            wedged: self.instant.joints[joint].id,
             at_rest: rest.map(|(joint, _)| joint.id).collect(),
             sides: assessment.phase.contacts.clone(),
-            normal_impulses: system.normal_forces(&assessment.open).into_iter().map(|n| n * unit).collect(),
-            friction_impulses: frictions,
+            normal_impulses: normals.into_iter().map(|normal| normal * unit * part).collect(),
+            friction_impulses: whole.into_iter().map(|friction| scaled(friction, part)).collect(),
             energy_lost: self.kinetic_energy(self.configuration) - self.kinetic_energy(&after),
             after,
             sliding_velocities,
@@ -225,8 +218,34 @@ impl Search<'_> {
         })
     }
 
+    /// The part of an impulse after which the first sliding velocity is zero; nothing if a joint that was at rest would
+    /// slide the other way.
+    fn part(&self, phase: &Phase, jumps: &DVector<f64>) -> Option<f64> {
+        let mut part = 1.0_f64;
+        for (index, joint) in self.instant.joints.iter().enumerate() {
+            let JointPhase::Sliding(sign) = phase.joints[index] else { continue };
+            let jump = sign * joint.row.change(jumps);
+            if !joint.has_friction || jump >= -AT_REST * self.speed {
+                continue;
+            }
+            if !self.sliding(index).moves {
+                return None;
+            }
+            part = part.min(joint.velocity.abs() / -jump);
+        }
+        Some(part)
+    }
+
+    /// Sliding velocity of a joint afterwards, exactly zero where it has stopped.
+    fn sliding_after(&self, joint: usize, phase: &Phase, jumps: &DVector<f64>) -> f64 {
+        let sticks = phase.joints[joint] == JointPhase::Sticking && !self.sliding(joint).moves;
+        let joint = &self.instant.joints[joint];
+        let after = joint.velocity + joint.row.change(jumps);
+        if sticks || after.abs() <= AT_REST * self.speed { 0.0 } else { after }
+    }
+
     /// The configuration with these jumps of the velocities; what is left of a velocity by rounding is zero.
-    fn after(&self, jumps: &nalgebra::DVector<f64>) -> Configuration {
+    fn after(&self, jumps: &DVector<f64>) -> Configuration {
         let mut after = self.configuration.clone();
         for (body, velocity) in after.velocities.iter_mut().enumerate() {
             let [x, y, turn] = [0, 1, 2].map(|axis| jumps[3 * body + axis]);
@@ -246,7 +265,7 @@ impl Search<'_> {
         let bodies = self.instant.mechanism.bodies.iter().zip(&configuration.velocities);
         let one = |(body, velocity): (&crate::mechanism::Body, &Velocity)| {
             let turning = body.moment_of_inertia * velocity.angular * velocity.angular;
-            (body.mass * velocity.linear.norm_squared() + turning) / 2.0
+            f64::midpoint(body.mass * velocity.linear.norm_squared(), turning)
         };
         bodies.map(one).sum()
     }

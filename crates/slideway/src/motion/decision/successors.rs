@@ -6,7 +6,7 @@ use super::growth::standing;
 use super::instant::Instant;
 use super::state::{PhaseState, is_same_phase, state};
 use super::system::{Question, Subject};
-use super::{BOUNDARY, MOST_STATES, Standing};
+use super::{BOUNDARY, Limit, MOST_STATES, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
@@ -63,12 +63,12 @@ pub struct Tipping {
 /// 3. of the others, one in which a stopped joint sticks before those in which all stopped joints slip: static friction
 ///    keeps what has come to rest until it is pushed;
 /// 4. attainable ones before those with flutter or without a verdict;
-/// 5. unattainable ones.
+/// 5. unattainable ones, unless they are the present phase or continue one that is unattainable itself.
 ///
 /// `stopped` says of every sliding joint, in the order of the mechanism's joints, whether its velocity is zero; the
 /// others slide with the sign of their velocity. Bodies may move in any case. Of `previous` only what it does matters, not
 /// whether it was admissible. Joints without friction and preload always slide; the sign of one at rest is that of its
-/// acceleration.
+/// acceleration. A joint whose motion depends on that of joints that stick sticks with them.
 ///
 /// An empty list while something moves is dynamic jamming, see [`jam`](super::jam), unless guided sliders would tip.
 ///
@@ -132,10 +132,18 @@ impl Search<'_> {
             }
             let at = (self.instant, &question, &assessment);
             let Some(standing) = standing(self.mechanism, self.configuration, at) else { continue };
+            if self.slips_though_held(&standing, &assessment.phase) {
+                continue;
+            }
             found.list.extend(self.successor(&question, &assessment, standing, before.as_ref()));
         }
-        found.list.sort_by_key(|successor| rank(successor));
+        let follows_unattainable = self.previous.is_some_and(|previous| self.is_unattainable(previous));
+        found.list.sort_by_key(|successor| rank(successor, follows_unattainable));
         Ok(found)
+    }
+
+    fn is_unattainable(&self, phase: &Phase) -> bool {
+        attainability(self.instant, self.configuration, phase).verdict == Verdict::Unattainable
     }
 
     /// The previous phase at this instant.
@@ -173,6 +181,16 @@ impl Search<'_> {
             all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts }));
         }
         Ok(all)
+    }
+
+    /// Whether some joint should begin to slip, but does not accelerate because its motion depends on that of drives and
+    /// of joints that stick.
+    fn slips_though_held(&self, standing: &Standing, phase: &Phase) -> bool {
+        let Standing::Undecided(limits) = standing else { return false };
+        let held: Vec<usize> =
+            (0..phase.joints.len()).filter(|&joint| phase.joints[joint] == JointPhase::Sticking).collect();
+        let slips = |joint: &usize| limits.contains(&Limit::Slip(self.instant.joints[*joint].id));
+        (0..phase.joints.len()).filter(slips).any(|joint| self.instant.is_held(joint, &held))
     }
 
     fn joint_options(&self, joint: usize) -> Vec<JointPhase> {
@@ -252,7 +270,7 @@ struct SlidingVelocity {
 }
 
 /// Place in the order of preference.
-fn rank(successor: &Successor) -> [u8; 3] {
+fn rank(successor: &Successor, follows_unattainable: bool) -> [u8; 3] {
     let sticks = successor.phase.joints.contains(&JointPhase::Sticking);
     let verdict = match successor.attainability.verdict {
         Verdict::Attainable => 0,
@@ -263,8 +281,8 @@ fn rank(successor: &Successor) -> [u8; 3] {
     };
     let class = match successor {
         Successor { is_present: true, .. } => 0,
+        Successor { continues: true, .. } if verdict < 4 || follows_unattainable => 1,
         _ if verdict == 4 => 3,
-        Successor { continues: true, .. } => 1,
         _ => 2,
     };
     [class, u8::from(!sticks), verdict]

@@ -125,6 +125,11 @@ impl<'s> System<'s> {
         self.solutions.directions.ncols()
     }
 
+    /// Whether some equations follow from others, so that they could contradict each other at another instant.
+    pub(super) fn is_redundant(&self) -> bool {
+        self.pressure.len() + self.stuck_joints().len() > self.unknowns - self.dimension()
+    }
+
     fn joint(&self, k: usize) -> JointPhase {
         self.instant.joint_of(k).map_or(JointPhase::Sticking, |joint| self.phase.joints[joint])
     }
@@ -233,30 +238,14 @@ impl<'s> System<'s> {
         let mut right_hand_side = DVector::zeros(contacts + stuck.len());
         for k in 0..contacts {
             let normal = self.normal_force(k);
-            self.write(k, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
+            write(k, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
         }
         for (index, &joint) in stuck.iter().enumerate() {
             let acceleration = self.output(self.instant.sliding_output(joint));
             let equation = acceleration.shifted(-self.question.wanted[joint]);
-            self.write(contacts + index, &equation, &mut matrix, &mut right_hand_side);
+            write(contacts + index, &equation, &mut matrix, &mut right_hand_side);
         }
         (matrix, right_hand_side)
-    }
-
-    fn write(
-        &self,
-        row: usize,
-        expression: &Expression,
-        matrix: &mut DMatrix<f64>,
-        right_hand_side: &mut DVector<f64>,
-    ) {
-        for &(column, value) in &expression.terms {
-            matrix[(row, column)] += value;
-        }
-        let greatest = matrix.row(row).amax();
-        let factor = if greatest > 0.0 { 1.0 / greatest } else { 1.0 };
-        matrix.row_mut(row).scale_mut(factor);
-        right_hand_side[row] = -expression.constant * factor;
     }
 
     fn stuck_joints(&self) -> Vec<usize> {
@@ -398,6 +387,17 @@ impl<'s> System<'s> {
         let one = |share: &Option<usize>| share.map(|share| self.value(&Expression::unknown(share, 1.0), z));
         self.share.iter().map(one).collect()
     }
+}
+
+/// Puts the equation `expression = 0` into a row, scaled to a greatest coefficient of one.
+fn write(row: usize, expression: &Expression, matrix: &mut DMatrix<f64>, right_hand_side: &mut DVector<f64>) {
+    for &(column, value) in &expression.terms {
+        matrix[(row, column)] += value;
+    }
+    let greatest = matrix.row(row).amax();
+    let factor = if greatest > 0.0 { 1.0 / greatest } else { 1.0 };
+    matrix.row_mut(row).scale_mut(factor);
+    right_hand_side[row] = -expression.constant * factor;
 }
 
 /// Which of two versions belongs to a side.
