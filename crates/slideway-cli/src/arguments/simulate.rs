@@ -1,7 +1,7 @@
 //! `slideway simulate`
 
 use super::values::{duration, positive};
-use super::{CheckFormat, Destination, ModelArguments};
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments};
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -56,9 +56,8 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) step: Option<String>,
 
-    /// Plot coordinates, reactions with the contact modes, and energies: FILE.svg.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) plot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) plot: PlotArguments,
 
     /// Plot the rate of each coordinate over its value, too.
     #[arg(long, requires = "plot")]

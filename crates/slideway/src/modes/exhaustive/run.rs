@@ -38,7 +38,7 @@ impl<'a, T: Send> Run<'a, T> {
         progress: &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync),
     ) -> Self {
         assert!(problem.contacts() <= 60, "patterns are held in the bits of a u64");
-        let layout = Layout::of(problem, instructions);
+        let layout = Layout::new(problem, instructions);
         let total = layout.patterns_below(layout.places());
         assert!(total.is_some(), "patterns are counted in a u64");
         let total = total.unwrap_or_default();
