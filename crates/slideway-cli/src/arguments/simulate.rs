@@ -59,11 +59,11 @@ pub(crate) struct SimulateArguments {
     #[command(flatten)]
     pub(crate) plot: PlotArguments,
 
-    /// Plot the rate of each coordinate over its value, too.
+    /// Plot the rate of each coordinate over its value instead.
     #[arg(long, requires = "plot")]
     pub(crate) phase_portrait: bool,
 
-    /// Draw the mechanism moving, contact modes exaggerated: FILE.html.
+    /// Draw the mechanism moving, contact modes exaggerated: FILE.html or FILE.svg.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
 

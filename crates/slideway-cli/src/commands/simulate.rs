@@ -5,6 +5,7 @@ use crate::arguments::{CheckFormat, Destination, SimulateArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::picture::{Picture, SHARPNESS, beside};
 use crate::time_series::{SeriesFormat, to_csv};
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
@@ -12,6 +13,8 @@ use slideway::fault::{Fault, FaultKind};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
+use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway_pictures::plot::to_svg;
 use std::path::Path;
 
 /// Rows of a table that are too many to be meant.
@@ -171,43 +174,88 @@ impl Question<'_> {
 }
 
 /// The files that are written beside what is told.
-struct Files {
+struct Files<'a> {
+    arguments: &'a SimulateArguments,
     table: Option<(SeriesFormat, Output)>,
+    plot: Option<(Picture, Output)>,
+    animation: Option<(AnimationFormat, Output)>,
 }
 
-impl Files {
+impl<'a> Files<'a> {
     /// Before the work it is seen whether they can be written.
-    fn new(arguments: &SimulateArguments, output: &Output) -> Result<Self, Failure> {
+    fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
+        let place = |path: &Path| {
+            let destination =
+                Destination { output: Some(path.to_owned()), force: arguments.destination.force };
+            arguments.model.spare(&destination)?;
+            output.to(&destination)
+        };
         let table = match arguments.destination.output.as_deref() {
-            Some(path) => Some((SeriesFormat::of(path)?, place(arguments, path, output)?)),
+            Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),
             None => None,
         };
-        if arguments.all_branches && table.is_some() {
+        let animation = match arguments.animate.as_deref() {
+            Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
+            None => None,
+        };
+        let plot = beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+        let others = [arguments.destination.output.as_ref(), arguments.plot.plot.as_ref()];
+        if let Some(path) = arguments.animate.as_ref().filter(|path| others.contains(&Some(*path))) {
+            return Err(Failure::SameOutput { path: path.clone() });
+        }
+        if arguments.all_branches && (table.is_some() || plot.is_some() || animation.is_some()) {
             return Err(Failure::SeveralMotions);
         }
-        Ok(Self { table })
+        Ok(Self { arguments, table, plot, animation })
     }
 
     fn write(&self, history: &History, options: &SimulateOptions, step: Option<f64>) -> Result<(), Failure> {
-        let Some((format, output)) = &self.table else { return Ok(()) };
-        let times = match step {
-            Some(step) => history.times_in_steps(step),
-            None => history.times().collect(),
-        };
-        let series = history.series(&times);
-        match format {
-            SeriesFormat::Csv => output.write(&to_csv(&series)),
-            SeriesFormat::Json => {
-                let mut report = motion::report(history, options);
-                report.samples = Some(series);
-                output.write(&motion::to_json(&report))
+        if let Some((format, output)) = &self.table {
+            let times = match step {
+                Some(step) => history.times_in_steps(step),
+                None => history.times().collect(),
+            };
+            let series = history.series(&times);
+            match format {
+                SeriesFormat::Csv => output.write(&to_csv(&series))?,
+                SeriesFormat::Json => {
+                    let mut report = motion::report(history, options);
+                    report.samples = Some(series);
+                    output.write(&motion::to_json(&report))?;
+                }
             }
         }
+        let theme = self.arguments.plot.theme.colours();
+        if let Some((picture, output)) = &self.plot {
+            let portrait = self.arguments.phase_portrait;
+            let figure = if portrait { portrait_figure(history) } else { motion_figure(history) };
+            picture.write(&to_svg(&figure, theme), SHARPNESS, output)?;
+        }
+        if let Some((format, output)) = &self.animation {
+            let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
+            let animation = animation(history, &options, theme);
+            output.write_bytes(match format {
+                AnimationFormat::Html => animation.to_html(),
+                AnimationFormat::Svg => animation.to_svg(),
+            }.as_bytes())?;
+        }
+        Ok(())
     }
 }
 
-fn place(arguments: &SimulateArguments, path: &Path, output: &Output) -> Result<Output, Failure> {
-    let destination = Destination { output: Some(path.to_owned()), force: arguments.destination.force };
-    arguments.model.spare(&destination)?;
-    output.to(&destination)
+/// The form of a moving picture, by the ending of its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum AnimationFormat {
+    Html,
+    Svg,
+}
+
+impl AnimationFormat {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
+            Some("html" | "htm") => Ok(Self::Html),
+            Some("svg") => Ok(Self::Svg),
+            _ => Err(Failure::PictureFormat { path: path.to_owned(), known: &[".html", ".svg"] }),
+        }
+    }
 }

@@ -71,11 +71,11 @@ pub(super) fn velocities(stages: &Stages) -> Vec<f64> {
     let configuration = &stages.configuration;
     let work = |drive: &crate::mechanism::Drive| {
         let wrenches = effort_forces(&stages.mechanism, configuration, &drive.effort);
-        let one = |wrench: &crate::kinetics::Wrench| {
+        let one = |wrench: crate::kinetics::Wrench| {
             wrench.force.dot(&configuration.velocity_at(wrench.frame, wrench.place))
                 + wrench.couple * configuration.angular_velocity(wrench.frame)
         };
-        wrenches.iter().map(one).sum::<f64>() + 0.0
+        wrenches.map(one).sum::<f64>() + 0.0
     };
     stages.mechanism.drives.iter().map(work).collect()
 }

@@ -491,14 +491,14 @@ impl<'m> Equations<'m> {
                 JointKind::Slider(_) => 0.0,
             },
             Some(Reaction::Normal(contact)) => self.normal_gap(*contact),
-            Some(Reaction::Couple(joint)) => mechanism.slider(*joint).map_or(0.0, |slider| {
-                configuration.angle(slider.block) - configuration.angle(slider.guide)
-            }),
+            Some(Reaction::Couple(joint)) => mechanism
+                .slider(*joint)
+                .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
             None => {
                 let stuck = &self.stuck[index - self.layout.reactions().len()];
-                mechanism.slider(stuck.joint).map_or(0.0, |slider| {
-                    configuration.sliding(mechanism, slider).0 - stuck.displacement
-                })
+                mechanism
+                    .slider(stuck.joint)
+                    .map_or(0.0, |slider| configuration.sliding(mechanism, slider).0 - stuck.displacement)
             }
         };
         (gap, self.gap_scale(index))

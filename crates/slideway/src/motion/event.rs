@@ -88,9 +88,9 @@ impl Cause {
     /// The joint, contact or function of which it tells.
     pub fn subject<'a>(&'a self, mechanism: &'a Mechanism) -> Option<&'a str> {
         match self {
-            Self::NormalForceZero(contact) | Self::PreloadGapEnds(contact, _) | Self::ReactionLimit(contact) => {
-                Some(&mechanism.contacts[contact.index()].name)
-            }
+            Self::NormalForceZero(contact)
+            | Self::PreloadGapEnds(contact, _)
+            | Self::ReactionLimit(contact) => Some(&mechanism.contacts[contact.index()].name),
             Self::Stops(joint)
             | Self::Tips(joint)
             | Self::OverlapVanishes(joint)

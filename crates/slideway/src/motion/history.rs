@@ -273,4 +273,3 @@ impl Reader<'_> {
         Some(phase)
     }
 }
-

@@ -27,14 +27,12 @@ mod tests;
 
 pub use equations::Drift;
 pub use event::{Cause, Event};
-pub use history::{
-    ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics,
-};
+pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
 pub use report::{
-    BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA, SimulateReport,
-    StatisticsReport, report, to_json,
+    BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
+    SimulateReport, StatisticsReport, report, to_json,
 };
 pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
 pub use series::{Column, Series};

@@ -244,7 +244,11 @@ fn event_report(history: &History, event: &Event) -> EventReport {
             .collect(),
         words: event.words.clone(),
         mode: event.phase.as_ref().map(|phase| phase.pattern(mechanism)),
-        branches: if several { event.successors.iter().enumerate().map(branch).collect() } else { Vec::new() },
+        branches: if several {
+            event.successors.iter().enumerate().map(branch).collect()
+        } else {
+            Vec::new()
+        },
         energy_lost: lost.sum(),
     }
 }
@@ -281,9 +285,10 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
     let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => ("finished", finished(history, &time)),
-        End::TravelLimit(id) => {
-            ("travel_limit", format!("It ends at {time} s, where {} reaches a limit of its travel.", joint(id)))
-        }
+        End::TravelLimit(id) => (
+            "travel_limit",
+            format!("It ends at {time} s, where {} reaches a limit of its travel.", joint(id)),
+        ),
         End::OverlapVanished(id) => {
             ("overlap_vanished", format!("It ends at {time} s, where {} leaves its guide.", joint(id)))
         }
@@ -294,7 +299,9 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
             );
             ("reaction_limit", words)
         }
-        End::UserEvent(_) => ("user_event", format!("It ends at {time} s the event: {}.", last_words(history))),
+        End::UserEvent(_) => {
+            ("user_event", format!("It ends at {time} s the event: {}.", last_words(history)))
+        }
         End::NoSuchBranch { branching } => (
             "no_such_branch",
             format!(
@@ -306,7 +313,9 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
             format!("It ends at {time} s: at rest neither sticking nor sliding is possible."),
         ),
         End::Jammed => {
-            let words = format!("It ends at {time} s: it jams, and no impulse leads to a state in which it can go on.");
+            let words = format!(
+                "It ends at {time} s: it jams, and no impulse leads to a state in which it can go on."
+            );
             ("jammed", words)
         }
         End::Accumulation => {
@@ -321,7 +330,8 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
             ("step_limit", words)
         }
         End::EventLimit => {
-            let words = format!("It ends at {time} s, after the {} events that were permitted.", options.most_events);
+            let words =
+                format!("It ends at {time} s, after the {} events that were permitted.", options.most_events);
             ("event_limit", words)
         }
         End::NoValue(faults) => ("no_value", format!("It ends at {time} s: {}.", first(faults))),
@@ -340,7 +350,10 @@ fn finished(history: &History, time: &str) -> String {
     };
     match history.phases.last() {
         Some(interval) if at_rest(interval) => {
-            format!("At {time} s the time is over; since {} s all sliding joints have stuck.", number(interval.from))
+            format!(
+                "At {time} s the time is over; since {} s all sliding joints have stuck.",
+                number(interval.from)
+            )
         }
         _ => format!("At {time} s the time is over; it is still moving."),
     }
@@ -376,6 +389,10 @@ fn energy(history: &History) -> EnergyReport {
         drives: named(drives, |energy| &energy.drives),
         impulses: energies(|energy| energy.impulses)[1],
         error: history.energy_error,
-        relative_error: if history.energy_scale > 0.0 { history.energy_error / history.energy_scale } else { 0.0 },
+        relative_error: if history.energy_scale > 0.0 {
+            history.energy_error / history.energy_scale
+        } else {
+            0.0
+        },
     }
 }

@@ -92,10 +92,8 @@ impl Decisions for Thorough {
             return Ok(None);
         };
         let first = impulses.into_iter().next();
-        Ok(first.map(|impulse| Jam {
-            velocities: impulse.after.velocities,
-            energy_lost: impulse.energy_lost,
-        }))
+        Ok(first
+            .map(|impulse| Jam { velocities: impulse.after.velocities, energy_lost: impulse.energy_lost }))
     }
 
     fn sticking_margin(

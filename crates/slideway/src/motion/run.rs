@@ -231,9 +231,11 @@ impl<'a, 'm> Run<'a, 'm> {
                 successors.iter().map(|successor| successor.phase.pattern(mechanism)).collect();
             let Some(found) = patterns.iter().position(|pattern| pattern == wanted) else {
                 let possible = patterns.iter().map(|pattern| spaced(pattern)).collect();
-                return Err(
-                    Fault::general(FaultKind::ContradictoryPhase { wanted: spaced(wanted), possible }).into()
-                );
+                return Err(Fault::general(FaultKind::ContradictoryPhase {
+                    wanted: spaced(wanted),
+                    possible,
+                })
+                .into());
             };
             return Ok(Some(found));
         }

@@ -117,7 +117,8 @@ fn values(mechanism: &Mechanism, sample: &Sample, row: &mut Vec<Option<f64>>) {
     let states = mechanism.coordinates.iter().zip(configuration.coordinates.iter().zip(&configuration.rates));
     for (coordinate, (value, rate)) in states {
         equation.set_coordinate(mechanism, configuration, coordinate.kind);
-        let terms = equation.entries.iter().map(|&(at, factor)| factor * sample.accelerations[at / 3][at % 3]);
+        let terms =
+            equation.entries.iter().map(|&(at, factor)| factor * sample.accelerations[at / 3][at % 3]);
         let acceleration = terms.sum::<f64>() - equation.right_hand_side;
         row.extend([Some(*value), Some(*rate), Some(acceleration)]);
     }

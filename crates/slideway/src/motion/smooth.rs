@@ -113,9 +113,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
     fn first_step(&mut self) -> f64 {
         let size = self.equations.mechanism.size;
         let acceleration = self.equations.accelerations().chunks_exact(3);
-        let greatest = acceleration.fold(0.0, |a: f64, body| {
-            a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size)
-        });
+        let greatest = acceleration
+            .fold(0.0, |a: f64, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
         let velocity = self.watch.magnitudes.velocity.max((greatest * size).sqrt());
         self.watch.magnitudes.velocity = velocity;
         let times = [size / velocity, velocity / greatest];
@@ -126,8 +125,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let size = self.equations.mechanism.size;
         let bodies = 3 * self.equations.mechanism.bodies.len();
         let rates = self.state[bodies..2 * bodies].chunks_exact(3);
-        let greatest = rates
-            .fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
+        let greatest =
+            rates.fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
         self.watch.magnitudes.velocity = self.watch.magnitudes.velocity.max(greatest);
         let works = self.state[2 * bodies..].iter();
         self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
@@ -240,8 +239,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         history: &mut History,
     ) -> Result<f64, Failure> {
-        let error =
-            self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
+        let error = self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
         if error <= 1.0 {
             let mut values = std::mem::take(&mut self.values);
             let watched = self.watch_all(phase, decisions, &mut values[3]);
@@ -289,16 +287,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     /// The value of one watched function at the last evaluation.
-    fn value(
-        &self,
-        watched: Watched,
-        phase: &Phase,
-        decisions: &mut dyn Decisions,
-    ) -> Result<f64, Failure> {
+    fn value(&self, watched: Watched, phase: &Phase, decisions: &mut dyn Decisions) -> Result<f64, Failure> {
         let equations = &self.equations;
         if watched == Watched::Sticking {
-            let margin =
-                decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
+            let margin = decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
             return margin.map_err(Failure::Loads);
         }
         self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))
@@ -324,7 +316,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
             let fallen: Vec<usize> =
                 (0..self.watch.list.len()).filter(|index| self.has_fallen(part, *index)).collect();
             if !fallen.is_empty() {
-                return self.locate(phase, decisions, (dense, step), ([left, right], part, &fallen)).map(Some);
+                return self
+                    .locate(phase, decisions, (dense, step), ([left, right], part, &fallen))
+                    .map(Some);
             }
             left = right;
         }

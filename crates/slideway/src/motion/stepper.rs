@@ -26,15 +26,8 @@ const COEFFICIENTS: [&[f64]; STAGES] = [
     &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
 /// Difference of the formulae of orders 5 and 4.
-const ERROR: [f64; STAGES] = [
-    71.0 / 57600.0,
-    0.0,
-    -71.0 / 16695.0,
-    71.0 / 1920.0,
-    -17253.0 / 339_200.0,
-    22.0 / 525.0,
-    -1.0 / 40.0,
-];
+const ERROR: [f64; STAGES] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 /// The last term of the solution within the step.
 const WITHIN: [f64; STAGES] = [
     -12_715_105_075.0 / 11_282_082_432.0,
@@ -60,7 +53,11 @@ pub(super) struct Stepper {
 impl Stepper {
     /// Memory for states of this many components.
     pub(super) fn new(size: usize) -> Self {
-        Self { stages: std::array::from_fn(|_| vec![0.0; size]), trial: vec![0.0; size], end: vec![0.0; size] }
+        Self {
+            stages: std::array::from_fn(|_| vec![0.0; size]),
+            trial: vec![0.0; size],
+            end: vec![0.0; size],
+        }
     }
 
     /// Evaluates the derivative at the start of the next step; needed after every change of state or equations.

@@ -33,7 +33,12 @@ pub fn tree_to_text(report: &TreeReport, style: Style, all_events: bool) -> Stri
     let completeness = if report.complete { "these are all" } else { "there are more" };
     text.headline(&format!("{number}; {completeness}"));
     for (index, history) in report.histories.iter().enumerate() {
-        text.line(&format!("  {} ({}): {}", index + 1, branches(&history.branches), history.motion.end.words));
+        text.line(&format!(
+            "  {} ({}): {}",
+            index + 1,
+            branches(&history.branches),
+            history.motion.end.words
+        ));
     }
     for (index, history) in report.histories.iter().enumerate() {
         text.line("");

@@ -169,7 +169,8 @@ impl<'o> Watch<'o> {
         Ok(match watched {
             Watched::NormalForce(contact) => {
                 let k = contact.index();
-                let sigma = if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
+                let sigma =
+                    if phase.contacts[k] == ContactPhase::Pressed(Side::Negative) { -1.0 } else { 1.0 };
                 sigma * equations.normal_force(k)
             }
             Watched::Share(contact, side) => {

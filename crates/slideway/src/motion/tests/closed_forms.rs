@@ -64,8 +64,7 @@ stiffness = "50 N/m"
 "#;
     let history = run(&block("0.05", "value = 0.33", spring), &SimulateOptions::new(8.0));
     let half = std::f64::consts::PI * 0.2;
-    let stops: Vec<_> =
-        history.events.iter().filter(|e| matches!(e.causes[..], [Cause::Stops(_)])).collect();
+    let stops: Vec<_> = history.events.iter().filter(|e| matches!(e.causes[..], [Cause::Stops(_)])).collect();
     assert_eq!(stops.len(), 8, "{:#?}", history.events.iter().map(|e| &e.words).collect::<Vec<_>>());
     let mut reader = history.reader();
     for (index, stop) in stops.iter().enumerate() {
@@ -95,8 +94,9 @@ components = [\"8 N/s * t\", 0]
     assert_eq!(history.events.len(), 2);
     assert!((history.events[1].time - 0.625).abs() < 1e-12, "{}", history.events[1].time);
     let t0: f64 = 0.625;
-    let x = (8.0 / 6.0 * (1.0 - t0.powi(3)) - 2.5 * (1.0 - t0 * t0) - (4.0 * t0 * t0 - 5.0 * t0) * (1.0 - t0))
-        / 2.0;
+    let x =
+        (8.0 / 6.0 * (1.0 - t0.powi(3)) - 2.5 * (1.0 - t0 * t0) - (4.0 * t0 * t0 - 5.0 * t0) * (1.0 - t0))
+            / 2.0;
     let found = history.reader().at(1.0).unwrap().configuration.coordinates[0];
     assert!((found - x).abs() < 1e-12, "{found} {x}");
 }

@@ -14,7 +14,8 @@ fn run(text: &str, options: &SimulateOptions) -> History {
     let mechanism = Mechanism::new(&Model::parse(text).unwrap()).unwrap();
     let configuration = Configuration::new(&mechanism).unwrap();
     let mut with = |decisions: &mut dyn Decisions| {
-        simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(())).unwrap()
+        simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(()))
+            .unwrap()
     };
     let history = with(&mut Thorough);
     // Two ways to decide lead to one motion.

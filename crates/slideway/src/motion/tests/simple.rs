@@ -2,8 +2,8 @@
 
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
-use crate::mechanism::{CoordinateKind, Mechanism};
 use crate::kinetics::ConstraintRow;
+use crate::mechanism::{CoordinateKind, Mechanism};
 use crate::modes::Side;
 use crate::motion::equations::{Equations, sliding_joints};
 use crate::motion::{ContactPhase, Decisions, Instant, Jam, JointPhase, Phase, Successor};
@@ -99,7 +99,8 @@ impl Decisions for TryAll {
         for joints in product(&choices) {
             let sticks = |k: usize| {
                 let joint = instant.mechanism.contacts[k].joint;
-                let index = sliding_joints(instant.mechanism).iter().position(|other| *other == joint).unwrap();
+                let index =
+                    sliding_joints(instant.mechanism).iter().position(|other| *other == joint).unwrap();
                 joints[index] == JointPhase::Sticking
             };
             for contacts in product(&contacts) {
