@@ -58,11 +58,6 @@ pub(super) fn is_conservative(load: &Load) -> bool {
     }
 }
 
-/// Whether what a load takes from the motion is counted as dissipated.
-pub(super) fn is_damper(load: &Load) -> bool {
-    matches!(load.kind, LoadKind::Damper { .. } | LoadKind::TorsionalDamper { .. })
-}
-
 /// Power of the friction of every contact (W, what it dissipates is positive), then of every load and drive.
 pub(super) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
     let (contacts, others) = powers.split_at_mut(equations.contacts.len());

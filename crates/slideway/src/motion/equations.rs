@@ -214,7 +214,9 @@ impl<'m> Equations<'m> {
             let rest = norm(&left);
             let new = rest > DEPENDENT * length;
             if new {
-                left.iter_mut().for_each(|value| *value /= rest);
+                for value in &mut left {
+                    *value /= rest;
+                }
                 basis.push(left);
             }
             new
@@ -441,7 +443,6 @@ impl<'m> Equations<'m> {
     pub(super) fn project(&mut self, state: &mut [f64]) -> Drift {
         let bodies = 3 * self.mechanism.bodies.len();
         let mut drift = Drift::default();
-        self.place(self.configuration.time, state);
         self.work.fill(0.0);
         for index in 0..self.row_ends.len() {
             let (gap, scale) = self.gap(index);

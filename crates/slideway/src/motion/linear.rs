@@ -68,10 +68,6 @@ impl LinearSystem {
         }
     }
 
-    pub(super) fn size(&self) -> usize {
-        self.size
-    }
-
     /// Sets every entry to zero, to begin a new matrix.
     pub(super) fn clear(&mut self) {
         self.entries.fill(0.0);

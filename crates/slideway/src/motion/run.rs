@@ -71,11 +71,9 @@ impl<'a, 'm> Run<'a, 'm> {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<History, Faults> {
         let total = self.energy().total();
-        let end = match self.decide(vec![Cause::Start]) {
-            Ok(None) => self.phases(progress, total),
-            Ok(Some(End::Undecided(faults) | End::NoValue(faults))) => return Err(faults),
-            Ok(Some(end)) => end,
-            Err(faults) => return Err(faults),
+        let end = match self.decide(vec![Cause::Start])? {
+            None => self.phases(progress, total),
+            Some(end) => end,
         };
         self.history.end = end;
         self.history.last = (self.smooth.time, self.smooth.state.clone());
@@ -98,14 +96,14 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.tell(causes, Vec::new(), None);
                 return end;
             }
-            if !causes.iter().any(Cause::ends_phase) {
-                self.note(causes, Some(phase), Vec::new(), None);
-            } else {
+            if causes.iter().any(Cause::ends_phase) {
                 match self.decide(causes) {
                     Ok(None) => {}
                     Ok(Some(end)) => return end,
                     Err(faults) => return End::Undecided(faults),
                 }
+            } else {
+                self.note(causes, Some(phase), Vec::new(), None);
             }
             if self.history.events.len() >= self.options.most_events {
                 return End::EventLimit;

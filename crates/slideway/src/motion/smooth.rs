@@ -19,6 +19,8 @@ const SAME_INSTANT: f64 = 1e-9;
 const ROOT_TOLERANCE: f64 = 1e-13;
 /// A function of the user that is below this multiple of its next value has just passed zero.
 const USER_ZERO: f64 = 1e-9;
+/// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
+const LITTLE_VELOCITY: f64 = 1e-2;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
 
@@ -44,6 +46,8 @@ pub(super) struct Smooth<'o, 'm> {
     next: f64,
     scale: Vec<f64>,
     energy: f64,
+    /// Of all bodies (kg).
+    mass: f64,
     watch: Watch<'o>,
     options: &'o SimulateOptions,
     /// Values of the watched functions at the start of the step, inside, and at its end.
@@ -61,7 +65,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
     ) -> Self {
         let size = state.len();
         let mut smooth = Self {
-            equations,
             time,
             end: time + options.duration,
             longest: options.longest_step.unwrap_or(options.duration / 1000.0).min(options.duration),
@@ -71,11 +74,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
             next: 0.0,
             scale: vec![0.0; size],
             energy: 0.0,
+            mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
             options,
             values: Default::default(),
             inside: vec![0.0; size],
             state,
+            equations,
         };
         smooth.notice_velocity();
         smooth
@@ -132,9 +137,14 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
     }
 
+    /// Takes note of the greatest force, and of a velocity that it could cause: at rest there is no other scale.
     fn notice_force(&mut self) {
-        let force = self.equations.greatest_force();
-        self.watch.magnitudes.force = self.watch.magnitudes.force.max(force);
+        let magnitudes = &mut self.watch.magnitudes;
+        magnitudes.force = magnitudes.force.max(self.equations.greatest_force());
+        if self.mass > 0.0 {
+            let velocity = (magnitudes.force * self.equations.mechanism.size / self.mass).sqrt();
+            magnitudes.velocity = magnitudes.velocity.max(LITTLE_VELOCITY * velocity);
+        }
     }
 
     /// The errors of the components that are permitted in a step.
@@ -411,13 +421,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 }
 
+/// Two places, and the values of a function there.
+type Bracket = ([f64; 2], [f64; 2]);
+
 /// A part of the way on which a function that begins with zero, or below it within rounding, and ends below zero falls
 /// from above zero; none if it does not rise first.
 fn rising_part(
     [left, mut right]: [f64; 2],
     mut at_right: f64,
     function: &mut impl FnMut(f64) -> Result<f64, Failure>,
-) -> Result<Option<([f64; 2], [f64; 2])>, Failure> {
+) -> Result<Option<Bracket>, Failure> {
     while right - left > SAME_INSTANT {
         let middle = f64::midpoint(left, right);
         let value = function(middle)?;

@@ -70,11 +70,6 @@ impl Stepper {
         system.derivative(time, state, &mut self.stages[0])
     }
 
-    /// The derivative at the start of the step.
-    pub(super) fn first_rate(&self) -> &[f64] {
-        &self.stages[0]
-    }
-
     /// Tries a step from `state`; returns its estimated error: the root mean square of the components' errors
     /// divided by `scale`, to be compared with 1.
     pub(super) fn attempt<S: Derivative>(

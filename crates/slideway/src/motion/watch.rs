@@ -85,7 +85,7 @@ pub(super) struct Watch<'o> {
     reaction_limit: Option<f64>,
     /// The determinant at the start of the phase.
     reference: Determinant,
-    /// The least share at which each contact has been flagged.
+    /// The greatest so far.
     pub(super) magnitudes: Magnitudes,
 }
 

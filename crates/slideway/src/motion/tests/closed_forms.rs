@@ -2,7 +2,7 @@ use super::run;
 use crate::motion::{Cause, End, SimulateOptions};
 
 /// A block of 2 kg on a horizontal guide, g = 10 m/s^2.
-fn block(mu: &str, start: &str, more: &str) -> String {
+pub(super) fn block(mu: &str, start: &str, more: &str) -> String {
     format!(
         r#"
 gravity = "10 m/s^2"
@@ -92,11 +92,34 @@ components = [\"8 N/s * t\", 0]
     let history = run(&block("0.25", "", force), &SimulateOptions::new(1.0));
     assert_eq!(history.end, End::Finished);
     assert_eq!(history.events.len(), 2);
-    assert!((history.events[1].time - 0.625).abs() < 1e-12, "{}", history.events[1].time);
+    // Decisions take slacks below 1e-8 of the greatest force, the weight of 20 N, as zero: 8 N/s pass them in 2.5e-8 s.
+    assert!((history.events[1].time - 0.625).abs() < 2.5e-8, "{}", history.events[1].time);
     let t0: f64 = 0.625;
     let x =
         (8.0 / 6.0 * (1.0 - t0.powi(3)) - 2.5 * (1.0 - t0 * t0) - (4.0 * t0 * t0 - 5.0 * t0) * (1.0 - t0))
             / 2.0;
     let found = history.reader().at(1.0).unwrap().configuration.coordinates[0];
     assert!((found - x).abs() < 1e-12, "{found} {x}");
+}
+
+/// Steps of fixed length, halved: the time of a stop is found with the order of the solution within a step, at least.
+#[test]
+fn the_order_of_event_times() {
+    let spring = r#"
+[loads.spring]
+type = "spring"
+between = ["block.C", "ground.W"]
+stiffness = "50 N/m"
+"#;
+    let error = |length: f64| {
+        let mut options = SimulateOptions::new(2.0);
+        options.tolerance = 1e3;
+        options.longest_step = Some(length);
+        let history = run(&block("0.05", "value = 0.33", spring), &options);
+        let third = history.events.iter().filter(|e| matches!(e.causes[..], [Cause::Stops(_)])).nth(2);
+        (third.unwrap().time - 3.0 * std::f64::consts::PI * 0.2).abs()
+    };
+    let errors = [error(0.08), error(0.04), error(0.02)];
+    let orders = [(errors[0] / errors[1]).log2(), (errors[1] / errors[2]).log2()];
+    assert!(orders.iter().all(|order| *order > 3.5), "{errors:?} {orders:?}");
 }

@@ -1,7 +1,10 @@
 //! Motions that are known in closed form.
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
+mod agreement;
 mod closed_forms;
+mod limits;
+mod mechanisms;
 mod simple;
 
 use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
@@ -10,10 +13,18 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use std::ops::ControlFlow;
 
+fn model_of(name: &str) -> Model {
+    Model::parse(crate::gallery::find(name).unwrap().text).unwrap()
+}
+
+fn mechanism_of(text: &str) -> Mechanism {
+    Mechanism::new(&Model::parse(text).unwrap()).unwrap()
+}
+
 fn run(text: &str, options: &SimulateOptions) -> History {
-    let mechanism = Mechanism::new(&Model::parse(text).unwrap()).unwrap();
+    let mechanism = mechanism_of(text);
     let configuration = Configuration::new(&mechanism).unwrap();
-    let mut with = |decisions: &mut dyn Decisions| {
+    let with = |decisions: &mut dyn Decisions| {
         simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(()))
             .unwrap()
     };

@@ -141,7 +141,9 @@ impl Decisions for TryAll {
 fn product<T: Clone>(choices: &[Vec<T>]) -> Vec<Vec<T>> {
     choices.iter().fold(vec![Vec::new()], |all, choices| {
         all.iter()
-            .flat_map(|start| choices.iter().map(move |next| [start.as_slice(), &[next.clone()]].concat()))
+            .flat_map(|start| {
+                choices.iter().map(move |next| [start.as_slice(), std::slice::from_ref(next)].concat())
+            })
             .collect()
     })
 }

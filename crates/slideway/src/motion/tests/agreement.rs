@@ -1,0 +1,126 @@
+//! Accelerations and reactions within a phase against those of `solve`, which factors other matrices with full pivoting.
+
+use crate::configuration::Configuration;
+use crate::gallery;
+use crate::ids::DriveId;
+use crate::mechanism::Mechanism;
+use crate::model::{Model, Settings};
+use crate::modes::Side;
+use crate::motion::equations::Equations;
+use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::report::Solution;
+use crate::solve::solve;
+
+/// A sequence of numbers between -1 and 1 (D. E. Knuth's MMIX generator).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn phase_of(equations: &Equations<'_>, solution: &Solution) -> Phase {
+    let contact = |sign: &i8| match sign {
+        0 => ContactPhase::PreloadGap,
+        1 => ContactPhase::Pressed(Side::Positive),
+        _ => ContactPhase::Pressed(Side::Negative),
+    };
+    let joint = |joint: &crate::ids::JointId| {
+        let slider = equations.mechanism.slider(*joint).unwrap();
+        JointPhase::Sliding(solution.contacts[slider.contacts[0].index()].sliding_velocity.signum())
+    };
+    Phase {
+        joints: equations.sliders.iter().map(joint).collect(),
+        contacts: solution.signs.iter().map(contact).collect(),
+    }
+}
+
+/// All numbers of one kind agree to 1e-10 of the greatest, or of what the greatest force would cause.
+fn assert_agree(name: &str, [found, expected]: [&[f64]; 2], least_scale: f64) {
+    let scale = expected.iter().fold(least_scale, |scale: f64, value| scale.max(value.abs()));
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= 1e-10 * scale, "{name}: {found} {expected}, of {scale}");
+    }
+}
+
+fn compare(name: &str, model: &Model) -> usize {
+    let Ok(report) = solve(model) else { return 0 };
+    let mechanism = Mechanism::new(model).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let mut equations = Equations::new(&mechanism, &configuration);
+    let state = equations.state_of(&configuration);
+    let mut compared = 0;
+    for solution in report.solutions.iter().chain(&report.preload_gap_states) {
+        if solution.on_boundary {
+            continue;
+        }
+        let phase = phase_of(&equations, solution);
+        equations.enter(&phase, configuration.time, &state).unwrap();
+        let expected: Vec<f64> = solution
+            .bodies
+            .iter()
+            .flat_map(|b| [b.acceleration[0], b.acceleration[1], b.angular_acceleration])
+            .collect();
+        let force = equations.greatest_force();
+        let mass: f64 = mechanism.bodies.iter().map(|body| body.mass).sum();
+        assert_agree(name, [equations.accelerations(), &expected], force / mass);
+        let contacts = solution.contacts.iter();
+        let normal: Vec<f64> = contacts.clone().map(|contact| contact.normal_force).collect();
+        let friction: Vec<f64> = contacts.clone().map(|contact| contact.friction_force).collect();
+        let found: Vec<f64> = (0..normal.len()).map(|k| equations.normal_force(k)).collect();
+        assert_agree(name, [&found, &normal], force);
+        let found: Vec<f64> = (0..normal.len()).map(|k| equations.friction_force(k).unwrap()).collect();
+        assert_agree(name, [&found, &friction], force);
+        for (k, contact) in contacts.enumerate() {
+            assert_eq!(equations.share(k).is_some(), contact.preload_share.is_some());
+            if let (Some(found), Some(expected)) = (equations.share(k), contact.preload_share) {
+                assert!((found - expected).abs() < 1e-10, "{name}: share {found} {expected}");
+            }
+        }
+        let efforts: Vec<f64> = solution.drives.iter().map(|drive| drive.effort).collect();
+        let found: Vec<f64> = (0..efforts.len()).map(|d| equations.effort(DriveId(d))).collect();
+        assert_agree(name, [&found, &efforts], force);
+        compared += 1;
+    }
+    compared
+}
+
+#[test]
+fn all_gallery_models_at_random_states() {
+    let mut numbers = Numbers(20_261_121);
+    for gallery_model in gallery::MODELS {
+        let model = Model::parse(gallery_model.text).unwrap();
+        let mechanism = Mechanism::new(&model).unwrap();
+        let mut compared = 0;
+        for _ in 0..8 {
+            let mut settings = Settings::default();
+            for coordinate in &mechanism.coordinates {
+                let (unit, scale) =
+                    if coordinate.kind.is_angle() { ("rad", 1.0) } else { ("m", mechanism.size) };
+                let value = coordinate.value + 0.05 * scale * numbers.next();
+                let rate = (coordinate.rate.abs() + 0.1 * scale) * numbers.next();
+                settings = settings.position(&coordinate.name, &format!("{value} {unit}"));
+                settings = settings.rate(&coordinate.name, &format!("{rate} {unit}/s"));
+            }
+            if let Ok(model) = model.with(&settings) {
+                compared += compare(gallery_model.name, &model);
+            }
+        }
+        // The massless bracket has no forward problem.
+        assert!(
+            compared >= 5 || gallery_model.name == "bracket-on-pole",
+            "{}: {compared}",
+            gallery_model.name
+        );
+    }
+}
+
+/// The preload gap of the example: mu_1 = 0.24, F_30 = 0.5 m g, qd > 0 (theory, section 3).
+#[test]
+fn a_preload_gap() {
+    let model = Model::parse(gallery::find("klepp-2002").unwrap().text).unwrap();
+    let settings = Settings::default().parameter("F_20", "0").parameter("F_30", "0.5*m*g");
+    assert!(compare("gap", &model.with(&settings.parameter("mu_1", "0.24")).unwrap()) > 0);
+}

@@ -1,0 +1,155 @@
+//! Where a simulation ends before its time, and what is refused.
+
+use super::closed_forms::block;
+use super::{mechanism_of, run};
+use crate::configuration::Configuration;
+use crate::expression::{Names, parse};
+use crate::fault::{FaultKind, Faults};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::modes::Side;
+use crate::motion::{
+    ContactPhase, Crossing, Decisions, End, Instant, Jam, JointPhase, Phase, SimulateOptions, Successor,
+    UserEvent, simulate,
+};
+use crate::report::Verdict;
+use std::ops::ControlFlow;
+
+fn model(text: &str) -> Model {
+    Model::parse(text).unwrap()
+}
+
+#[test]
+fn durations_must_be_positive() {
+    for duration in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let faults =
+            simulate(&model(&block("0.25", "rate = 2", "")), &SimulateOptions::new(duration)).unwrap_err();
+        let told = faults.to_string();
+        assert!(told.starts_with("the duration must be greater than zero"), "{told}");
+    }
+}
+
+/// A force without a value from t = 1.3 s on: what was computed is kept.
+#[test]
+fn a_force_that_ceases_to_have_a_value_ends_the_history() {
+    let force = "
+[loads.force]
+type = \"force\"
+at = \"block.C\"
+components = [\"1 N * sqrt(1.3 - t/second)\", 0]
+[parameters]
+second = \"1 s\"
+";
+    let history = run(&block("0", "rate = 2", force), &SimulateOptions::new(2.0));
+    let End::NoValue(faults) = &history.end else { panic!("{:?}", history.end) };
+    assert!(faults.to_string().contains("sqrt"), "{faults}");
+    assert!((history.stop() - 1.3).abs() < 1e-6, "{}", history.stop());
+    // x = 2 t + (1/2) int int sqrt(1.3 - t) = 2 t + 1.3^(3/2) t / 3 - (2/15) (1.3^(5/2) - (1.3 - t)^(5/2))
+    let expected = 2.6 + 1.3_f64.powf(2.5) / 3.0 - 2.0 / 15.0 * 1.3_f64.powf(2.5);
+    let place = history.reader().at(history.stop()).unwrap().configuration.coordinates[0];
+    assert!((place - expected).abs() < 1e-5, "{place} {expected}");
+}
+
+/// 2 t - 1.25 t^2 = 0.5 at t = (2 - sqrt(1.5)) / 2.5.
+#[test]
+fn travel_ends_it() {
+    let text = block("0.25", "rate = 2", "").replace("mu = 0.25", "mu = 0.25\ntravel = [-1, 0.5]");
+    let history = run(&text, &SimulateOptions::new(2.0));
+    assert!(matches!(history.end, End::TravelLimit(_)));
+    assert!((history.stop() - (2.0 - 1.5_f64.sqrt()) / 2.5).abs() < 1e-11, "{}", history.stop());
+    assert!(history.events[1].words.ends_with("guide reaches the greatest displacement of its travel"));
+}
+
+#[test]
+fn functions_of_the_user_are_events() {
+    let mut names = Names::new();
+    names.coordinate("x");
+    let event = |text: &str, crossing: Crossing, ends: bool| UserEvent {
+        name: text.to_owned(),
+        function: EventFunction::Expression(parse(text, &names).unwrap()),
+        crossing,
+        ends,
+    };
+    let mut options = SimulateOptions::new(2.0);
+    options.events = vec![
+        event("x - 0.3", Crossing::Any, false),
+        event("x - 0.4", Crossing::Falling, false),
+        event("x - 0.5", Crossing::Rising, true),
+    ];
+    let history = run(&block("0.25", "rate = 2", ""), &options);
+    assert_eq!(history.end, End::UserEvent(2));
+    let times: Vec<f64> = history.events.iter().map(|event| event.time).collect();
+    assert_eq!(times.len(), 3);
+    // 2 t - 1.25 t^2 = x
+    for (time, x) in times[1..].iter().zip([0.3_f64, 0.5]) {
+        assert!((time - (2.0 - (4.0 - 5.0 * x).sqrt()) / 2.5).abs() < 1e-11, "{time}");
+    }
+}
+
+#[test]
+fn limits_of_steps_and_events() {
+    let mut options = SimulateOptions::new(2.0);
+    options.most_steps = 5;
+    let history = run(&block("0.25", "rate = 2", ""), &options);
+    assert_eq!((history.end.clone(), history.statistics.steps), (End::StepLimit, 5));
+    assert!(history.reader().at(history.stop()).unwrap().configuration.rates[0] > 0.0);
+    options = SimulateOptions::new(2.0);
+    options.most_events = 2;
+    assert_eq!(run(&block("0.25", "rate = 2", ""), &options).end, End::EventLimit);
+}
+
+#[test]
+fn a_contradictory_phase_is_refused() {
+    let mut options = SimulateOptions::new(1.0);
+    let pressed = |side| vec![ContactPhase::Pressed(side); 2];
+    options.initial =
+        Some(Phase { joints: vec![JointPhase::Sliding(1.0)], contacts: pressed(Side::Negative) });
+    let faults = simulate(&model(&block("0.25", "rate = 2", "")), &options).unwrap_err();
+    assert_eq!(faults.sorted()[0].kind, FaultKind::ContradictoryPhase);
+    options.initial =
+        Some(Phase { joints: vec![JointPhase::Sliding(1.0)], contacts: pressed(Side::Positive) });
+    assert!(simulate(&model(&block("0.25", "rate = 2", "")), &options).is_ok());
+}
+
+/// Says that a block at rest slides, though friction would push it back.
+struct Wrong;
+
+impl Decisions for Wrong {
+    fn successors(&mut self, _: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
+        let contacts = vec![ContactPhase::Pressed(Side::Positive); 2];
+        let phase = Phase { joints: vec![JointPhase::Sliding(1.0)], contacts };
+        Ok(vec![Successor { phase, verdict: Verdict::NotComputed, continues: false }])
+    }
+
+    fn jam(&mut self, _: &Instant<'_>) -> Result<Option<Jam>, Faults> {
+        Ok(None)
+    }
+
+    fn sticking_margin(&mut self, _: &Mechanism, _: &Configuration, _: &Phase) -> Result<f64, Faults> {
+        Ok(1.0)
+    }
+}
+
+#[test]
+fn phases_that_take_no_time_are_an_accumulation() {
+    let mechanism = mechanism_of(&block("0.25", "", ""));
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let options = SimulateOptions::new(1.0);
+    let progress = &mut |_| ControlFlow::Continue(());
+    let history =
+        crate::motion::simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
+    assert_eq!(history.end, End::Accumulation);
+    assert_eq!(history.stop(), 0.0);
+}
+
+#[test]
+fn progress_can_end_it() {
+    let mechanism = mechanism_of(&block("0.25", "rate = 2", ""));
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let options = SimulateOptions::new(1.0);
+    let progress = &mut |time| if time > 0.1 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let history =
+        crate::motion::simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
+    assert_eq!(history.end, End::Interrupted);
+    assert!(history.stop() > 0.1 && history.stop() < 0.2);
+}
