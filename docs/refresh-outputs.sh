@@ -101,6 +101,21 @@ show hold-both.txt 0 hold models/painleve-klein.toml --set mu=4 --set "P_1=12 N"
 show hold-neither.txt 1 hold $examples/guided-tips.toml
 show hold-cam.txt 1 hold models/cam-follower.toml --load cam
 
+# Design.
+show help-size.txt 0 size --help
+show help-drive.txt 0 drive --help
+show size-drawer.txt 0 size models/drawer.toml --vary L --margin 2
+show size-cam.txt 0 size models/cam-follower.toml --vary "phi=10 deg..80 deg" --margin 2
+show size-bracket.txt 0 size models/bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
+show drive-drawer.txt 0 drive models/drawer.toml --vary mu
+show drive-cam.txt 0 drive models/cam-follower.toml
+show drive-wedge.txt 0 drive models/wedge.toml --vary alpha="5 deg..80 deg"
+show drive-screw.txt 0 drive models/screw.toml --vary mu=0..0.3
+show drive-press.txt 0 drive $examples/press.toml --vary "angle=5 deg..89 deg"
+show drive-engine.txt 0 drive $examples/engine.toml --vary "angle=-40 deg..100 deg"
+show screw.txt 0 solve models/screw.toml
+show wedge.txt 0 solve models/wedge.toml
+
 # Problems given by matrices.
 show modes-species.txt 0 modes $examples/species.json
 show modes-ave.txt 0 modes $examples/ave.json

@@ -3,7 +3,6 @@
 use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
 use slideway::raw_problem::RawFaults;
-use slideway_pictures::raster::RasterFault;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -33,6 +32,8 @@ pub(crate) enum Failure {
     StageCount { stages: usize, most: usize },
     /// The output file exists.
     OutputExists { path: PathBuf },
+    /// A picture or page could not be made.
+    Picture { reason: String },
     /// Two outputs would go to the same file.
     SameOutput { path: PathBuf },
     /// The ending of a picture's file says nothing of its format.
@@ -57,8 +58,6 @@ pub(crate) enum Failure {
     CannotWrite { path: PathBuf, error: io::Error },
     /// There is no solution of the wanted number.
     NoSuchSolution { count: usize },
-    /// The picture cannot be made of pixels.
-    NoPicture(RasterFault),
     /// An answer that is no text would go to a terminal.
     BinaryOnTerminal,
     /// The ending of a file names no form of a time series.
@@ -92,6 +91,7 @@ impl Failure {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
             Self::OutputExists { path } => format!("`{}` exists already", path.display()),
+            Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
             Self::PictureFormat { path, .. } => {
                 format!("the ending of `{}` names no format of pictures", path.display())
@@ -118,7 +118,6 @@ impl Failure {
             Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
-            Self::NoPicture(fault) => fault.to_string(),
             Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
             Self::SeriesFormat { path } => {
                 format!("`{}` names no form of a time series", path.display())

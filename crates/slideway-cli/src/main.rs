@@ -57,6 +57,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Hold(arguments) => commands::hold(arguments, output),
         Command::Draw(arguments) => commands::draw(arguments, output),
         Command::Sweep(arguments) => commands::sweep(arguments, output),
+        Command::Report(arguments) => commands::report(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Schema => commands::schema(output),

@@ -16,7 +16,7 @@ pub(crate) enum Picture {
 }
 
 const ENDINGS: [&str; 2] = [".svg", ".png"];
-/// Pixels of a PNG for each unit of its SVG, unless a width is wanted.
+/// Pixels for each unit of a picture, unless its width is given.
 pub(crate) const SHARPNESS: f64 = 2.0;
 
 impl Picture {
@@ -33,14 +33,22 @@ impl Picture {
         }
     }
 
-    /// Writes a picture that is given as SVG, with so many pixels for each of its units if it has pixels.
+    /// Writes a picture that is given as SVG, with two pixels for each of its units if it is to have pixels.
     ///
     /// # Errors
     /// If it cannot be converted or written.
-    pub(crate) fn write(self, svg: &str, sharpness: f64, output: &Output) -> Result<(), Failure> {
+    pub(crate) fn write(self, svg: &str, output: &Output) -> Result<(), Failure> {
+        self.write_scaled(svg, SHARPNESS, output)
+    }
+
+    /// Writes a picture that is given as SVG, with so many pixels for each of its units if it is to have pixels.
+    ///
+    /// # Errors
+    /// If it cannot be converted or written.
+    pub(crate) fn write_scaled(self, svg: &str, scale: f64, output: &Output) -> Result<(), Failure> {
         match self {
             Self::Svg => output.write_bytes(svg.as_bytes()),
-            Self::Png => output.write_bytes(&png(svg, sharpness).map_err(Failure::NoPicture)?),
+            Self::Png => output.write_bytes(&png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?),
         }
     }
 }

@@ -60,6 +60,26 @@ refused! {
     hold_load_of_nothing: ["hold", KLEPP, "--load", "damper"];
     hold_vary_without_load: ["hold", DRAWER, "--vary", "mu"];
     hold_vary_geometry: ["hold", DRAWER, "--load", "push", "--vary", "a"];
+    size_unknown_parameter: ["size", DRAWER, "--vary", "l", "--margin", "2"];
+    size_reversed_range: ["size", DRAWER, "--vary", "L=1 m..0.1 m", "--margin", "2"];
+    size_empty_range: ["size", DRAWER, "--vary", "L=1 m..1 m", "--margin", "2"];
+    size_on_which_nothing_depends: ["size", DRAWER, "--vary", "m", "--margin", "2"];
+    size_coordinate_without_range: ["size", DRAWER, "--vary", "x", "--margin", "2"];
+    size_without_load: ["size", DRAWER, "--vary", "L", "--margin", "2", "--against", "hold"];
+    size_with_idle_load: ["size", DRAWER, "--vary", "L", "--margin", "2", "--load", "push"];
+    size_unknown_load: [
+        "size", DRAWER, "--vary", "L", "--margin", "2", "--against", "self-locking", "--load", "pusch"
+    ];
+    size_at_rest_in_both_directions: [
+        "size", DRAWER, "--vary", "L", "--margin", "2", "--against", "hold", "--load", "push", "--both-directions"
+    ];
+    size_margin_zero: ["size", DRAWER, "--vary", "L", "--margin", "0"];
+    drive_without_drives: ["drive", "models/slider-crank.toml"];
+    drive_unknown_parameter: ["drive", DRAWER, "--vary", "nu=0..1"];
+    drive_rows_without_vary: ["drive", DRAWER, "--rows", "5"];
+    drive_one_row: ["drive", DRAWER, "--vary", "mu", "--rows", "1"];
+    limits_on_which_nothing_depends: ["limits", DRAWER, "--vary", "m=1 kg..2 kg"];
+    limits_unknown_parameter: ["limits", DRAWER, "--vary", "lenght=0..1"];
     malformed_settings: ["solve", DRAWER, "--set", "mu", "--set", "=1", "--at", "x="];
     unknown_setting: ["solve", KLEPP, "--set", "mu1=0.2"];
     several_settings: [

@@ -9,6 +9,9 @@ use serde_json::Value;
 use std::process::Stdio;
 
 const KLEPP: &str = "models/klepp-2002.toml";
+const DRAWER: &str = "models/drawer.toml";
+const BRACKET: &str = "models/bracket-on-pole.toml";
+const ENGINE: &str = "docs/src/examples/engine.toml";
 
 macro_rules! golden {
     ($($name:ident: $code:literal [$($argument:expr),* $(,)?];)*) => {$(
@@ -45,6 +48,20 @@ golden! {
     hold_boom: 1 ["hold", "models/telescopic-boom.toml"];
     hold_cam: 1 ["hold", "models/cam-follower.toml", "--load", "cam"];
     hold_drawer_json: 0 ["hold", "models/drawer.toml", "--drives", "hold", "--format", "json"];
+    limits_not_assembled: 0 ["limits", "models/slider-crank.toml", "--vary", "r=20 mm..400 mm"];
+    size_drawer: 0 ["size", DRAWER, "--vary", "L", "--margin", "2"];
+    size_bracket: 0 ["size", BRACKET, "--vary", "x", "--margin", "1.5", "--against", "hold", "--load", "W"];
+    size_both_directions: 0 [
+        "size", "models/wedge.toml", "--vary", "alpha=5 deg..80 deg", "--margin", "2", "--both-directions"
+    ];
+    size_nowhere: 1 ["size", DRAWER, "--vary", "L=0.1 m..0.3 m", "--margin", "2"];
+    size_not_assembled: 0 ["size", ENGINE, "--vary", "l=20 mm..200 mm", "--margin", "2"];
+    drive_drawer: 0 ["drive", DRAWER, "--vary", "mu"];
+    drive_locked: 1 ["drive", DRAWER, "--set", "mu=0.8"];
+    drive_screw: 0 ["drive", "models/screw.toml"];
+    drive_not_assembled: 0 ["drive", ENGINE, "--vary", "l=20 mm..200 mm", "--rows", "5"];
+    help_of_size: 0 ["size", "-h"];
+    help_of_drive: 0 ["drive", "-h"];
     help_of_hold: 0 ["hold", "--help"];
     list_of_models: 0 ["models"];
     help: 0 ["--help"];
@@ -69,6 +86,74 @@ fn json_of_limits_has_the_fields_that_are_promised() {
     let counts = report["counts"].as_array().unwrap();
     let solutions: Vec<u64> = counts.iter().map(|count| count["solutions"].as_u64().unwrap()).collect();
     assert_eq!(solutions, [1, 2, 3]);
+}
+
+#[test]
+fn json_of_size_has_the_fields_that_are_promised() {
+    let (code, report) =
+        json(&["size", DRAWER, "--vary", "L=0.1 m..1 m", "--margin", "2", "--format", "json"]);
+    assert_eq!((code, &report["schema"]), (0, &Value::from("slideway/size/1")));
+    let met = &report["met"][0];
+    assert!((met["from"].as_f64().unwrap() - 0.36).abs() < 1e-12);
+    assert_eq!((met["from_is"].as_str(), met["to_is"].as_str()), (Some("margin"), Some("range")));
+    assert_eq!((report["vary"]["unit"].as_str(), report["against"].as_str()), (Some("m"), Some("locking")));
+    assert!(report["samples"].as_array().unwrap().iter().all(|sample| sample["margin"].is_f64()));
+}
+
+#[test]
+fn json_of_drive_has_the_fields_that_are_promised() {
+    let (code, report) = json(&["drive", DRAWER, "--vary", "mu", "--rows", "5", "--format", "json"]);
+    assert_eq!((code, &report["schema"]), (0, &Value::from("slideway/drive/1")));
+    let solution = &report["directions"][0]["solutions"][0];
+    // P = Q / (1 - 2 mu a / L), and what is lost to friction.
+    assert!((solution["efforts"][0].as_f64().unwrap() - 20.0 / 0.55).abs() < 1e-9);
+    assert!((solution["efficiency"]["value"].as_f64().unwrap() - 0.55).abs() < 1e-12);
+    assert_eq!(solution["efficiency"]["is"], "driving");
+    let blow_ups = report["course"]["directions"][0]["blow_ups"].as_array().unwrap();
+    assert!((blow_ups[0]["at"].as_f64().unwrap() - 2.0 / 3.0).abs() < 1e-12);
+    assert_eq!(report["course"]["directions"][0]["rows"].as_array().unwrap().len(), 6);
+}
+
+/// A load comes before a drive of the same name.
+#[test]
+fn a_drive_and_a_load_of_the_same_name() {
+    let text =
+        std::fs::read_to_string(top().join(DRAWER)).unwrap().replace("[loads.resistance]", "[loads.push]");
+    for (arguments, field) in [
+        (&["hold", "-", "--load", "push", "--format", "json"][..], "load"),
+        (
+            &[
+                "size",
+                "-",
+                "--vary",
+                "L",
+                "--margin",
+                "2",
+                "--against",
+                "hold",
+                "--load",
+                "push",
+                "--format",
+                "json",
+            ],
+            "load",
+        ),
+        (&["drive", "-", "--format", "json"], "drives"),
+    ] {
+        let run = slideway_reading(arguments, text.as_bytes());
+        assert_eq!(run.stderr, "");
+        let report: Value = serde_json::from_str(&run.stdout).unwrap();
+        match arguments[0] {
+            // The factor of a load has no unit, the effort of a drive is in N.
+            "hold" => assert_eq!(
+                (&report["load"]["unit"], &report["load"]["factor"]),
+                (&Value::from(""), &Value::from(1.0))
+            ),
+            // Without the drive nothing but the resistance acts at rest, through the middle: no friction holds it.
+            "size" => assert_eq!((run.code, report["met"].as_array().unwrap().len()), (1, 0)),
+            _ => assert_eq!(report[field][0]["name"], "push"),
+        }
+    }
 }
 
 #[test]

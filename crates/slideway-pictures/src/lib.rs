@@ -6,6 +6,7 @@
 pub mod drawing;
 pub mod map;
 pub mod motion;
+pub mod page;
 pub mod plot;
 pub mod raster;
 pub mod theme;

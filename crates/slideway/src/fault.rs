@@ -355,6 +355,8 @@ pub enum FaultKind {
     LoadUnused { load: String },
     #[error("whether {load} is held could not be decided")]
     UndecidedAtRest { load: String },
+    #[error("the limits of {modes} contact modes could not be computed")]
+    LimitsNotComputed { modes: usize },
     #[error("at rest there is no direction of motion to be reversed")]
     NoDirectionAtRest,
     #[error("the model has no drives, so no effort is unknown")]

@@ -11,8 +11,9 @@ Examples:
   slideway drive drawer.toml --vary L=\"0.2 m..0.5 m\" --rows 21
   slideway drive screw.toml --vary friction=0..3
 
-The efficiency is the power without friction over the power with friction, at the same motion; where the load pushes and
-the drives brake it is the inverse. Without a range the same is varied as by `slideway size`.
+The efficiency is the power without friction over the power with friction, at the same motion;
+where the load pushes and the drives brake it is the inverse. Without a range the same is varied as
+by `slideway size`.
 
 Exit codes:
   0  done

@@ -11,6 +11,7 @@ mod model;
 mod models;
 mod modes;
 mod plot;
+mod report;
 mod search;
 mod simulate;
 mod size;
@@ -29,6 +30,7 @@ pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use plot::{PictureTheme, PlotArguments};
+pub(crate) use report::ReportArguments;
 pub(crate) use search::SearchArguments;
 pub(crate) use simulate::SimulateArguments;
 pub(crate) use size::SizeArguments;
@@ -68,6 +70,7 @@ Examples:
   slideway simulate drawer.toml --until 1s      its motion in time
   slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
   slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
+  slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
   slideway modes problem.json                   all solutions of an LCP or the like
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
@@ -105,6 +108,9 @@ pub(crate) enum Command {
     /// Draw a mechanism and its solutions to a picture, SVG or PNG
     #[command(after_help = draw::HELP)]
     Draw(DrawArguments),
+    /// Write a page (HTML) with the model, its drawing, solutions and limits, to mail or print
+    #[command(after_help = report::HELP)]
+    Report(ReportArguments),
     /// Find all solutions of an LCP or the like, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),

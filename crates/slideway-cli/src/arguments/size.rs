@@ -14,10 +14,11 @@ Examples:
   slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
 
-The margin against locking is the factor by which all kinetic friction may grow before there is no solution. At rest
-it concerns a load, or the effort of a drive: against self-locking it is the factor by which static friction may grow
-before the load is held however great it is; with `--against hold` the load has to be held, and it is the factor by which
-static friction may be smaller. Without a range a coefficient of friction goes from 0 to 1 or twice its value, `friction`
+The margin against locking is the factor by which all kinetic friction may grow before there is no
+solution. At rest it concerns a load, or the effort of a drive: against self-locking it is the
+factor by which static friction may grow before the load is held however great it is; with
+`--against hold` the load has to be held, and it is the factor by which static friction may be
+smaller. Without a range a coefficient of friction goes from 0 to 1 or twice its value, `friction`
 from 0 to 10, any other parameter from a fifth of its value to five times it.
 
 Exit codes:

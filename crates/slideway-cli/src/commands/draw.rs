@@ -37,7 +37,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     };
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
-    picture.write(&written(&sheet, arguments.theme, width), sharpness, &output)?;
+    picture.write_scaled(&written(&sheet, arguments.theme, width), sharpness, &output)?;
     Ok(Outcome::Done)
 }
 

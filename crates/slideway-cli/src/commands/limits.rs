@@ -5,7 +5,7 @@ use crate::arguments::{CheckFormat, LimitsArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
-use crate::picture::{self, SHARPNESS};
+use crate::picture;
 use slideway::limits::{self, LimitsOptions};
 use slideway_pictures::plot::{limits_figure, to_svg};
 
@@ -25,7 +25,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         let (report, curves) = limits::limits_with_curves(&model, &options, arguments.quantity.into())
             .map_err(|faults| input.refused(faults))?;
         let figure = limits_figure(&report, &curves);
-        picture.write(&to_svg(&figure, arguments.plot.theme.colours()), SHARPNESS, &file)?;
+        picture.write(&to_svg(&figure, arguments.plot.theme.colours()), &file)?;
         report
     } else {
         limits::limits(&model, &options).map_err(|faults| input.refused(faults))?

@@ -5,7 +5,7 @@ use crate::arguments::{Destination, MapArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Output, ProgressLine};
-use crate::picture::{Picture, SHARPNESS};
+use crate::picture::Picture;
 use slideway::map::{MapOptions, MapProgress, map_with, to_json};
 use slideway_pictures::map::to_svg;
 use std::ops::ControlFlow;
@@ -44,7 +44,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = report.unwrap_or_default();
     match picture {
         None => output.write(&to_json(&report))?,
-        Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), SHARPNESS, &output)?,
+        Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), &output)?,
     }
     Ok(Outcome::Done)
 }

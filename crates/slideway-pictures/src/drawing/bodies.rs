@@ -110,7 +110,7 @@ impl Painter<'_> {
             let (rod, half) = (slide.guide, 0.5 * slide.height);
             let shift = (slide.block.origin - rod.origin).dot(&rod.along);
             let reach = slide.block_reach.map(|end| end + shift);
-            let reach = [reach[0].max(slide.guide_reach[0]) - 1.5, reach[1].min(slide.guide_reach[1]) + 1.5];
+            let reach = [reach[0].max(slide.guide_reach[0]) - 2.5, reach[1].min(slide.guide_reach[1]) + 2.5];
             let class = if slide.guide_frame == Frame::Ground { Class::Paper } else { Class::Body };
             self.area(class, rod.rectangle(reach, [-half, half]));
             for side in [-half, half] {

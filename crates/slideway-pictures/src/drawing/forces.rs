@@ -6,10 +6,21 @@ use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
 use super::{ContactForces, Painter, quantity};
 use slideway::ids::{ContactId, Frame, JointId};
-use slideway::model::SliderKind;
+use slideway::model::{CarriedBy, SliderKind};
 
 /// Distance of a velocity from what is drawn of its guide.
 const ASIDE: f64 = 19.0;
+/// Places of the arrow of a velocity: along the guide, and further off.
+const PLACES: [(f64, f64); 8] = [
+    (0.0, 0.0),
+    (25.0, 0.0),
+    (-25.0, 0.0),
+    (0.0, 17.0),
+    (50.0, 0.0),
+    (-50.0, 0.0),
+    (25.0, 17.0),
+    (-25.0, 17.0),
+];
 /// Length of the arrow of a velocity.
 const VELOCITY: f64 = 40.0;
 
@@ -27,12 +38,20 @@ impl Painter<'_> {
         }
     }
 
-    /// The place of the face where the block is pressed, as it is drawn; in the middle if it is not pressed at all.
+    /// The place of the face where the block is pressed, as it is drawn: the corner of whatever carries the contact;
+    /// in the middle if it is not pressed at all.
     fn face(&self, slide: &Slide, contact: ContactId, side: f64) -> Point {
         let place = self.view.place(self.configuration.contact(self.mechanism, contact).point);
-        let along = (place - slide.guide.origin).dot(&slide.guide.along);
-        let wall = if slide.around { 0.5 * slide.height } else { -slide.half_channel() };
-        slide.guide.at(along, wall * side.signum() * if side == 0.0 { 0.0 } else { 1.0 })
+        let is_of_block = self.mechanism.contacts[contact.index()].carried_by == CarriedBy::Block;
+        let carrier = if is_of_block { slide.block } else { slide.guide };
+        let half = if is_of_block == slide.around { slide.half_channel() } else { 0.5 * slide.height };
+        let across = match side {
+            side if side > 0.0 => -half,
+            side if side < 0.0 => half,
+            _ => 0.0,
+        };
+        let along = (place - carrier.origin).dot(&carrier.along);
+        carrier.at(along, if slide.around { -across } else { across })
     }
 
     fn reaction(&mut self, slide: &Slide, contact: ContactId, forces: ContactForces, scale: f64) {
@@ -88,13 +107,17 @@ impl Painter<'_> {
         for (side, aversion) in
             [(upper_side(slide.guide.across), 0.0), (-upper_side(slide.guide.across), 4.0)]
         {
-            for shift in [0.0, 25.0, -25.0, 50.0, -50.0] {
-                let middle =
-                    slide.block.origin + slide.guide.across * (edge * side) + slide.guide.along * shift;
+            for (shift, further) in PLACES {
+                let middle = slide.block.origin
+                    + slide.guide.across * ((edge + further) * side)
+                    + slide.guide.along * shift;
                 let covered = obstacles
                     .iter()
                     .filter(|(place, _)| nearest_on_line(*place, [middle - half, middle + half]).0 < 6.0);
-                let cost = aversion + 0.1 * f64::abs(shift) + covered.map(|(_, weight)| weight).sum::<f64>();
+                let cost = aversion
+                    + 0.1 * f64::abs(shift)
+                    + 0.3 * further
+                    + covered.map(|(_, weight)| weight).sum::<f64>();
                 if best.is_none_or(|(least, ..)| cost < least) {
                     best = Some((cost, middle, side));
                 }

@@ -23,6 +23,8 @@ pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
 pub use sheet::{Caption, Panel, Sheet, Shown, sheet};
 pub use view::View;
 
+pub(crate) use sheet::answer;
+
 use labels::Label;
 use sliders::Slide;
 use slideway::configuration::Configuration;
@@ -125,11 +127,12 @@ pub fn scene(
     view: &View,
     options: &SceneOptions,
 ) -> Scene {
-    let placed = if options.play { displaced(mechanism, configuration, states, view) } else { None };
+    let played = if options.play { displaced(mechanism, configuration, states, view) } else { None };
     let mut painter = Painter {
         mechanism,
         actual: configuration,
-        configuration: placed.as_ref().unwrap_or(configuration),
+        configuration: played.as_ref().map_or(configuration, |(moved, _)| moved),
+        play: played.as_ref().map(|(_, part)| *part),
         states,
         view,
         options,
@@ -145,11 +148,11 @@ pub fn scene(
     if options.force_scale.is_some() {
         painter.contact_forces();
     }
-    if options.velocities {
-        painter.velocities();
-    }
     if options.dimensions {
         painter.dimensions();
+    }
+    if options.velocities {
+        painter.velocities();
     }
     let Painter { mut scene, labels, .. } = painter;
     labels::place(&mut scene, labels, options.within);
@@ -178,13 +181,14 @@ impl SceneOptions {
 const GREATEST_ROTATION: f64 = 0.25;
 const GREATEST_DISPLACEMENT: f64 = 60.0;
 
-/// The configuration with play; with less of it where levers magnify it, and none where the state is singular.
+/// The configuration with play, and the part of the full play: less where levers magnify it. None where the state is
+/// singular.
 fn displaced(
     mechanism: &Mechanism,
     configuration: &Configuration,
     states: &ContactStates,
     view: &View,
-) -> Option<Configuration> {
+) -> Option<(Configuration, f64)> {
     let full: Vec<f64> = mechanism
         .contacts
         .iter()
@@ -200,7 +204,7 @@ fn displaced(
             (new.angle - old.angle).abs() < GREATEST_ROTATION
                 && (new.position - old.position).norm() * view.scale < GREATEST_DISPLACEMENT
         });
-        is_near.then_some(moved)
+        is_near.then_some((moved, part))
     })
 }
 
@@ -210,6 +214,8 @@ struct Painter<'a> {
     /// The state itself, and with the play of a contact mode.
     actual: &'a Configuration,
     configuration: &'a Configuration,
+    /// Part of the full play; nothing where no contact mode is shown.
+    play: Option<f64>,
     states: &'a ContactStates,
     view: &'a View,
     options: &'a SceneOptions,

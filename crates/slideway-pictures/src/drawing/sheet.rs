@@ -192,7 +192,7 @@ fn state_line(state: &[CoordinateState]) -> String {
 }
 
 /// How many solutions there are.
-fn answer(report: &Report) -> String {
+pub(crate) fn answer(report: &Report) -> String {
     let drawn = report.solutions.len() + report.preload_gap_states.len();
     let words = match report.status {
         Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),
@@ -353,14 +353,17 @@ fn key(scene: &mut Scene, y: f64, most: f64) -> f64 {
         .into_iter()
         .filter(|(class, _)| scene.elements.iter().any(|element| element.class == *class))
         .collect();
+    let is_broken = scene.elements.iter().any(|element| element.class == Class::Break);
     let mut corner = Point::new(0.0, y + 18.0);
     for (class, text) in &used {
-        let total = 40.0 + width(text, VALUE_SIZE);
+        let broken = if *class == Class::Load && is_broken { "; with two strokes: not to scale" } else { "" };
+        let text = format!("{text}{broken}");
+        let total = 40.0 + width(&text, VALUE_SIZE);
         if corner.x > 0.0 && corner.x + total > most {
             corner = Point::new(0.0, corner.y + LINE * VALUE_SIZE);
         }
         scene.add(*class, Shape::Arrow { from: corner, to: corner + Point::new(28.0, 0.0) });
-        let end = beside(scene, corner + Point::new(26.0, 0.0), (*text).to_owned());
+        let end = beside(scene, corner + Point::new(26.0, 0.0), text);
         corner.x = end + 26.0;
     }
     if used.is_empty() { y } else { corner.y + 8.0 }

@@ -140,11 +140,8 @@ impl Painter<'_> {
         let rear = reach(open[0], -if open[0] { greatest } else { least });
         let front = reach(open[1], if open[1] { least } else { greatest });
         let height = if is_pin { 2.0 * PIN } else { (slider.height.abs() * scale).max(LEAST_HEIGHT) };
-        let gap = if self.options.play {
-            gap(self.mechanism, joint, self.configuration, self.view)
-        } else {
-            NO_PLAY
-        };
+        let full = gap(self.mechanism, joint, self.configuration, self.view);
+        let gap = self.play.map_or(NO_PLAY, |part| part * full);
         let mut slide = Slide {
             kind: slider.kind,
             around: slider.around,

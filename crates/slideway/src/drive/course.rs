@@ -9,6 +9,14 @@ use crate::solve::{Stages, pattern};
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
 const SAME_ROW: f64 = 1e-9;
+/// Places nearer to zero than this share of the range are zero.
+const ROUNDING: f64 = 1e-12;
+/// Steps between which efforts that pass through infinity are sought.
+const STEPS: usize = 500;
+/// Halvings between two values: down to neighbouring numbers.
+const HALVINGS: usize = 100;
+/// Growth towards a change of sign beyond which it leads through infinity.
+const GROWTH: f64 = 30.0;
 
 /// The efforts in one direction of motion, and what can be missed.
 ///
@@ -22,12 +30,81 @@ pub(super) fn direction(
 ) -> Result<(String, CourseDirection), Faults> {
     let found = find(varied, range, &LimitsOptions::of(&varied.name))?;
     let stages = Stages::new(varied.model())?;
-    let blow_ups = growing_ends(&found.existence, &stages, |value| Efforts::at(varied, value).ok());
+    let mut blow_ups = growing_ends(&found.existence, &stages, |value| Efforts::at(varied, value).ok());
+    blow_ups.extend(poles(varied, range, &found));
+    blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
     let course = Tabulated { varied, range, found: &found, blow_ups: &blow_ups };
     let rows = course.rows(steps);
     let gaps = found.gaps.clone();
     let guarantee = guarantee(&found, range);
     Ok((guarantee, CourseDirection { direction, rows, blow_ups, without_mode_problem: gaps }))
+}
+
+/// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign
+/// between evenly spaced values without vanishing.
+fn poles(varied: &Varied, [from, to]: [f64; 2], found: &Found) -> Vec<BlowUp> {
+    let at = |value: f64| Efforts::at(varied, value).ok();
+    let values = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
+    let places: Vec<(f64, Option<Efforts>)> = values.map(|value| (value, at(value))).collect();
+    let mut poles = Vec::new();
+    for mode in &found.existence.modes {
+        let inside = places.iter().filter(|(value, _)| mode.from.at < *value && *value < mode.to.at);
+        let known =
+            inside.filter_map(|(value, efforts)| Some((*value, efforts.as_ref()?.of(&mode.pattern)?)));
+        let known: Vec<(f64, Vec<f64>)> = known.collect();
+        for pair in known.windows(2) {
+            let effort = |drive: usize, value: f64| Some(at(value)?.of(&mode.pattern)?[drive]);
+            let ends = [pair[0].0, pair[1].0];
+            let pole = |drive: usize| {
+                pole([(ends[0], pair[0].1[drive]), (ends[1], pair[1].1[drive])], |value| effort(drive, value))
+            };
+            let places: Vec<Option<f64>> = (0..pair[0].1.len()).map(pole).collect();
+            let Some(place) = places.iter().flatten().next().copied() else { continue };
+            // A change of sign within rounding of zero is at zero.
+            let place = if place.abs() <= ROUNDING * (to - from) { 0.0 } else { place };
+            let sign = |values: &[f64]| -> Vec<i8> {
+                let one = |(place, value): (&Option<f64>, &f64)| match place {
+                    None => 0,
+                    Some(_) if *value > 0.0 => 1,
+                    Some(_) => -1,
+                };
+                places.iter().zip(values).map(one).collect()
+            };
+            for (side, efforts) in [("below", &pair[0].1), ("above", &pair[1].1)] {
+                let efforts = sign(efforts);
+                poles.push(BlowUp {
+                    at: place,
+                    pattern: pattern(&mode.pattern),
+                    side,
+                    efforts,
+                    contacts: Vec::new(),
+                });
+            }
+        }
+    }
+    poles
+}
+
+/// Where a function changes its sign through infinity between two values; none where it does not, or vanishes.
+fn pole([low, high]: [(f64, f64); 2], function: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let (mut below, mut above) = (low.0, high.0);
+    if low.1 * high.1 >= 0.0 {
+        return None;
+    }
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(below, above);
+        if middle == below || middle == above {
+            break;
+        }
+        match function(middle) {
+            Some(value) if value * low.1 > 0.0 => below = middle,
+            Some(value) if value != 0.0 => above = middle,
+            Some(_) => return None,
+            None => return Some(middle),
+        }
+    }
+    let greatest = low.1.abs().max(high.1.abs());
+    (function(below)?.abs() > GROWTH * greatest).then_some(below)
 }
 
 /// What the rows are made of.
@@ -60,10 +137,11 @@ impl Tabulated<'_> {
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
         let Ok(efforts) = Efforts::at(self.varied, value) else { return vec![nothing(value)] };
         let [from, to] = self.range;
+        let is_same = |one: f64, other: f64| (one - other).abs() <= SAME_ROW * (to - from);
         let is_end = value == from || value == to;
         let present = self.found.existence.modes.iter().filter(|mode| {
             let within = mode.from.at < value && value < mode.to.at;
-            within || is_end && (mode.from.at == value || mode.to.at == value)
+            within || is_end && (is_same(mode.from.at, value) || is_same(mode.to.at, value))
         });
         let row = |pressed: &crate::modes::existence::ModeInterval| {
             let of = efforts.of(&pressed.pattern)?;

@@ -103,25 +103,31 @@ impl Question<'_> {
 }
 
 fn against_locking(varied: &Varied, value: f64) -> Result<Margin, Faults> {
-    let line = varied.growing_friction(value)?;
-    locking_margin(&line).map_err(|TooManyModes { contacts, limit, .. }| {
-        Fault::general(FaultKind::TooManyModes { contacts, limit }).into()
-    })
+    locking_margin(&varied.growing_friction(value)?)
 }
 
 /// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where there is none
 /// as it is, the factor to which it has to fall.
-fn locking_margin(line: &ModeProblemLine) -> Result<Margin, TooManyModes> {
-    let existence =
-        |range| line.existence(&ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS });
-    Ok(match covered(&existence(GROWING)?) {
+fn locking_margin(line: &ModeProblemLine) -> Result<Margin, Faults> {
+    Ok(match covered(&existence(line, GROWING)?) {
         Some(end) if end.is_infinite() => Margin::Infinite,
         Some(end) => Margin::Finite(end),
         None => {
-            let ends = existence(FALLING)?.modes.into_iter().map(|mode| mode.to.at);
+            let ends = existence(line, FALLING)?.modes.into_iter().map(|mode| mode.to.at);
             Margin::Finite(ends.fold(0.0, f64::max))
         }
     })
+}
+
+fn existence(line: &ModeProblemLine, range: [f64; 2]) -> Result<Existence, Faults> {
+    let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
+    let existence = line.existence(&options).map_err(|TooManyModes { contacts, limit, .. }| {
+        Fault::general(FaultKind::TooManyModes { contacts, limit })
+    })?;
+    match existence.not_computed.len() {
+        0 => Ok(existence),
+        modes => Err(Fault::general(FaultKind::LimitsNotComputed { modes }).into()),
+    }
 }
 
 /// Up to where some mode exists without interruption, from the friction of the model on; nothing if none exists there.

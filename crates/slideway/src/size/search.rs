@@ -111,9 +111,9 @@ impl Search<'_> {
             }
             let [one, other] = pair.map(|place| place.margin.map(|margin| margin.demand(self.wanted)));
             if nearer(one?, other?) {
-                high = pair[1].at
+                high = pair[1].at;
             } else {
-                low = pair[0].at
+                low = pair[0].at;
             }
             let next = inner(low, high);
             pair = if nearer(one?, other?) {

@@ -10,12 +10,14 @@ mod stiff_guides;
 
 mod attainability;
 mod configuration;
+mod design;
 mod enclosure;
 mod gallery;
 mod gallery_frictionless;
 mod guided_slider;
 mod klepp_2002;
 mod limits;
+mod limits_properties;
 mod loads;
 mod margins;
 mod preload_gap;

@@ -370,6 +370,9 @@ impl ModeProblemLine {
     }
 }
 
+/// In a range without end, places farther out than the inverse of this, relative to its start, count as infinite.
+const INFINITY: f64 = 1e-6;
+
 /// What a condition says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Meaning {
@@ -418,8 +421,15 @@ impl Mode<'_> {
         if range[1].is_finite() {
             return self.line.extent(&self.conditions, range);
         }
-        let extent = self.line.reversed().extent(&self.conditions, [0.0, range[0].recip()]);
+        let reciprocal = range[0].recip();
+        let extent = self.line.reversed().extent(&self.conditions, [0.0, reciprocal]);
         let Extent::Parts(mut parts) = extent else { return extent };
+        // Forces that tend to zero have double zeros at infinity, which rounding moves.
+        let infinity = INFINITY * reciprocal;
+        parts.retain(|part| part.to.at > infinity);
+        for part in parts.iter_mut().filter(|part| part.from.at <= infinity) {
+            part.from = End { at: 0.0, cause: Cause::Range };
+        }
         let back = |end: End| End { at: end.at.recip(), ..end };
         parts.reverse();
         Extent::Parts(

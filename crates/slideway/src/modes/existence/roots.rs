@@ -6,6 +6,8 @@ use super::line::{Condition, Line, Value, pivot_ratio};
 
 /// An eigenvalue with an imaginary part below this share of it may be a double real one.
 const REAL: f64 = 1e-5;
+/// Tolerances of the iteration for eigenvalues, which are polished afterwards: greater ones where it fails.
+const TOLERANCES: [f64; 3] = [f64::EPSILON, 8.0 * f64::EPSILON, 64.0 * f64::EPSILON];
 /// Steps of the iteration for eigenvalues, for each of them.
 const STEPS: usize = 300;
 
@@ -191,7 +193,11 @@ fn reciprocals(matrix: &DMatrix<f64>) -> Option<Vec<f64>> {
         let value = matrix[(0, 0)];
         return Some(if value == 0.0 { Vec::new() } else { vec![-value.recip()] });
     }
-    let schur = Schur::try_new(matrix.clone(), f64::EPSILON, STEPS * size)?;
+    // The iteration fails now and then for no fault of the matrix: its transpose has the same eigenvalues.
+    let attempts = TOLERANCES.iter().flat_map(|&tolerance| {
+        [matrix.clone(), matrix.transpose()].map(|matrix| Schur::try_new(matrix, tolerance, STEPS * size))
+    });
+    let schur = attempts.flatten().next()?;
     let greatest = matrix.amax();
     let usable = |value: &&Complex<f64>| {
         value.norm() > f64::EPSILON * f64::EPSILON * greatest && value.im.abs() <= REAL * value.norm()

@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::Side;
 use crate::motion::{
-    ContactPhase, Crossing, Decisions, End, Instant, Jam, JointPhase, Phase, SimulateOptions, Successor,
+    ContactPhase, Crossing, EventFunction, Decisions, End, Instant, Jam, JointPhase, Phase, SimulateOptions, Successor,
     UserEvent, simulate,
 };
 use crate::report::Verdict;

@@ -1,0 +1,29 @@
+//! `slideway report`
+
+use super::{Destination, ModelArguments};
+use clap::Args;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway report klepp-2002.toml --output klepp.html
+  slideway report klepp-2002.toml --set F_20=0 --vary mu_1=0..0.8 --vary alpha --output klepp.html
+  slideway report drawer.toml --output drawer.html --force
+
+Exit codes:
+  0  done
+  2  faulty input: the model, the settings, the name or the range, the files or the arguments";
+
+/// Arguments of `slideway report`.
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// For which values of this modes exist: a parameter, a coordinate, or `friction`. May be given several times.
+    /// Default: `friction`, the factor of all coefficients of friction.
+    #[arg(long, value_name = "NAME[=FROM..TO]")]
+    pub(crate) vary: Vec<String>,
+
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+}

@@ -1,0 +1,90 @@
+//! `slideway report`
+
+use crate::Outcome;
+use crate::arguments::ReportArguments;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use slideway::configuration::Configuration;
+use slideway::fault::Faults;
+use slideway::limits::{LimitsOptions, LimitsReport, Quantity, limits_with_curves};
+use slideway::mechanism::Mechanism;
+use slideway::model::Model;
+use slideway::solve::solve;
+use slideway_pictures::drawing::{Shown, sheet};
+use slideway_pictures::page::{Figure, Page, to_html};
+use slideway_pictures::plot::{limits_figure, to_svg};
+use slideway_pictures::theme::{DARK, LIGHT};
+
+/// Writes a page with the model, its drawing, its solutions and limits.
+pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Outcome, Failure> {
+    let output = output.to(&arguments.destination)?;
+    arguments.model.spare(&arguments.destination)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
+    let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
+    let answer = solve(&model).map_err(|faults| reasons(&faults));
+    let Some(sheet) = sheet(&mechanism, &configuration, answer.as_ref().ok(), Shown::All) else {
+        return Err(Failure::NoSuchSolution { count: 0 });
+    };
+    let varied = varied(&model, &arguments.vary).map_err(|faults| input.refused(faults))?;
+    let (limits, figures): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
+    let settings: Vec<String> = input.settings.entries().iter().map(slideway::model::Setting::text).collect();
+    let page = Page {
+        command: &command(arguments, &input, &settings),
+        name: &input.name,
+        text: &input.text(),
+        settings: &settings,
+        sheet: &sheet,
+        report: answer.as_ref().map_err(Vec::as_slice),
+        limits: &limits,
+        figures: &figures,
+    };
+    let html = to_html(&page).map_err(|fault| Failure::Picture { reason: fault.reason })?;
+    output.write(&html)?;
+    Ok(Outcome::Done)
+}
+
+/// What keeps the kinetic problem from being solved, in words.
+fn reasons(faults: &Faults) -> Vec<String> {
+    faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
+}
+
+/// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if the model
+/// has any.
+fn varied(model: &Model, wanted: &[String]) -> Result<Vec<(LimitsReport, Figure)>, Faults> {
+    if wanted.is_empty() {
+        return Ok(limits(model, slideway::limits::FRICTION).ok().into_iter().collect());
+    }
+    wanted.iter().map(|vary| limits(model, vary)).collect()
+}
+
+fn limits(model: &Model, vary: &str) -> Result<(LimitsReport, Figure), Faults> {
+    let options = LimitsOptions::of(vary);
+    let (report, curves) = limits_with_curves(model, &options, Quantity::NormalForce)?;
+    let plot = limits_figure(&report, &curves);
+    let figure = Figure {
+        caption: format!("Normal forces of the contacts over {}.", report.vary.name),
+        light: to_svg(&plot, &LIGHT),
+        dark: to_svg(&plot, &DARK),
+    };
+    Ok((report, figure))
+}
+
+/// The command that makes the page, as far as it matters for what is on it.
+fn command(arguments: &ReportArguments, input: &Input, settings: &[String]) -> String {
+    let mut words = vec!["slideway report".to_owned(), input.name.clone()];
+    for (setting, text) in input.settings.entries().iter().zip(settings) {
+        let option = match setting.kind {
+            slideway::model::SettingKind::Parameter => "--set",
+            slideway::model::SettingKind::Position => "--at",
+            slideway::model::SettingKind::Rate => "--rate",
+            slideway::model::SettingKind::Time => "--time",
+        };
+        let value = if option == "--time" { &setting.value } else { text };
+        words.push(format!("{option} \"{value}\""));
+    }
+    words.extend(arguments.vary.iter().map(|vary| format!("--vary \"{vary}\"")));
+    words.join(" ")
+}

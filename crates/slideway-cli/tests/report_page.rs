@@ -1,0 +1,144 @@
+//! The page of `slideway report`, also as a browser sees it.
+//!
+//! The browser is Chromium: the program that `CHROMIUM` names, or the first of the usual names on the path. Without one the
+//! test in the browser says so and is skipped, unless `SLIDEWAY_REQUIRE_BROWSER` is set, as it should be in automatic checks.
+
+#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
+
+mod command;
+
+use command::slideway;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const HOSTILE: &str = "models/klepp-2002.toml";
+
+fn page(directory: &Path, arguments: &[&str]) -> (PathBuf, String) {
+    let file = directory.join("page.html");
+    let mut all = vec!["report"];
+    all.extend(arguments);
+    let path = file.to_str().unwrap().to_owned();
+    all.extend(["--output", &path, "--force"]);
+    let run = slideway(&all);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let html = std::fs::read_to_string(&file).unwrap();
+    (file, html)
+}
+
+/// Every address within a page leads to the page itself or holds what it stands for.
+fn assert_self_contained(html: &str) {
+    for attribute in [" src=\"", " href=\"", " srcset=\"", "url("] {
+        for part in html.split(attribute).skip(1) {
+            assert!(
+                part.starts_with('#') || part.starts_with("data:"),
+                "{attribute}{}",
+                part.chars().take(60).collect::<String>()
+            );
+        }
+    }
+    assert!(!html.contains("<script"));
+}
+
+#[test]
+fn pages_have_all_parts_and_need_nothing_else() {
+    let directory = tempfile::tempdir().unwrap();
+    let (_, html) = page(directory.path(), &["models/klepp-2002.toml", "--vary", "mu_1=0..0.8"]);
+    assert_self_contained(&html);
+    for part in [
+        "<h1>A bar sliding in two horizontal slots</h1>",
+        "3 solutions, each in its own contact mode.",
+        "The list is proven complete.",
+        "Solution 3 of 3",
+        "Preload gap 1 of 1",
+        "Not attainable: threshold between sliding (solution 2) and jamming.",
+        "<svg ",
+        "<table class=\"limits\">",
+        "<img src=\"data:image/svg+xml,",
+        "# The example of H. J. Klepp",
+        "--vary &quot;mu_1=0..0.8&quot;</code>",
+    ] {
+        assert!(html.contains(part), "{part}");
+    }
+    assert!(!html.contains("NaN") && !html.contains("undefined"));
+}
+
+#[test]
+fn every_model_of_the_gallery_has_a_page() {
+    let directory = tempfile::tempdir().unwrap();
+    for model in std::fs::read_dir(command::top().join("models")).unwrap() {
+        let path = model.unwrap().path();
+        let (_, html) = page(directory.path(), &[path.to_str().unwrap()]);
+        assert_self_contained(&html);
+        assert!(html.contains("<svg ") && html.contains("</html>"), "{}", path.display());
+    }
+}
+
+#[test]
+fn names_and_titles_are_escaped() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(command::top().join(HOSTILE)).unwrap();
+    let title = "<script>alert('x')</script> & \\\"more\\\"";
+    let text = text.replace("A bar sliding in two horizontal slots", title);
+    let model = directory.path().join("hostile.toml");
+    std::fs::write(&model, text).unwrap();
+    let (_, html) = page(directory.path(), &[model.to_str().unwrap()]);
+    assert!(!html.contains("<script>"));
+    assert!(html.contains("&lt;script&gt;alert"));
+}
+
+/// Chromium, if this machine has it.
+fn browser() -> Option<PathBuf> {
+    let named = std::env::var_os("CHROMIUM").map(PathBuf::from);
+    let names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&path)
+        .flat_map(|directory| names.map(|name| directory.join(name)))
+        .find(|program| program.is_file());
+    let browser = named.or(found);
+    if browser.is_none() {
+        assert!(
+            std::env::var_os("SLIDEWAY_REQUIRE_BROWSER").is_none(),
+            "SLIDEWAY_REQUIRE_BROWSER is set, but there is no Chromium: install it or name it in CHROMIUM"
+        );
+        eprintln!("SKIPPED: there is no Chromium on this machine; name one in CHROMIUM to run this test");
+    }
+    browser
+}
+
+fn browse(browser: &Path, profile: &Path, arguments: &[&str], page: &Path) -> Output {
+    Command::new(browser)
+        .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"])
+        .args(["--disable-background-networking", "--disable-component-update", "--no-first-run"])
+        .args(["--enable-logging=stderr", "--log-level=0"])
+        .arg(format!("--user-data-dir={}", profile.display()))
+        .args(arguments)
+        .arg(format!("file://{}", page.display()))
+        .output()
+        .unwrap()
+}
+
+/// The page forbids every request to the network by its own policy; a browser says on its console if anything is asked for
+/// all the same, or if anything in the page is wrong.
+#[test]
+fn a_browser_shows_and_prints_the_page_without_complaint() {
+    let Some(browser) = browser() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    let (file, html) = page(directory.path(), &["models/klepp-2002.toml", "--vary", "mu_1=0..0.8"]);
+    assert!(html.contains("http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'"));
+    let profile = directory.path().join("profile");
+    let shown = browse(&browser, &profile, &["--dump-dom"], &file);
+    let (dom, log) = (String::from_utf8_lossy(&shown.stdout), String::from_utf8_lossy(&shown.stderr));
+    let complaints: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
+    assert!(complaints.is_empty(), "{complaints:?}");
+    assert_eq!(dom.matches("<svg").count(), 1);
+    assert_eq!(dom.matches("<table class=\"contacts\"").count(), 4, "three solutions and a preload gap");
+    assert_eq!(dom.matches("<picture>").count(), 1);
+    let pdf = directory.path().join("page.pdf");
+    let print = format!("--print-to-pdf={}", pdf.display());
+    browse(&browser, &profile, &["--no-pdf-header-footer", &print], &file);
+    let bytes = std::fs::read(&pdf).unwrap();
+    assert!(bytes.starts_with(b"%PDF"));
+    let text = String::from_utf8_lossy(&bytes);
+    let pages = text.matches("/Type /Page\n").count() + text.matches("/Type /Page ").count();
+    assert!((3..=9).contains(&pages), "{pages} pages");
+}

@@ -1,0 +1,262 @@
+//! Every model of the gallery, at several positions.
+
+use crate::Case;
+use slideway::model::Settings;
+use slideway_pictures::drawing::svg::{self, Colours, Frame};
+use slideway_pictures::drawing::{
+    Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Shown, View, scene, sheet,
+};
+use slideway_pictures::theme::{DARK, LIGHT};
+
+/// The models at several positions: settings of coordinates by name.
+fn cases() -> Vec<(String, Case)> {
+    let elsewhere: [(&str, &[(&str, &str)]); 9] = [
+        ("cam-follower", &[("lift", "20 mm")]),
+        ("drawer", &[("x", "0.15 m")]),
+        ("elliptic-trammel", &[("theta", "100 deg")]),
+        ("klepp-2002", &[("q", "-0.4 m")]),
+        ("scotch-yoke", &[("phi", "200 deg")]),
+        ("sleeve-on-arm", &[("phi", "130 deg"), ("s", "0.6 m")]),
+        ("slider-crank", &[("phi", "-75 deg")]),
+        ("slider-crank", &[("phi", "179.99 deg")]),
+        ("telescopic-boom", &[("s_1", "0.3 m"), ("s_3", "-0.4 m")]),
+    ];
+    let drawn = slideway::gallery::MODELS
+        .iter()
+        .map(|model| (model.name.to_owned(), Case::new(model.text, &Settings::default())));
+    let moved = elsewhere.iter().map(|(name, positions)| {
+        let text = slideway::gallery::find(name).unwrap().text;
+        let settings = positions
+            .iter()
+            .fold(Settings::default(), |settings, (coordinate, value)| settings.position(coordinate, value));
+        (format!("{name} at {positions:?}"), Case::new(text, &settings))
+    });
+    drawn.chain(moved).collect()
+}
+
+#[test]
+fn everything_is_within_the_view_box() {
+    for (name, case) in cases() {
+        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+        let bounds = sheet.bounds;
+        for element in &sheet.scene.elements {
+            let Some(inner) = element.shape.bounds() else { continue };
+            assert!(
+                bounds.contains(&inner.least) && bounds.contains(&inner.greatest),
+                "{name}: {element:?} is not within {bounds:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_two_texts_overlap() {
+    for (name, case) in cases() {
+        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+        let texts: Vec<_> = sheet.scene.texts().map(|(_, text)| text).collect();
+        for (index, text) in texts.iter().enumerate() {
+            for other in &texts[..index] {
+                // Lines of a paragraph stand close: their letters do not touch, their boxes nearly.
+                assert!(!text.bounds().overlaps(&other.bounds()), "{name}: {text:?} over {other:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_solution_has_its_picture_and_caption() {
+    for (name, case) in cases() {
+        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+        let has = |wanted: &str| sheet.scene.texts().any(|(_, text)| text.text.starts_with(wanted));
+        assert!(has("The mechanism, to scale"), "{name}");
+        let count = case.report.as_ref().map_or(0, |report| report.solutions.len());
+        for number in 1..=count {
+            assert!(has(&format!("Solution {number} of {count}")), "{name}");
+        }
+        assert!(!has(&format!("Solution {} of", count + 1)), "{name}");
+        let joints = &case.mechanism.joints;
+        assert!(joints.iter().all(|joint| has(&joint.name)), "{name}: joints are named");
+    }
+}
+
+#[test]
+fn a_solution_that_is_not_there_has_no_sheet() {
+    let case = Case::gallery("drawer");
+    let sheet =
+        |number| sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::Solution(number));
+    assert!(sheet(1).is_some());
+    assert!(sheet(2).is_none());
+    assert!(sheet(0).is_none());
+}
+
+fn of_class(scene: &Scene, class: Class) -> impl Iterator<Item = &Shape> {
+    scene
+        .elements
+        .iter()
+        .filter(move |element| element.class == class)
+        .map(|element: &Element| &element.shape)
+}
+
+fn arrows(scene: &Scene, class: Class) -> Vec<(Point, Point)> {
+    of_class(scene, class)
+        .filter_map(|shape| match shape {
+            Shape::Arrow { from, to } => Some((*from, *to)),
+            _ => None,
+        })
+        .collect()
+}
+
+/// The view and the picture of a solution, counted from 1.
+fn contact_mode(case: &Case, number: usize, force_scale: f64) -> (View, Scene) {
+    let view = View::fitting(&case.mechanism, &[&case.configuration], [440.0, 320.0]);
+    let solution = &case.report.as_ref().unwrap().solutions[number - 1];
+    let options = SceneOptions::contact_mode(force_scale);
+    let states = ContactStates::of(solution);
+    let scene = scene(&case.mechanism, &case.configuration, &states, &view, &options);
+    (view, scene)
+}
+
+/// Arrows of the paper's example: lengths are forces times the scale, reactions point along sign(N) n (up is -y), friction
+/// against the motion to the right; arrows below 9 units are heads alone.
+#[test]
+fn arrows_are_proportional_to_forces() {
+    let case = Case::gallery("klepp-2002");
+    for number in 1..=3 {
+        let force_scale = 5.0;
+        let (_, scene) = contact_mode(&case, number, force_scale);
+        let solution = &case.report.as_ref().unwrap().solutions[number - 1];
+        let shown = |force: f64| force.abs() * force_scale >= 9.0;
+        let normal: Vec<f64> = solution
+            .contacts
+            .iter()
+            .map(|contact| contact.normal_force)
+            .filter(|force| shown(*force))
+            .collect();
+        let reactions = arrows(&scene, Class::Reaction);
+        assert_eq!(reactions.len(), normal.len());
+        for ((from, to), force) in reactions.iter().zip(&normal) {
+            let wanted = Point::new(0.0, -force * force_scale);
+            assert!((to - from - wanted).norm() < 1e-9, "{from} {to} {force}");
+        }
+        let friction: Vec<f64> = solution
+            .contacts
+            .iter()
+            .map(|contact| contact.friction_force)
+            .filter(|force| shown(*force))
+            .collect();
+        for ((from, to), force) in arrows(&scene, Class::Friction).iter().zip(&friction) {
+            let wanted = Point::new(-force * force_scale, 0.0);
+            assert!((to - from - wanted).norm() < 1e-9, "{from} {to} {force}");
+        }
+    }
+}
+
+/// Where walls are: the y of horizontal ones in the drawing.
+fn wall_heights(scene: &Scene) -> Vec<f64> {
+    of_class(scene, Class::Wall)
+        .filter_map(|shape| match shape {
+            Shape::Line(places) if places.len() == 2 && (places[0].y - places[1].y).abs() < 1e-9 => {
+                Some(places[0].y)
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+/// The corners of the lower block of the paper's example.
+fn lower_block(scene: &Scene) -> Vec<Point> {
+    let four = |shape: &&Shape| matches!(shape, Shape::Area(corners) if corners.len() == 4);
+    match of_class(scene, Class::Body).find(four) {
+        Some(Shape::Area(corners)) => corners.clone(),
+        other => panic!("the block has four corners: {other:?}"),
+    }
+}
+
+/// Drawn flush, the corners of the lower block are where the model says: the points A +- b/2 along x, +- h/2 along y, with
+/// b = 0.2 m, h = 0.1 m and A at the origin.
+#[test]
+fn block_corners_are_where_the_model_says() {
+    let case = Case::gallery("klepp-2002");
+    let view = View::fitting(&case.mechanism, &[&case.configuration], [440.0, 320.0]);
+    let states = ContactStates::default();
+    let scene = scene(&case.mechanism, &case.configuration, &states, &view, &SceneOptions::overview());
+    for corner in lower_block(&scene) {
+        let near = [(-0.1, -0.05), (0.1, -0.05), (-0.1, 0.05), (0.1, 0.05)].iter().any(|(x, y)| {
+            let place = Point::new(view.scale * (x - view.middle.x), -view.scale * (y - view.middle.y));
+            (place - corner).norm() < 1e-9
+        });
+        assert!(near, "{corner}");
+    }
+}
+
+/// In solution 1 (+ + -) the lower block touches below at its right end and above at its left end, in solution 3 (- + +)
+/// it lies flat below, with the gap above.
+#[test]
+fn blocks_touch_the_walls_that_press_them() {
+    let case = Case::gallery("klepp-2002");
+    let extremes = |number: usize| {
+        let (_, scene) = contact_mode(&case, number, 1.0);
+        let corners = lower_block(&scene);
+        let mut walls: Vec<f64> = wall_heights(&scene);
+        walls.sort_by(f64::total_cmp);
+        let [.., upper, lower] = walls[..] else { panic!("walls above and below the block") };
+        (corners, upper, lower)
+    };
+    let (corners, upper, lower) = extremes(1);
+    let highest = corners.iter().min_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
+    let lowest = corners.iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
+    // Half the height of a block that leans by 8 degrees grows by 1 - cos, 0.3 units here.
+    assert!(
+        (highest.y - upper).abs() < 0.5 && (lowest.y - lower).abs() < 0.5,
+        "{highest} {upper} {lowest} {lower}"
+    );
+    assert!(highest.x < lowest.x, "tipped with its right end down");
+    let (corners, upper, lower) = extremes(3);
+    let highest = corners.iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+    let lowest = corners.iter().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+    assert!((lowest - lower).abs() < 1e-6, "{lowest} {lower}");
+    assert!(highest - upper > 4.0, "the gap can be seen");
+}
+
+#[test]
+fn pictures_say_what_they_show_in_words_and_escape_names() {
+    let text = slideway::gallery::find("klepp-2002").unwrap().text;
+    let text = text.replace("A bar sliding in two horizontal slots", "A <b> & \\\"quoted\\\" title");
+    let case = Case::new(&text, &Settings::default());
+    let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    for theme in [LIGHT, DARK] {
+        let frame = Frame {
+            bounds: sheet.bounds,
+            title: &sheet.title,
+            description: &sheet.description,
+            width: Some(800.0),
+            colours: Colours::Theme(theme),
+        };
+        let svg = svg::write(&sheet.scene, &frame);
+        assert!(svg.contains("<title>A &lt;b&gt; &amp; &quot;quoted&quot; title</title>"));
+        assert!(svg.contains("<desc>q = 0 m, rate 1 m/s 3 solutions"));
+        assert!(svg.contains("width=\"800\"") && svg.contains(theme.background));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        assert!(slideway_pictures::raster::png(&svg, 0.5).is_ok());
+    }
+}
+
+/// The picture of a second state of a motion has the same walls: the view says how far guides reach.
+#[test]
+fn one_view_serves_many_configurations() {
+    let here = Case::gallery("klepp-2002");
+    let there = Case::new(
+        slideway::gallery::find("klepp-2002").unwrap().text,
+        &Settings::default().position("q", "0.3 m"),
+    );
+    let view = View::fitting(&here.mechanism, &[&here.configuration, &there.configuration], [440.0, 320.0]);
+    let walls = |case: &Case| {
+        let options = SceneOptions { play: true, ..SceneOptions::overview() };
+        let scene = scene(&case.mechanism, &case.configuration, &ContactStates::default(), &view, &options);
+        let walls: Vec<Shape> = of_class(&scene, Class::Wall).cloned().collect();
+        walls
+    };
+    let (first, second) = (walls(&here), walls(&there));
+    assert!(!first.is_empty());
+    assert_eq!(first, second);
+}

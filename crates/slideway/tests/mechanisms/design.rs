@@ -1,0 +1,343 @@
+//! The derivations of the book's page "Design", evaluated here on their own, against what the programs say.
+
+use crate::answers::{assert_close, model, parameters};
+use slideway::drive::{DriveOptions, DriveReport, EfficiencyKind, drive};
+use slideway::limits::{LimitsOptions, limits};
+use slideway::model::{Model, Settings};
+use slideway::report::Verdict;
+use slideway::size::{Against, SampleKind, SizeOptions, SizeReport, size};
+use slideway::standstill::{HoldOptions, LoadReport, hold};
+
+const MARGINS: [f64; 3] = [1.0, 1.5, 2.0];
+
+fn with(name: &str, list: &[(&str, &str)]) -> Model {
+    model(name).with(&parameters(list)).expect("sound settings")
+}
+
+fn example(name: &str) -> Model {
+    let path = format!("{}/../../docs/src/examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    Model::parse(&std::fs::read_to_string(path).expect("there")).expect("sound")
+}
+
+fn sized(model: &Model, vary: &str, margin: f64, against: Against) -> SizeReport {
+    let options = SizeOptions { against, ..SizeOptions::against_locking(vary, margin) };
+    size(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn against_locking(model: &Model, vary: &str, margin: f64) -> SizeReport {
+    sized(model, vary, margin, Against::Locking)
+}
+
+fn to_hold(load: &str) -> Against {
+    Against::Hold { load: load.to_owned() }
+}
+
+/// The only end at which the margin is just met, and whether it is met above it.
+#[track_caller]
+fn only_end(report: &SizeReport) -> (f64, bool) {
+    let [met] = &report.met[..] else { panic!("{:#?}", report.met) };
+    match (met.from_is, met.to_is) {
+        ("margin", "range") => (met.from, true),
+        ("range", "margin") => (met.to, false),
+        _ => panic!("{met:?}"),
+    }
+}
+
+fn held(model: &Model, load: &str) -> LoadReport {
+    let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
+    hold(model, &options).expect("sound").load.expect("varied")
+}
+
+fn driven(model: &Model, vary: Option<&str>) -> DriveReport {
+    let options = DriveOptions { vary: vary.map(str::to_owned), ..DriveOptions::default() };
+    drive(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// Effort and efficiency of the only solution as in the model, and the other way.
+#[track_caller]
+fn efforts(report: &DriveReport) -> [(f64, EfficiencyKind, Option<f64>); 2] {
+    [0, 1].map(|direction| {
+        let solutions = &report.directions[direction].solutions;
+        assert_eq!(solutions.len(), 1, "{solutions:#?}");
+        (solutions[0].efforts[0], solutions[0].efficiency.is, solutions[0].efficiency.value)
+    })
+}
+
+// The drawer: N L = a P and P = Q + 2 mu N, so P = Q / (1 - 2 mu a / L).
+
+#[test]
+fn drawer_limit_margin_and_guide_length() {
+    let (length, a, mu) = (0.4, 0.3, 0.3);
+    for margin in MARGINS {
+        let (found, above) = only_end(&against_locking(&model("drawer"), "L", margin));
+        assert!(above, "longer is better");
+        assert_close(found, 2.0 * a * mu * margin, 0.0, 1e-13);
+        let (found, above) = only_end(&against_locking(&model("drawer"), "a", margin));
+        assert!(!above, "a smaller offset is better");
+        assert_close(found, length / (2.0 * mu * margin), 0.0, 1e-13);
+        let (found, above) = only_end(&against_locking(&model("drawer"), "mu", margin));
+        assert!(!above);
+        assert_close(found, length / (2.0 * a * margin), 0.0, 1e-13);
+    }
+    let report = against_locking(&model("drawer"), "L", 2.0);
+    assert_close(report.present.margin.expect("finite"), length / (2.0 * a * mu), 0.0, 1e-13);
+    assert_eq!(
+        report.conclusion[0],
+        "For a margin of 2 against locking: L at least 0.36 m (looked at up to 2 m)."
+    );
+}
+
+#[test]
+fn drawer_push_and_efficiency() {
+    let (length, a, mu, resistance) = (0.4, 0.3, 0.3, 20.0);
+    let share = 2.0 * mu * a / length;
+    let report = driven(&model("drawer"), None);
+    let [(push, is, efficiency), (back, back_is, back_efficiency)] = efforts(&report);
+    assert_close(push, resistance / (1.0 - share), 0.0, 1e-13);
+    assert_eq!(is, EfficiencyKind::Driving);
+    assert_close(efficiency.expect("a number"), 1.0 - share, 0.0, 1e-13);
+    // The other way friction helps to hold the resistance.
+    assert_close(back, resistance / (1.0 + share), 0.0, 1e-13);
+    assert_eq!(back_is, EfficiencyKind::Braking);
+    assert_close(back_efficiency.expect("a number"), 1.0 / (1.0 + share), 0.0, 1e-13);
+    assert_eq!(report.directions[0].solutions[0].attainability, Verdict::Attainable);
+    let blow_ups = report.directions[0].blow_ups.as_ref().expect("few modes");
+    assert_eq!(blow_ups.len(), 1);
+    assert_close(blow_ups[0].at, 1.0 / share, 0.0, 1e-14);
+    assert_eq!((&*blow_ups[0].pattern, &blow_ups[0].efforts[..]), ("+-", &[1_i8][..]));
+    assert_eq!(blow_ups[0].contacts, ["guide.front", "guide.rear"]);
+}
+
+#[test]
+fn drawer_at_rest_holds_between_both_pushes() {
+    let (length, a, mu, resistance) = (0.4, 0.3, 0.3, 20.0);
+    let share = 2.0 * mu * a / length;
+    let load = held(&model("drawer"), "push");
+    let [range] = &load.held[..] else { panic!("{:?}", load.held) };
+    assert_close(range.least.expect("finite"), resistance / (1.0 + share), 0.0, 1e-9);
+    assert_close(range.greatest.expect("finite"), resistance / (1.0 - share), 0.0, 1e-9);
+    // Beyond mu_static = L / (2 a) no push starts it.
+    assert_close(load.threshold.value.expect("a factor"), 1.0 / share, 0.0, 1e-11);
+    let against = Against::SelfLocking { load: "push".to_owned() };
+    for margin in MARGINS {
+        let (found, above) = only_end(&sized(&model("drawer"), "L", margin, against.clone()));
+        assert!(above);
+        assert_close(found, 2.0 * a * mu * margin, 0.0, 1e-11);
+    }
+}
+
+// The follower: V [cos(phi) - (mu/B) sin(phi) (2 A + B - mu d)] = Q.
+
+#[test]
+fn cam_follower_force_margin_and_sizes() {
+    let (phi, b, a, d, mu, load) = (30_f64.to_radians(), 0.08, 0.05, 0.012, 0.15, 200.0);
+    let bracket = |mu: f64| phi.cos() - mu / b * phi.sin() * (2.0 * a + b - mu * d);
+    let report = driven(&model("cam-follower"), None);
+    let [(up, _, efficiency), (down, is, _)] = efforts(&report);
+    assert_close(up, load / bracket(mu), 0.0, 1e-12);
+    // Without friction V = Q / cos(phi).
+    assert_close(efficiency.expect("a number"), bracket(mu) / phi.cos(), 0.0, 1e-12);
+    assert_close(down, load / bracket(-mu), 0.0, 1e-12);
+    assert_eq!(is, EfficiencyKind::Braking);
+    let range = held(&model("cam-follower"), "cam").held[0];
+    assert_close(range.least.expect("finite"), load / bracket(-mu), 0.0, 1e-9);
+    assert_close(range.greatest.expect("finite"), load / bracket(mu), 0.0, 1e-9);
+
+    for margin in MARGINS {
+        let k = margin * mu * phi.tan();
+        let (found, above) = only_end(&against_locking(&model("cam-follower"), "B=5 mm..0.4 m", margin));
+        assert!(above, "a longer bushing is better");
+        assert_close(found, k * (2.0 * a - margin * mu * d) / (1.0 - k), 0.0, 1e-12);
+        let (found, above) = only_end(&against_locking(&model("cam-follower"), "A=10 mm..0.5 m", margin));
+        assert!(!above, "less overhang is better");
+        assert_close(found, 0.5 * (b / k - b + margin * mu * d), 0.0, 1e-12);
+        let report = against_locking(&model("cam-follower"), "phi=10 deg..80 deg", margin);
+        let (found, above) = only_end(&report);
+        assert!(!above, "a smaller pressure angle is better");
+        let x = margin * mu;
+        assert_close(found, (b / (x * (2.0 * a + b - x * d))).atan(), 0.0, 1e-12);
+    }
+}
+
+// The bracket: N B = W x at e = 0, and W / 2 <= mu_static N, so x >= B / (2 mu_static).
+
+#[test]
+fn bracket_holds_from_a_distance_on() {
+    let (b, mu) = (0.1524, 0.25);
+    for margin in MARGINS {
+        let (found, above) = only_end(&sized(&model("bracket-on-pole"), "x", margin, to_hold("W")));
+        assert!(above, "farther out it holds better");
+        assert_close(found, b * margin / (2.0 * mu), 0.0, 1e-10);
+        let slips = Against::SelfLocking { load: "W".to_owned() };
+        let (found, above) = only_end(&sized(&model("bracket-on-pole"), "x", margin, slips));
+        assert!(!above, "nearer in it slides more freely");
+        assert_close(found, b / (2.0 * mu * margin), 0.0, 1e-10);
+    }
+}
+
+// The wedge: P = Q (tan(alpha + rho_wedge) + mu_floor) / (1 - mu_wall tan(alpha + rho_wedge)).
+
+#[test]
+fn wedge_push_limit_and_angle() {
+    let (alpha, mu, load) = (10_f64.to_radians(), 0.15_f64, 1000.0);
+    let rho = mu.atan();
+    let report = driven(&model("wedge"), None);
+    let [(push, is, efficiency), (back, back_is, none)] = efforts(&report);
+    assert_close(push, load * (alpha + 2.0 * rho).tan(), 0.0, 1e-12);
+    assert_eq!(is, EfficiencyKind::Driving);
+    assert_close(efficiency.expect("a number"), alpha.tan() / (alpha + 2.0 * rho).tan(), 0.0, 1e-12);
+    assert_close(back, load * (alpha - 2.0 * rho).tan(), 0.0, 1e-12);
+    assert_eq!((back_is, none), (EfficiencyKind::HeldByFriction, None), "2 rho > alpha");
+    let lock = (45_f64.to_radians() - alpha / 2.0).tan();
+    let factor = limits(&model("wedge"), &LimitsOptions::of("friction")).expect("sound").counts[0].to;
+    assert_close(factor, lock / mu, 0.0, 1e-12);
+    assert_close(report.directions[0].blow_ups.as_ref().expect("few modes")[0].at, lock / mu, 0.0, 1e-12);
+
+    let different = [("mu_floor", "0.05"), ("mu_wedge", "0.2"), ("mu_wall", "0.3")];
+    let tangent = (alpha + 0.2_f64.atan()).tan();
+    let [(push, ..), _] = efforts(&driven(&with("wedge", &different), None));
+    assert_close(push, load * (tangent + 0.05) / (1.0 - 0.3 * tangent), 0.0, 1e-12);
+
+    for margin in MARGINS {
+        let report = against_locking(&model("wedge"), "alpha=5 deg..80 deg", margin);
+        let (found, above) = only_end(&report);
+        assert!(!above, "a flatter wedge is better");
+        assert_close(found, 90_f64.to_radians() - 2.0 * (margin * mu).atan(), 0.0, 1e-12);
+    }
+    // At 22.928 deg the iteration for eigenvalues fails at first.
+    let report = against_locking(&model("wedge"), "alpha", 2.0);
+    assert_eq!((report.met.len(), report.met[0].from_is, report.met[0].to_is), (1, "range", "range"));
+}
+
+/// The load drives the wedge out if alpha > 2 rho.
+#[test]
+fn wedge_is_self_locking_below_twice_the_angle_of_friction() {
+    let threshold = held(&model("wedge"), "Q").threshold.value.expect("a factor");
+    assert_close(threshold * 0.15, 5_f64.to_radians().tan(), 0.0, 1e-10);
+}
+
+// The screw: P = Q tan(lambda + rho).
+
+#[test]
+fn screw_efficiency_and_self_locking() {
+    let lambda = (5.0 / (std::f64::consts::PI * 21.5)).atan();
+    for mu in [0.02, 0.1, 0.3] {
+        let rho = f64::atan(mu);
+        let report = driven(&with("screw", &[("mu", &mu.to_string())]), None);
+        let [(up, is, efficiency), (down, back, value)] = efforts(&report);
+        assert_close(up, 1e4 * (lambda + rho).tan(), 0.0, 1e-12);
+        assert_eq!(is, EfficiencyKind::Driving);
+        assert_close(efficiency.expect("a number"), lambda.tan() / (lambda + rho).tan(), 0.0, 1e-12);
+        assert_close(down, 1e4 * (lambda - rho).tan(), 1e4, 1e-13);
+        if rho < lambda {
+            assert_eq!(back, EfficiencyKind::Braking);
+            assert_close(value.expect("a number"), (lambda - rho).tan() / lambda.tan(), 0.0, 1e-12);
+        } else {
+            assert_eq!((back, value), (EfficiencyKind::HeldByFriction, None));
+        }
+        let blow_up = &report.directions[0].blow_ups.as_ref().expect("few modes")[0];
+        assert_close(blow_up.at * mu, 1.0 / lambda.tan(), 0.0, 1e-12);
+    }
+    let threshold = held(&model("screw"), "Q").threshold.value.expect("a factor");
+    assert_close(threshold * 0.1, lambda.tan(), 0.0, 1e-11);
+    // Self-locking with a margin x: x tan(lambda) = mu.
+    for margin in [1.0, 1.2] {
+        let (found, above) = only_end(&sized(&model("screw"), "pitch", margin, to_hold("Q")));
+        assert!(!above, "a smaller pitch holds better");
+        assert_close(found, std::f64::consts::PI * 0.0215 * 0.1 / margin, 0.0, 1e-10);
+    }
+}
+
+// The press: S (cos(beta) - mu sin(beta)) = Q and T = r S sin(phi + beta), sin(beta) = (r/l) sin(phi).
+
+#[test]
+fn a_press_locks_where_its_rod_is_too_steep() {
+    let (r, l, mu, load) = (0.09, 0.1, 0.6_f64, 100.0);
+    let phi = 30_f64.to_radians();
+    let beta = f64::asin(r / l * phi.sin());
+    let report = driven(&example("press"), Some("angle=5 deg..89 deg"));
+    let [(torque, ..), _] = efforts(&report);
+    let rod = load / (beta.cos() - mu * beta.sin());
+    assert_close(torque, -r * rod * (phi + beta).sin(), 0.0, 1e-12);
+    let locked = f64::asin(l / r / mu.hypot(1.0));
+    let course = &report.course.as_ref().expect("asked for").directions[0];
+    let [blow_up] = &course.blow_ups[..] else { panic!("{:#?}", course.blow_ups) };
+    assert_close(blow_up.at, locked, 0.0, 1e-12);
+    assert_eq!((blow_up.side, &blow_up.efforts[..]), ("below", &[-1_i8][..]));
+    assert!(course.rows.iter().all(|row| (row.at <= blow_up.at) == row.pattern.is_some()));
+    let (angle, above) = only_end(&against_locking(&example("press"), "angle=5 deg..89 deg", 1.5));
+    assert!(!above);
+    assert_close(angle, f64::asin(l / r / f64::hypot(1.5 * mu, 1.0)), 0.0, 1e-12);
+}
+
+// The engine: P = M (cos(beta) + mu sin(beta)) / (r sin(phi + beta)).
+
+#[test]
+fn an_engine_needs_ever_more_force_towards_its_dead_centres() {
+    let (r, l, mu, moment) = (0.05, 0.15, 0.2, 10.0);
+    let force = |phi: f64| {
+        let beta = f64::asin(r / l * phi.sin());
+        moment * (beta.cos() + mu * beta.sin()) / (r * (phi + beta).sin())
+    };
+    let report = driven(&example("engine"), Some("angle=-40 deg..100 deg"));
+    let course = &report.course.as_ref().expect("asked for").directions[0];
+    for row in course.rows.iter().filter(|row| row.at > 0.01) {
+        assert_close(row.efforts.as_ref().expect("one")[0], force(row.at), 0.0, 1e-10);
+    }
+    assert!(!course.blow_ups.is_empty());
+    assert!(course.blow_ups.iter().all(|blow_up| blow_up.at.abs() < 1e-9), "{:#?}", course.blow_ups);
+    let sides: Vec<(&str, i8)> = course.blow_ups.iter().map(|one| (one.side, one.efforts[0])).collect();
+    assert!(sides.contains(&("above", 1)) && sides.iter().any(|(side, _)| *side == "below"), "{sides:?}");
+}
+
+// What the answers have to say where there is no number.
+
+#[test]
+fn infinite_margins_and_positions_that_do_not_exist_are_told() {
+    let straight = against_locking(&example("engine"), "l=60 mm..200 mm", 2.0);
+    assert_eq!(straight.present.is, SampleKind::Infinite);
+    assert_eq!((straight.met.len(), straight.met[0].from_is, straight.met[0].to_is), (1, "range", "range"));
+    assert!(straight.conclusion.iter().any(|sentence| sentence.contains("no friction, however great")));
+
+    // The rod spans the offset of the piston only while l >= r sin(phi).
+    let options = SizeOptions::against_locking("l=20 mm..200 mm", 2.0);
+    let rod = size(&example("engine"), &options).expect("a report");
+    let [gap] = &rod.without_position[..] else { panic!("{:#?}", rod.without_position) };
+    assert_eq!(gap.from, 0.02);
+    assert_close(gap.to, 0.05 * 60_f64.to_radians().sin(), 0.0, 1e-9);
+    assert!(!gap.reason.is_empty());
+    assert!(rod.samples.iter().any(|sample| sample.is == SampleKind::NoPosition));
+    assert!(rod.met.iter().all(|met| met.from > gap.to - 1e-9));
+}
+
+#[test]
+fn the_smaller_margin_of_both_directions_counts() {
+    // Pulled out, the drawer never jams: the other direction changes nothing.
+    let both = |list: &[(&str, &str)]| {
+        let options = SizeOptions { both_directions: true, ..SizeOptions::against_locking("L", 2.0) };
+        size(&with("drawer", list), &options).expect("sound")
+    };
+    assert_close(only_end(&both(&[])).0, 0.36, 0.0, 1e-14);
+    // With the velocity reversed in the model, only the other direction jams.
+    assert_close(only_end(&both(&[("v", "-0.1 m/s")])).0, 0.36, 0.0, 1e-14);
+    let one = against_locking(&with("drawer", &[("v", "-0.1 m/s")]), "L", 2.0);
+    assert_eq!((one.met[0].from_is, one.met[0].to_is), ("range", "range"));
+}
+
+/// Against margins computed one by one.
+#[test]
+fn sizes_agree_with_scanning() {
+    use slideway::solve::solve;
+    let report = against_locking(&model("cam-follower"), "phi", 2.0);
+    let margin = |phi: f64| {
+        let at = Settings::default().parameter("phi", &format!("{phi:e}"));
+        let report = solve(&model("cam-follower").with(&at).expect("sound")).expect("sound");
+        let moves = !report.solutions.is_empty();
+        moves && report.margins.expect("few modes").no_solution.is_none_or(|margin| margin >= 2.0)
+    };
+    for step in 1..200 {
+        let phi = report.vary.from + (report.vary.to - report.vary.from) * f64::from(step) / 200.0;
+        let met = report.met.iter().any(|met| met.from <= phi && phi <= met.to);
+        assert_eq!(met, margin(phi), "phi = {phi}");
+    }
+}
