@@ -146,7 +146,7 @@ impl Failure {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
-            Self::SeriesFormat { .. } => Some("end its name in .csv or .json".to_owned()),
+            Self::SeriesFormat { .. } => Some("end its name in .csv, .npz or .json".to_owned()),
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
             Self::Overflow { .. } => Some("look for entries of absurd magnitude".to_owned()),

@@ -1,6 +1,7 @@
 //! Time series as files.
 
 use crate::failure::Failure;
+use crate::table::npz::{archive, number_array, text_array};
 use slideway::motion::Series;
 use std::fmt::Write;
 use std::path::Path;
@@ -10,6 +11,8 @@ use std::path::Path;
 pub(crate) enum SeriesFormat {
     /// Comma-separated values.
     Csv,
+    /// A NumPy archive.
+    Npz,
     /// Within the report.
     Json,
 }
@@ -22,6 +25,7 @@ impl SeriesFormat {
     pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
         match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
             Some("csv") => Ok(Self::Csv),
+            Some("npz") => Ok(Self::Npz),
             Some("json") => Ok(Self::Json),
             _ => Err(Failure::SeriesFormat { path: path.to_owned() }),
         }
@@ -46,4 +50,17 @@ pub(crate) fn to_csv(series: &Series) -> String {
         text.push('\n');
     }
     text
+}
+
+/// One array for each column, NaN where a quantity is not defined; `mode`, and `units` in the order of the columns.
+pub(crate) fn to_npz(series: &Series) -> Vec<u8> {
+    let numbers = series.columns.iter().map(|column| {
+        let values = column.values.iter().map(|value| value.unwrap_or(f64::NAN));
+        (column.name.clone(), number_array(values))
+    });
+    let modes: Vec<&str> = series.modes.iter().map(String::as_str).collect();
+    let units: Vec<&str> = series.columns.iter().map(|column| column.unit).collect();
+    let texts = [("mode", modes), ("units", units)];
+    let texts = texts.map(|(name, texts)| (name.to_owned(), text_array(&texts, false)));
+    archive(&numbers.chain(texts).collect::<Vec<_>>())
 }

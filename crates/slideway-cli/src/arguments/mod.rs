@@ -32,7 +32,7 @@ pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use report::ReportArguments;
 pub(crate) use search::SearchArguments;
-pub(crate) use simulate::SimulateArguments;
+pub(crate) use simulate::{Preference, SimulateArguments};
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
 pub(crate) use sweep::{SweepArguments, TableFormat};

@@ -2,7 +2,7 @@
 
 use super::values::{duration, positive};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -40,6 +40,10 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "N,M,...", value_delimiter = ',', value_parser = branch)]
     pub(crate) branch: Vec<usize>,
 
+    /// Which of several possible modes is preferred: by the rule of the book, or the one in which the fewest joints stick.
+    #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
+    pub(crate) prefer: Preference,
+
     /// Follow every branch wherever several modes are possible.
     #[arg(long)]
     pub(crate) all_branches: bool,
@@ -48,7 +52,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "N", default_value = "32", value_parser = count, requires = "all_branches")]
     pub(crate) max_motions: usize,
 
-    /// Write the motion as a table: FILE.csv, or FILE.json for the report with the table in it.
+    /// Write the motion as a table: FILE.csv, FILE.npz, or FILE.json for the report with the table in it.
     #[command(flatten)]
     pub(crate) destination: Destination,
 
@@ -102,6 +106,16 @@ pub(crate) struct SimulateArguments {
     /// Form of what is told.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+}
+
+/// Which of several possible modes is preferred.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Preference {
+    /// What continues the motion; else sticking before sliding, attainable before unattainable.
+    #[default]
+    Rule,
+    /// The mode in which the fewest joints stick.
+    Sliding,
 }
 
 fn branch(text: &str) -> Result<usize, String> {

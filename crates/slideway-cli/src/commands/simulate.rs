@@ -1,12 +1,12 @@
 //! `slideway simulate`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, Destination, SimulateArguments};
+use crate::arguments::{CheckFormat, Destination, Preference, SimulateArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture::{Picture, SHARPNESS, beside};
-use crate::time_series::{SeriesFormat, to_csv};
+use crate::time_series::{SeriesFormat, to_csv, to_npz};
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
 use slideway::fault::{Fault, FaultKind};
@@ -125,6 +125,7 @@ impl Question<'_> {
             reaction_limit: arguments.max_reaction,
             initial,
             branches: arguments.branch.clone(),
+            prefers_sliding: arguments.prefer == Preference::Sliding,
             ..SimulateOptions::new(end - start)
         };
         Ok(options.with_events_of(self.mechanism))
@@ -218,6 +219,7 @@ impl<'a> Files<'a> {
             let series = history.series(&times);
             match format {
                 SeriesFormat::Csv => output.write(&to_csv(&series))?,
+                SeriesFormat::Npz => output.write_bytes(&to_npz(&series))?,
                 SeriesFormat::Json => {
                     let mut report = motion::report(history, options);
                     report.samples = Some(series);
@@ -234,10 +236,13 @@ impl<'a> Files<'a> {
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
             let animation = animation(history, &options, theme);
-            output.write_bytes(match format {
-                AnimationFormat::Html => animation.to_html(),
-                AnimationFormat::Svg => animation.to_svg(),
-            }.as_bytes())?;
+            output.write_bytes(
+                match format {
+                    AnimationFormat::Html => animation.to_html(),
+                    AnimationFormat::Svg => animation.to_svg(),
+                }
+                .as_bytes(),
+            )?;
         }
         Ok(())
     }

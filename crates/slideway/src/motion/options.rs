@@ -30,6 +30,9 @@ pub struct SimulateOptions {
     /// Which of the possible phases is taken at each branching, in their order, counted from 0; the first where the
     /// list ends. A branching is an event after which several phases are possible.
     pub branches: Vec<usize>,
+    /// Whether at a branching behind the list the phase is taken in which the fewest joints stick, instead of the first: what could
+    /// wedge itself at rest then slides on as long as it can.
+    pub prefers_sliding: bool,
 }
 
 impl SimulateOptions {
@@ -45,6 +48,7 @@ impl SimulateOptions {
             events: Vec::new(),
             initial: None,
             branches: Vec::new(),
+            prefers_sliding: false,
         }
     }
 

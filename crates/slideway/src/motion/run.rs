@@ -240,7 +240,8 @@ impl<'a, 'm> Run<'a, 'm> {
         if successors.len() < 2 {
             return Ok(Some(0));
         }
-        let wanted = self.options.branches.get(self.branchings).copied().unwrap_or(0);
+        let preferred = if self.options.prefers_sliding { fewest_sticking(successors) } else { 0 };
+        let wanted = self.options.branches.get(self.branchings).copied().unwrap_or(preferred);
         self.branchings += 1;
         Ok((wanted < successors.len()).then_some(wanted))
     }
@@ -312,4 +313,12 @@ fn without_held(
         successors.retain(|successor| successor.phase.joints != previous.joints);
     }
     successors
+}
+
+/// The first of the phases in which the fewest joints stick.
+fn fewest_sticking(successors: &[Successor]) -> usize {
+    let sticking = |successor: &Successor| {
+        successor.phase.joints.iter().filter(|joint| **joint == JointPhase::Sticking).count()
+    };
+    (0..successors.len()).min_by_key(|index| sticking(&successors[*index])).unwrap_or(0)
 }

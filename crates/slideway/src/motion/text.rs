@@ -2,7 +2,7 @@
 
 use super::report::{EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
-use crate::report::number::{number, precise};
+use crate::report::number::{against, number, precise};
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Style, Verdict, count, spaced};
@@ -77,9 +77,14 @@ impl Page<'_, SimulateReport> {
     }
 
     fn state(&mut self, when: &str, state: &[crate::report::CoordinateState]) {
+        let rates =
+            self.report.initial.iter().chain(&self.report.last).map(|coordinate| coordinate.rate.abs());
+        let greatest = rates.fold(1e-6, f64::max);
         let one = |coordinate: &crate::report::CoordinateState| {
             let crate::report::CoordinateState { name, unit, value, rate } = coordinate;
-            format!("{name} = {} {unit}, rate {} {unit}/s", number(*value), number(*rate))
+            // What is left of a velocity at rest is rounding.
+            let rate = against(*rate, greatest);
+            format!("{name} = {} {unit}, rate {rate} {unit}/s", number(*value))
         };
         let parts: Vec<String> = state.iter().map(one).collect();
         self.line(&format!("{when}: {}", parts.join("; ")));
@@ -125,8 +130,10 @@ impl Page<'_, SimulateReport> {
         let energy = &self.report.energy;
         self.line("");
         self.headline("Energy (J)");
+        let greatest = energy.kinetic.iter().chain(&energy.potential).fold(0.0_f64, |a, b| a.max(b.abs()));
+        let shown = |value: f64| against(value, greatest);
         let [kinetic, potential] =
-            [energy.kinetic, energy.potential].map(|[start, stop]| vec![number(start), number(stop)]);
+            [energy.kinetic, energy.potential].map(|[start, stop]| vec![shown(start), shown(stop)]);
         let mut rows = vec![row("kinetic", kinetic), row("potential", potential)];
         let mut add = |what: &str, list: &[Named]| {
             for Named { name, value } in list.iter().filter(|named| named.value != 0.0) {
