@@ -54,6 +54,18 @@ show limits-drawer-length.txt 0 limits models/drawer.toml --set mu=0.6 --vary "L
 raw klepp-two.json solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format json
 raw klepp-two.csv solve models/klepp-2002.toml --set F_20=0 --set mu_1=0.6 --format csv
 
+# Sweeps; their tables are not kept.
+tables=$(mktemp -d)
+trap 'rm -r "$tables"' EXIT
+sweep() {
+    local file=$1 table=$2
+    shift 2
+    show "$file" 0 sweep "$@" --output "$tables/$table"
+    sed -i "1s|--output .*|--output $table|" "$output/$file"
+}
+sweep sweep-klepp.txt klepp.csv models/klepp-2002.toml --set F_20=0 --vary mu_1=0..0.8:801
+sweep sweep-drawer.txt drawer.npz models/drawer.toml --vary "mu=normal(0.6, 0.05)" --samples 100000
+
 # The gallery.
 show painleve-klein.txt 0 solve models/painleve-klein.toml
 show painleve-klein-none.txt 1 solve models/painleve-klein.toml --set mu=4
@@ -78,7 +90,9 @@ show stick-slip.txt 0 solve models/stick-slip.toml
 show help.txt 0 --help
 show help-solve.txt 0 solve --help
 show help-limits.txt 0 limits --help
+show help-map.txt 0 map --help
 show help-modes.txt 0 modes --help
+show help-sweep.txt 0 sweep --help
 show check-klepp.txt 0 check models/klepp-2002.toml
 show check-bracket.txt 2 check models/bracket-on-pole.toml
 show models.txt 0 models

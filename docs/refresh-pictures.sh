@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Regenerates every picture of the book and the README, by running the program.
+# Regenerates every picture that the book and the README show, by running the program.
 #
 #   cargo build --release && docs/refresh-pictures.sh
 #
-# SLIDEWAY=path runs another binary. The same program makes the same bytes.
+# SLIDEWAY=path runs another binary. The same program makes the same bytes. Look at each picture that changes before
+# committing it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 slideway=${SLIDEWAY:-target/release/slideway}
@@ -25,3 +26,26 @@ draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set directio
 draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150 deg"
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
 draw telescopic-boom.svg models/telescopic-boom.toml
+# Plots.
+
+# plot FILE ARGUMENTS...: limits with a plot.
+plot() {
+    local file=$1
+    shift
+    "$slideway" limits "$@" --plot "$pictures/$file" --force >/dev/null
+}
+
+plot klepp-figure-4.svg models/klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0
+plot klepp-figures-4-and-5.svg models/klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions
+plot klepp-preload.svg models/klepp-2002.toml --vary mu_1=0..0.8 --both-directions
+plot drawer-push.svg models/drawer.toml --vary mu=0..1 --quantity effort
+plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --quantity acceleration
+
+# Maps.
+"$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
+"$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
+    --output "$pictures/map-modes.svg" --force
+"$slideway" map models/drawer.toml --x mu=0..1 --y "L=200 mm..500 mm" --colour-by margin \
+    --output "$pictures/map-margin.svg" --force
+"$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by jam \
+    --output "$pictures/map-jam.svg" --force

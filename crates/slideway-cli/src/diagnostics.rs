@@ -125,7 +125,7 @@ fn within(text: &str, span: &Range<usize>) -> Range<usize> {
 fn on_command_line(fault: &Fault) -> bool {
     match &fault.place {
         Some(place) => place.source != Source::Model,
-        None => matches!(fault.kind, FaultKind::MalformedSetting { .. }),
+        None => matches!(fault.kind, FaultKind::MalformedSetting { .. } | FaultKind::Axis { .. }),
     }
 }
 

@@ -46,8 +46,6 @@ pub(crate) enum Failure {
     AnotherSweep { path: PathBuf, command: String },
     /// The ending of a table says nothing.
     UnknownEnding { path: PathBuf },
-    /// The program was built without Parquet.
-    NoParquet,
     /// A table that is not written from beginning to end.
     NoStream,
     /// A sweep was interrupted.
@@ -106,7 +104,6 @@ impl Failure {
             Self::UnknownEnding { path } => {
                 format!("the ending of `{}` does not tell the form of the table", path.display())
             }
-            Self::NoParquet => "this program was built without Parquet".to_owned(),
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
             Self::Interrupted { done, points, path } => {
                 format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
@@ -159,19 +156,12 @@ impl Failure {
                 Some("go on with it by --resume, or begin anew with --force".to_owned())
             }
             Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
-            Self::AnotherSweep { .. } => {
-                Some("repeat that command with --resume and the same model, or begin anew with --force".to_owned())
-            }
-            Self::UnknownEnding { .. } => {
-                Some("use .csv, .npz or .parquet, or say it with --format".to_owned())
-            }
-            Self::NoParquet => {
-                Some("build it with `cargo build --release --features parquet`, or write .npz".to_owned())
-            }
+            Self::AnotherSweep { .. } => Some(
+                "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
+            ),
+            Self::UnknownEnding { .. } => Some("use .csv or .npz, or say it with --format".to_owned()),
             Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
-            Self::Interrupted { .. } => {
-                Some("the same command with --resume goes on from there".to_owned())
-            }
+            Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
             _ => None,
         }
     }

@@ -62,6 +62,7 @@ golden! {
     drive_not_assembled: 0 ["drive", ENGINE, "--vary", "l=20 mm..200 mm", "--rows", "5"];
     help_of_size: 0 ["size", "-h"];
     help_of_drive: 0 ["drive", "-h"];
+    help_of_sweep: 0 ["sweep", "--help"];
     help_of_hold: 0 ["hold", "--help"];
     list_of_models: 0 ["models"];
     help: 0 ["--help"];

@@ -11,7 +11,7 @@
 //! face its friction acts, column `k` has two versions; they are equal where the height is zero.
 
 use crate::ids::ContactId;
-use crate::kinetics::{KineticEquations, Layout, Reaction};
+use crate::kinetics::{Influences, KineticEquations, Layout, Reaction};
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns without friction, and what each contact's friction adds to them.
@@ -46,19 +46,18 @@ impl ContactFriction {
 impl Influence {
     /// The influence coefficients of factored kinetic equations.
     pub fn new(equations: &KineticEquations) -> Self {
-        let contacts = equations.contacts.len();
-        let layout = equations.layout.clone();
-        let normal = (0..contacts)
+        Self::of(equations.influences())
+    }
+
+    /// The influence coefficients that these are.
+    pub(crate) fn of(influences: Influences) -> Self {
+        let Influences { layout, frictionless, columns, .. } = influences;
+        let normal = (0..columns.len())
             .map(|k| {
                 layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force")
             })
             .collect();
-        Self {
-            layout,
-            frictionless: equations.without_noise(&equations.frictionless()),
-            columns: (0..contacts).map(|k| equations.influence_of(ContactId(k))).collect(),
-            normal,
-        }
+        Self { layout, frictionless, columns, normal }
     }
 
     /// Where the unknowns stand.

@@ -172,8 +172,11 @@ fn a_grid_is_what_solve_says(#[case] name: &str, #[case] vary: &str) {
             let count = rows.heads[first..].iter().take_while(|head| head.point == point).count();
             if rows.heads[first].breakpoint == Breakpoint::No {
                 let settings = settings_of(&sweep, 1, &rows.numbers(first)[..1], &model);
-                let report = solve(&model.with(&settings).unwrap()).unwrap();
-                check_point(&sweep, &rows, first..first + count, &report);
+                match solve(&model.with(&settings).unwrap()) {
+                    Ok(report) => check_point(&sweep, &rows, first..first + count, &report),
+                    // At a dead centre sliding stops.
+                    Err(_) => assert_eq!(rows.heads[first].status, PointStatus::Refused),
+                }
             }
             first += count;
         }
@@ -310,7 +313,7 @@ fn points_without_a_position_are_marked() {
                 assert_eq!(head.status, PointStatus::NoPosition, "{phi}");
                 assert!(rows.numbers(row)[1..].iter().all(|value| value.is_nan()));
                 marked += 1;
-            } else if phi.abs() < limit - 1e-2 {
+            } else if phi.abs() < limit - 1e-2 && phi != 0.0 {
                 assert!(head.status.is_solved(), "{phi}");
             }
         }
@@ -355,7 +358,7 @@ fn negative_friction_is_refused_point_by_point() {
 #[case("mu=0..0.8:11:log", "above zero")]
 #[case("mu=0..0.8:11:cubic", "no spacing")]
 #[case("mu=0..abc:11", "unknown name `abc`")]
-#[case("mu=0..1 m:11", "where a number is expected")]
+#[case("mu=0..1 m:11", "a length where")]
 #[case("mu=normal(0.3, 0.1)", "no samples")]
 #[case("nu=0..1:11", "named `nu`")]
 #[case("friction=-1..1:11", "cannot be negative")]

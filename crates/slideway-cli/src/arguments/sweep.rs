@@ -66,7 +66,7 @@ pub(crate) struct SweepArguments {
     #[arg(long, requires = "output")]
     pub(crate) resume: bool,
 
-    /// Form of the table; without it the ending of the output file tells (.csv, .npz, .parquet), else CSV.
+    /// Form of the table; without it the ending of the output file tells (.csv, .npz), else CSV.
     #[arg(long, value_enum)]
     pub(crate) format: Option<TableFormat>,
 
@@ -89,11 +89,6 @@ impl SweepArguments {
             all_columns: self.all_columns,
         }
     }
-
-    /// Whether samples are drawn.
-    pub(crate) fn draws(&self) -> bool {
-        self.samples.is_some()
-    }
 }
 
 /// How samples are spread.
@@ -113,6 +108,4 @@ pub(crate) enum TableFormat {
     Csv,
     /// A NumPy archive.
     Npz,
-    /// Apache Parquet.
-    Parquet,
 }

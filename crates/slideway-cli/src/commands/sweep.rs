@@ -12,8 +12,8 @@ use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Arguments that do not change the table.
 const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
@@ -42,19 +42,12 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
 fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
     let path = arguments.destination.output.as_deref().filter(|path| *path != Path::new("-"));
     let ending = path.and_then(|path| path.extension()?.to_str());
-    let format = match (arguments.format, ending) {
-        (Some(format), _) => format,
-        (None, Some("csv")) | (None, None) => TableFormat::Csv,
-        (None, Some("npz")) => TableFormat::Npz,
-        (None, Some("parquet")) => TableFormat::Parquet,
-        (None, Some(_)) => {
-            return Err(Failure::UnknownEnding { path: path.map(Path::to_owned).unwrap_or_default() });
-        }
-    };
-    if format == TableFormat::Parquet && !cfg!(feature = "parquet") {
-        return Err(Failure::NoParquet);
+    match (arguments.format, ending) {
+        (Some(format), _) => Ok(format),
+        (None, Some("csv")) | (None, None) => Ok(TableFormat::Csv),
+        (None, Some("npz")) => Ok(TableFormat::Npz),
+        (None, Some(_)) => Err(Failure::UnknownEnding { path: path.map(Path::to_owned).unwrap_or_default() }),
     }
-    Ok(format)
 }
 
 /// Whether a path exists and is no regular file: a device or a pipe, which cannot be renamed to.

@@ -6,12 +6,8 @@ use slideway::sweep::Rows;
 /// Comment lines with command and model, and the line of names.
 pub(super) fn head(layout: &Layout, metadata: &Metadata) -> Vec<u8> {
     let mut text = format!("# {}\n# {}\n", Metadata::program(), metadata.command);
-    let units: Vec<String> = layout
-        .varied
-        .iter()
-        .chain(&layout.numbers)
-        .map(|(name, unit)| format!("{name} ({unit})"))
-        .collect();
+    let units: Vec<String> =
+        layout.varied.iter().chain(&layout.numbers).map(|(name, unit)| format!("{name} ({unit})")).collect();
     text.push_str(&format!("# units: {}\n# model:\n", units.join(", ")));
     for line in metadata.model.lines() {
         text.push_str(if line.is_empty() { "#" } else { "#   " });
@@ -66,7 +62,11 @@ pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
         integer(&mut out, u64::from(head.gap_states));
         integer(&mut out, u64::from(head.rejected));
         text(&mut out, head.kind.word().as_bytes());
-        if head.branch == 0 { out.push(b',') } else { integer(&mut out, u64::from(head.branch)) }
+        if head.branch == 0 {
+            out.push(b',')
+        } else {
+            integer(&mut out, u64::from(head.branch))
+        }
         text(&mut out, rows.pattern(row).trim_ascii());
         if layout.attainability {
             text(&mut out, head.verdict.word().as_bytes());

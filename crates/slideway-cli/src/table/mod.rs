@@ -3,8 +3,6 @@
 mod csv;
 pub(crate) mod npz;
 mod partial;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod record;
 
 pub(crate) use partial::{Continued, PartialFile};
@@ -68,7 +66,6 @@ impl Encoder {
         match self.format {
             TableFormat::Csv => csv::head(&self.layout, &self.metadata),
             TableFormat::Npz => npz::head(&self.layout),
-            TableFormat::Parquet => Vec::new(),
         }
     }
 
@@ -76,7 +73,7 @@ impl Encoder {
     pub(crate) fn rows(&self, rows: &Rows) -> Vec<u8> {
         match self.format {
             TableFormat::Csv => csv::rows(&self.layout, rows),
-            TableFormat::Npz | TableFormat::Parquet => record::rows(&self.layout, rows),
+            TableFormat::Npz => record::rows(&self.layout, rows),
         }
     }
 }

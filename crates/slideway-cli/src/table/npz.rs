@@ -55,7 +55,8 @@ pub(super) fn finish(
     file.seek(SeekFrom::Start(bytes))?;
 
     let units: Vec<&str> = layout.varied.iter().chain(&layout.numbers).map(|(_, unit)| *unit).collect();
-    let names: Vec<&str> = layout.varied.iter().chain(&layout.numbers).map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> =
+        layout.varied.iter().chain(&layout.numbers).map(|(name, _)| name.as_str()).collect();
     let program = Metadata::program();
     let texts: [(&'static str, Vec<&str>, bool); 5] = [
         ("names.npy", names, false),
@@ -172,8 +173,10 @@ fn long(out: &mut Vec<u8>, numbers: &[u32]) {
 
 /// The header of the array of records: of the same length whatever their number.
 fn array_header(layout: &Layout, count: u64) -> Vec<u8> {
-    let kinds: Vec<String> =
-        fields(layout).iter().map(|field| format!("({}, '{}')", text_literal(&field.name), field.kind)).collect();
+    let kinds: Vec<String> = fields(layout)
+        .iter()
+        .map(|field| format!("({}, '{}')", text_literal(&field.name), field.kind))
+        .collect();
     let header = |count: u64| {
         format!("{{'descr': [{}], 'fortran_order': False, 'shape': ({count},), }}", kinds.join(", "))
     };

@@ -112,9 +112,7 @@ impl PartialFile {
         }
         // What was written behind the last state is computed again.
         let end = SeekFrom::Start(kept.bytes);
-        file.set_len(kept.bytes)
-            .and_then(|()| file.seek(end))
-            .map_err(|error| cannot_write(&path, error))?;
+        file.set_len(kept.bytes).and_then(|()| file.seek(end)).map_err(|error| cannot_write(&path, error))?;
         let head = encoder.head().len() as u64;
         let file = Self {
             target: target.to_owned(),
@@ -188,7 +186,6 @@ impl PartialFile {
                 npz::finish(&mut self.file, layout, metadata, (self.bytes, &self.rows))
                     .map_err(|error| cannot_write(&path, error))?;
             }
-            TableFormat::Parquet => self.convert()?,
         }
         if self.target.exists() && !self.overwrite {
             return Err(Failure::OutputExists { path: self.target });
@@ -199,22 +196,6 @@ impl PartialFile {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(cannot_write(&state, error)),
             _ => Ok(()),
         }
-    }
-
-    #[cfg(feature = "parquet")]
-    fn convert(&mut self) -> Result<(), Failure> {
-        let converted = beside(&self.target, ".partial.parquet");
-        let failure = |error| cannot_write(&converted, error);
-        self.file.seek(SeekFrom::Start(0)).map_err(failure)?;
-        let Encoder { layout, metadata, .. } = &self.encoder;
-        super::parquet::convert(&mut self.file, &converted, layout, metadata).map_err(failure)?;
-        fs::rename(&converted, self.path()).map_err(failure)
-    }
-
-    #[cfg(not(feature = "parquet"))]
-    #[expect(clippy::unused_self, reason = "with the feature it converts")]
-    fn convert(&mut self) -> Result<(), Failure> {
-        Err(Failure::NoParquet)
     }
 
     fn cannot_write(&self, error: io::Error) -> Failure {

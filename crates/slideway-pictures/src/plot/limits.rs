@@ -57,6 +57,11 @@ impl Builder<'_> {
             Quantity::Acceleration => "acceleration",
             Quantity::Effort => "effort",
         };
+        // A single one has no marker in the legend.
+        let name = match &self.curves.series[..] {
+            [only] => format!("{name} of {}", only.name),
+            _ => name.to_owned(),
+        };
         Panel {
             title: title.to_owned(),
             x: Axis {
@@ -64,7 +69,7 @@ impl Builder<'_> {
                 unit: self.curves.shown_in.unit.clone(),
                 range: Some([report.vary.from / scale, report.vary.to / scale]),
             },
-            y: Axis { name: name.to_owned(), unit: unit.to_owned(), range: None },
+            y: Axis { name, unit: unit.to_owned(), range: None },
             zones: zones(counts, without, [report.vary.from, report.vary.to], scale),
             marked: marked(modes, [report.vary.from, report.vary.to], scale),
             bands: Vec::new(),
@@ -129,7 +134,7 @@ fn mode_name(mode: &ModeLimits, stroke: Stroke) -> String {
         Stroke::Dotted => " (preload between the faces)",
         Stroke::DashDotted => " (attainable only with damping, or undecided)",
     };
-    format!("{}:\u{2002}{}{meaning}", signs.join(" "), words.join("; "))
+    format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
 }
 
 fn stroke_of(verdict: Verdict) -> Stroke {

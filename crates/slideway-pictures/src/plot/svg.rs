@@ -1,6 +1,8 @@
 //! Writing SVG: elements with attributes, numbers of two decimals, escaped text.
 
 use crate::escaped;
+use crate::typeface::STACK;
+pub(crate) use crate::typeface::width;
 use std::fmt::Write;
 
 /// An SVG document that grows.
@@ -68,7 +70,7 @@ impl Svg {
         let [width, height] = [width, height].map(coordinate);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"{FONTS}\" role=\"img\">\n<title>{}</title>\n\
+             viewBox=\"0 0 {width} {height}\" font-family=\"{STACK}\" role=\"img\">\n<title>{}</title>\n\
              <rect class=\"background\" width=\"{width}\" height=\"{height}\" fill=\"{background}\"/>\n{}</svg>\n",
             escaped(title),
             self.body
@@ -81,23 +83,6 @@ impl Svg {
             let _ = write!(self.body, " {key}=\"{}\"", escaped(value));
         }
     }
-}
-
-/// Fonts of all text, of which [`width`] takes the widest.
-const FONTS: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
-
-/// The width of a text (px) at a font size (px), as in DejaVu Sans or less: places for text are kept by it.
-pub(crate) fn width(text: &str, size: f64) -> f64 {
-    let em = |character: char| match character {
-        'i' | 'j' | 'l' | '\'' | '|' => 0.28,
-        ' ' | ',' | '.' | ':' | ';' | 'I' | '!' => 0.33,
-        'f' | 't' | 'r' | '(' | ')' | '/' | '-' | '[' | ']' => 0.40,
-        'm' | 'w' | 'M' | 'W' | '%' | '@' => 0.95,
-        '+' | '=' | '<' | '>' | '\u{2212}' => 0.84,
-        character if character.is_uppercase() => 0.70,
-        _ => 0.63,
-    };
-    size * text.chars().map(em).sum::<f64>()
 }
 
 /// The words of a text in lines no wider than `space`; a longer word has a line of its own.

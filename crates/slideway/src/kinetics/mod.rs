@@ -12,11 +12,13 @@
 //! couples) and the efforts `u` of the drives; the friction forces `F` are the parameters.
 
 mod elastic;
+mod influences;
 mod loads;
 mod rows;
 mod system;
 
 pub(crate) use elastic::MasslessMotions;
+pub(crate) use influences::{Elimination, Influences};
 pub use loads::Wrench;
 pub(crate) use loads::{Applied, unit_effort as effort_forces};
 pub(crate) use rows::ConstraintRow;
@@ -126,31 +128,8 @@ impl KineticEquations {
     /// equations too ill-conditioned to be solved.
     pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
-        Self::factored(mechanism, configuration, assembled, Factorization::new)
-    }
-
-    /// [`Self::new`] beside the equations of a neighbouring state, which are equilibrated alike.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn near(
-        mechanism: &Mechanism,
-        configuration: &Configuration,
-        neighbour: &Self,
-    ) -> Result<Self, Faults> {
-        let assembled = Assembled::new(mechanism, configuration)?;
-        let factor = |matrix| Factorization::near(matrix, &neighbour.factorization);
-        Self::factored(mechanism, configuration, assembled, factor)
-    }
-
-    fn factored(
-        mechanism: &Mechanism,
-        configuration: &Configuration,
-        assembled: Assembled<f64>,
-        factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Singular>,
-    ) -> Result<Self, Faults> {
         let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows } = assembled;
-        let factorization = factor(matrix).map_err(|singular| {
+        let factorization = Factorization::new(matrix).map_err(|singular| {
             Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular)
         })?;
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
@@ -177,17 +156,6 @@ impl KineticEquations {
     /// Estimate of how much rounding is amplified: ratio of the greatest to the least pivot.
     pub fn condition(&self) -> f64 {
         self.factorization.condition()
-    }
-
-    /// What the acceleration of a chosen coordinate is if the unknowns are these, without the part that the velocities
-    /// alone give it: the same for what is added to the unknowns.
-    pub(crate) fn coordinate_part(&self, coordinate: usize, unknowns: &DVector<f64>) -> f64 {
-        self.coordinate_rows[coordinate].times(unknowns)
-    }
-
-    /// What [`Self::coordinate_part`] has to be lessened by to give the whole acceleration.
-    pub(crate) fn coordinate_bias(&self, coordinate: usize) -> f64 {
-        self.coordinate_rows[coordinate].right_hand_side
     }
 
     /// Accelerations of the chosen coordinates that belong to accelerations of the bodies.

@@ -6,8 +6,6 @@ use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
 
 /// Pivots below this multiple of the greatest count as zero; the equations are then singular.
 const SINGULAR: f64 = 1e-13;
-/// Below this ratio of pivots the scales of a neighbouring state are good enough.
-const WELL_SCALED: f64 = 1e6;
 /// Components of an equilibrated solution that are this many roundoffs below its greatest one are noise.
 const NOISE: f64 = 16.0;
 
@@ -44,28 +42,7 @@ impl Factorization {
                 condition: f64::INFINITY,
             });
         }
-        let scales = equilibration(&matrix);
-        Self::scaled_by(matrix, scales)
-    }
-
-    /// Factors the matrix of a neighbouring state: in the same scales, unless they no longer suit.
-    pub(super) fn near(matrix: DMatrix<f64>, other: &Self) -> Result<Self, Singular> {
-        if matrix.shape() == other.matrix.shape() && matrix.iter().all(|entry| entry.is_finite()) {
-            let scales = (other.row_scale.clone(), other.column_scale.clone());
-            let found = Self::scaled_by(matrix.clone(), scales);
-            if let Ok(found) = found
-                && found.condition < WELL_SCALED
-            {
-                return Ok(found);
-            }
-        }
-        Self::new(matrix)
-    }
-
-    fn scaled_by(
-        matrix: DMatrix<f64>,
-        (row_scale, column_scale): (DVector<f64>, DVector<f64>),
-    ) -> Result<Self, Singular> {
+        let (row_scale, column_scale) = equilibration(&matrix);
         let scaled = scaled(&matrix, &row_scale, &column_scale);
         let factors = scaled.clone().full_piv_lu();
         let pivots = factors.u().diagonal().abs();

@@ -1,6 +1,6 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
-use crate::fault::{Fault, FaultKind, Faults, nearest};
+use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Setting, SettingKind, Settings};
 use crate::modes::existence::ModeProblemLine;
@@ -84,14 +84,21 @@ impl Varied {
     /// # Errors
     /// A text that is no quantity of the right dimension.
     pub(crate) fn value_of(&self, text: &str) -> Result<f64, Faults> {
-        match self.kind {
-            Kind::Friction => text.trim().parse().map_err(|_| {
-                Fault::general(FaultKind::MalformedRange { text: text.to_owned(), name: self.name.clone() })
-                    .into()
-            }),
+        let value = match self.kind {
+            Kind::Friction => {
+                return text.trim().parse().map_err(|_| {
+                    let (text, name) = (text.to_owned(), self.name.clone());
+                    Fault::general(FaultKind::MalformedRange { text, name }).into()
+                });
+            }
             Kind::Parameter => self.model.setting_value(&self.setting(SettingKind::Parameter, text)),
             Kind::Coordinate => self.model.setting_value(&self.setting(SettingKind::Position, text)),
-        }
+        };
+        // Its places are those of a setting, but the range is none.
+        value.map_err(|faults| {
+            let text = format!("{}={}", self.name, text.trim());
+            Fault::general(FaultKind::Axis { text, problem: AxisProblem::of(&faults) }).into()
+        })
     }
 
     /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.

@@ -208,14 +208,12 @@ fn parts(&[left, right, bottom, top]: &Cell) -> Vec<Cell> {
     rows.iter().flat_map(|row| columns.iter().map(|column| [column[0], column[1], row[0], row[1]])).collect()
 }
 
+/// The up to eight pixels around one: narrow regions may go on across a corner.
 fn neighbours(grid: Grid, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
-    let beside = [
-        i.checked_sub(1).map(|i| [i, j]),
-        (i + 1 < grid.width).then(|| [i + 1, j]),
-        j.checked_sub(1).map(|j| [i, j]),
-        (j + 1 < grid.height).then(|| [i, j + 1]),
-    ];
-    beside.into_iter().flatten()
+    let around = |at: usize, size: usize| at.saturating_sub(1)..(at + 2).min(size);
+    let rows = around(j, grid.height);
+    rows.flat_map(move |row| around(i, grid.width).map(move |column| [column, row]))
+        .filter(move |&other| other != [i, j])
 }
 
 #[cfg(test)]

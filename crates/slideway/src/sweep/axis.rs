@@ -60,12 +60,13 @@ impl Values {
     /// The value with this number, both ends of a range being exact.
     pub(super) fn at(&self, index: u64) -> f64 {
         match self {
-            Self::Linear { from, to, count } => {
-                between(index, *count, *from, *to, |t| from + t * (to - from))
-            }
-            Self::Logarithmic { from, to, count } => {
-                between(index, *count, *from, *to, |t| (from.ln() + t * (to.ln() - from.ln())).exp())
-            }
+            // Rounded once: 0..0.8 in 800 steps has 0.453.
+            Self::Linear { from, to, count } => between(index, *count, [*from, *to], |index, last| {
+                (from * (last - index) + to * index) / last
+            }),
+            Self::Logarithmic { from, to, count } => between(index, *count, [*from, *to], |index, last| {
+                ((from.ln() * (last - index) + to.ln() * index) / last).exp()
+            }),
             Self::Listed(values) => {
                 usize::try_from(index).ok().and_then(|i| values.get(i)).map_or(0.0, |v| *v)
             }
@@ -82,13 +83,14 @@ impl Values {
     }
 }
 
-fn between(index: u64, count: u64, from: f64, to: f64, at: impl Fn(f64) -> f64) -> f64 {
+/// Both ends as they are, and what is computed from the number of the value and that of the last one.
+fn between(index: u64, count: u64, [from, to]: [f64; 2], at: impl Fn(f64, f64) -> f64) -> f64 {
     if index == 0 {
         from
     } else if index + 1 >= count {
         to
     } else {
-        at(index as f64 / (count - 1) as f64)
+        at(index as f64, (count - 1) as f64)
     }
 }
 

@@ -8,12 +8,14 @@ use super::stages::{Stages, Trail};
 use super::told;
 use crate::attainability::ElasticGuides;
 use crate::fault::{FaultKind, Faults};
+use crate::kinetics::KineticEquations;
 use crate::mechanism::{JointKind, Mechanism};
-use crate::model::{Model, PreloadLine};
+use crate::model::{Model, PreloadLine, Settings};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::modes::{ContactState, Side};
-use crate::report::Verdict;
-use crate::solve::{careful_report, mode_problem, velocity_signs};
+use crate::report::{Report, Verdict};
+use crate::solve::{SolveOptions, careful_report, mode_problem, solve_with, velocity_signs};
+use std::ops::ControlFlow;
 
 /// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping, as in `solve`.
 const COUPLE_TOLERANCE: f64 = 1e-9;
@@ -35,6 +37,22 @@ impl Plan {
     fn same_state(&self) -> bool {
         let keeps = |kind: &Kind| matches!(kind, Kind::Parameter(_) | Kind::Friction);
         self.friction.is_some() && self.varied.iter().all(keeps)
+    }
+
+    /// What makes of the model that of a point; none if friction has a factor.
+    fn settings(&self, values: &[f64]) -> Option<Settings> {
+        let mut settings = Settings::default();
+        for (kind, value) in self.varied.iter().zip(values) {
+            let text = format!("{value:e}");
+            settings = match *kind {
+                Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, &text),
+                Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, &text),
+                Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, &text),
+                Kind::Time => settings.time(&text),
+                Kind::Friction => return None,
+            };
+        }
+        Some(settings)
     }
 }
 
@@ -146,12 +164,17 @@ impl<'p> Evaluator<'p> {
                 } else {
                     None
                 };
-                let guides = |problem| ElasticGuides::new(&self.mechanism, &stages.equations, problem);
+                let equations = match &problem {
+                    Some(_) => Some(KineticEquations::new(&self.mechanism, &stages.configuration)?),
+                    None => None,
+                };
+                let guides = problem.as_ref().zip(equations.as_ref());
                 let mut writer = Writer {
                     plan: self.plan,
                     mechanism: &self.mechanism,
                     stages,
-                    guides: problem.as_ref().map(guides),
+                    guides: guides
+                        .map(|(problem, equations)| ElasticGuides::new(&self.mechanism, equations, problem)),
                     outputs: &mut self.outputs,
                     counts: Counts::default(),
                 };
@@ -161,15 +184,25 @@ impl<'p> Evaluator<'p> {
                 }
             }
         }
-        let report = careful_report(
-            &self.mechanism,
-            &stages.configuration,
-            &stages.equations,
-            &stages.influence,
-            &stages.signs,
-        )?;
+        let report = match self.plan.settings(point.values) {
+            Some(settings) => {
+                let model = self.plan.model.with(&settings)?;
+                let options = SolveOptions { margins: false, ..SolveOptions::default() };
+                solve_with(&model, &options, &mut |_| ControlFlow::Continue(()))?
+            }
+            None => self.careful(stages)?,
+        };
         told::write(&report, self.plan, point, rows);
         Ok(())
+    }
+}
+
+impl Evaluator<'_> {
+    /// The answer for a state that no model describes: with friction multiplied by a factor.
+    fn careful(&self, stages: &Stages) -> Result<Report, Faults> {
+        let equations = KineticEquations::new(&self.mechanism, &stages.configuration)?;
+        let Stages { configuration, influence, signs, .. } = stages;
+        careful_report(&self.mechanism, configuration, &equations, influence, signs)
     }
 }
 

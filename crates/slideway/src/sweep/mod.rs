@@ -18,7 +18,9 @@
 //! not computed anew: where only coefficients of friction and preloads change, the influence coefficients stay; a position is
 //! reached from those of the last points ([`crate::configuration::Configuration::near`]). Up to 8 contacts all patterns are tried
 //! by elimination. Where that leaves a pattern in doubt, because it is close to a boundary between modes or to locking, and for
-//! more contacts, the point is searched as [`crate::solve`] does, with bounds of rounding that are assumed, not proven.
+//! more contacts, the point is left to [`crate::solve`] itself (with a common factor of friction to its search, with bounds of
+//! rounding that are assumed, not proven). Contacts of one block that both have a preload at the pressed face have
+//! dependent gap states, so that each of their points is one of these.
 //!
 //! # Order
 //! Points are numbered with the last quantity varying fastest. They are computed in chunks of a fixed size, so that nothing
@@ -222,8 +224,9 @@ impl Sweep {
     /// The rows of some chunks of points, from this one on.
     fn compute(&self, from: u64) -> Vec<Rows> {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
-        let starts: Vec<u64> = (0..chunks as u64)
-            .map(|chunk| (from / CHUNK + chunk) * CHUNK)
+        let first = from.div_ceil(CHUNK);
+        let starts: Vec<u64> = (first..first + chunks as u64)
+            .map(|chunk| chunk * CHUNK)
             .filter(|start| *start < self.points)
             .collect();
         starts.into_par_iter().map(|start| self.chunk(start)).collect()

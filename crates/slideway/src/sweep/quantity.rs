@@ -2,7 +2,7 @@
 
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::limits::FRICTION;
-use crate::model::{Model, Setting, SettingKind};
+use crate::model::{Model, Setting, SettingKind, Settings};
 
 /// What follows the name of a coordinate whose rate is meant.
 const RATE: &str = ".rate";
@@ -67,7 +67,10 @@ impl Quantity {
         };
         let value = match self.kind {
             Kind::Friction => return factor(text),
-            Kind::Parameter(_) => model.setting_value(&setting(SettingKind::Parameter)),
+            Kind::Parameter(_) => {
+                dimension(model, &self.name, text)?;
+                model.setting_value(&setting(SettingKind::Parameter))
+            }
             Kind::Coordinate(_) => model.setting_value(&setting(SettingKind::Position)),
             Kind::Rate(_) => model.setting_value(&setting(SettingKind::Rate)),
             Kind::Time => model.setting_value(&setting(SettingKind::Time)),
@@ -93,6 +96,16 @@ impl Quantity {
             Kind::Friction => "1",
         }
     }
+}
+
+/// A parameter may be of any dimension, but what uses it may not.
+fn dimension(model: &Model, name: &str, text: &str) -> Result<(), AxisProblem> {
+    let Err(faults) = model.with(&Settings::default().parameter(name, text.trim())) else { return Ok(()) };
+    let wrong = |kind: &FaultKind| matches!(kind, FaultKind::WrongDimension { .. });
+    if faults.sorted().iter().any(|fault| wrong(&fault.kind)) {
+        return Err(AxisProblem::of(&faults));
+    }
+    Ok(())
 }
 
 /// A factor of all friction: a plain number, not below zero.

@@ -4,7 +4,7 @@ use super::columns::{Columns, Output};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::influence::Influence;
-use crate::kinetics::KineticEquations;
+use crate::kinetics::{Elimination, Influences, KineticEquations};
 use crate::mechanism::Mechanism;
 use crate::modes::screen::MOST_CONTACTS;
 use crate::solve::{preload_columns, sides, sliding_signs};
@@ -21,7 +21,6 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 #[derive(Debug, Clone)]
 pub(super) struct Stages {
     pub(super) configuration: Configuration,
-    pub(super) equations: KineticEquations,
     pub(super) influence: Influence,
     /// Signs of the sliding velocities.
     pub(super) signs: DVector<f64>,
@@ -43,7 +42,7 @@ pub(super) struct Stages {
 #[derive(Debug, Default)]
 pub(super) struct Trail {
     reached: Vec<Configuration>,
-    equations: Option<KineticEquations>,
+    elimination: Elimination,
 }
 
 impl Trail {
@@ -56,17 +55,13 @@ impl Trail {
             Some(configuration) => configuration,
             None => Configuration::new(mechanism).inspect_err(|_| self.reached.clear())?,
         };
+        let influences = match Influences::new(mechanism, &configuration, &mut self.elimination)? {
+            Some(influences) => influences,
+            None => KineticEquations::new(mechanism, &configuration)?.influences(),
+        };
         self.reached.insert(0, configuration.clone());
         self.reached.truncate(REMEMBERED);
-        let equations = match &self.equations {
-            Some(neighbour) => KineticEquations::near(mechanism, &configuration, neighbour)?,
-            None => KineticEquations::new(mechanism, &configuration)?,
-        };
-        let stages = Stages::new(mechanism, configuration, equations, columns);
-        if self.equations.is_none() {
-            self.equations = Some(stages.equations.clone());
-        }
-        Ok(stages)
+        Ok(Stages::new(mechanism, configuration, influences, columns))
     }
 }
 
@@ -74,10 +69,21 @@ impl Stages {
     fn new(
         mechanism: &Mechanism,
         configuration: Configuration,
-        equations: KineticEquations,
+        influences: Influences,
         columns: &Columns,
     ) -> Self {
-        let influence = Influence::new(&equations);
+        let outputs = |unknowns: &DVector<f64>, without_friction: bool| -> Vec<f64> {
+            let one = |output: &Output| match *output {
+                Output::Coordinate(index) => influences.coordinate(index, unknowns, without_friction),
+                Output::Unknown(place, sign) => sign * unknowns[place],
+            };
+            columns.outputs.iter().map(one).collect()
+        };
+        let frictionless = outputs(&influences.frictionless, true);
+        let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, false));
+        let per_force = influences.columns.iter().map(per_force).collect();
+        let (greatest_load, accuracy) = (influences.greatest_load, ROUNDING * influences.condition);
+        let influence = Influence::of(influences);
         let (eta, eta_preload) = if columns.contacts <= MOST_CONTACTS {
             let eta = sides(mechanism, &influence);
             let preload = preload_columns(mechanism, &eta);
@@ -88,31 +94,16 @@ impl Stages {
         } else {
             Default::default()
         };
-        let outputs = |unknowns: &DVector<f64>| -> Vec<f64> {
-            let one = |output: &Output| match *output {
-                Output::Coordinate(index) => equations.coordinate_part(index, unknowns),
-                Output::Unknown(place, sign) => sign * unknowns[place],
-            };
-            columns.outputs.iter().map(one).collect()
-        };
-        let mut frictionless = outputs(&influence.frictionless);
-        for (value, output) in frictionless.iter_mut().zip(&columns.outputs) {
-            if let Output::Coordinate(index) = output {
-                *value -= equations.coordinate_bias(*index);
-            }
-        }
-        let influences = influence.columns.iter().map(|column| column.each_ref().map(&outputs)).collect();
         Self {
             signs: sliding_signs(mechanism, &configuration),
             normal_forces: influence.normal_forces(),
             eta,
             eta_preload,
             frictionless,
-            influences,
-            greatest_load: equations.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
-            accuracy: ROUNDING * equations.condition(),
+            influences: per_force,
+            greatest_load,
+            accuracy,
             configuration,
-            equations,
             influence,
         }
     }

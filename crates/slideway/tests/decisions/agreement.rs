@@ -105,7 +105,6 @@ fn sliding_mechanisms_have_the_solutions_of_solve() {
             gaps += report.preload_gap_states.len();
         }
     }
-    println!("{compared} compared, {several} several, {none} none, {gaps} gaps");
     assert!(compared > 300 && several > 10 && none > 5 && gaps > 0, "{compared} {several} {none} {gaps}");
 }
 
@@ -185,7 +184,6 @@ fn mechanisms_at_rest_do_what_hold_says() {
             both += usize::from(report.holds && !report.releases.is_empty());
         }
     }
-    println!("{compared} compared, {held} held, {released} released, {both} both, {partly} partly");
     assert!(compared >= 120 && held > 20 && released > 20, "{compared} {held} {released} {both} {partly}");
 }
 

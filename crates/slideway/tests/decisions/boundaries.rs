@@ -188,6 +188,5 @@ fn what_follows_at_the_end_of_a_mode_is_what_brute_force_finds_a_little_later() 
             }
         }
     }
-    println!("{seen:?}");
     assert!(seen[0] > 50 && seen[1] > 20 && seen[2] > 3 && seen[3] > 3, "{seen:?}");
 }

@@ -273,7 +273,6 @@ fn small_friction_leaves_exactly_one_phase() {
             mixed += usize::from(sticks > 0 && sticks < one.phase.joints.len());
         }
     }
-    println!("{seen} seen, {sticking} with sticking joints, {mixed} with both");
     assert!(seen > 120 && mixed > 20 && sticking > 30, "{seen} {sticking} {mixed}");
 }
 
@@ -298,6 +297,5 @@ fn every_phase_obeys_mechanics_and_friction() {
             }
         }
     }
-    println!("{seen} seen, {sticking} with sticking joints");
     assert!(seen > 80 && sticking > 20, "{seen} {sticking}");
 }

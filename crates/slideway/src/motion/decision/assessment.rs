@@ -58,7 +58,8 @@ impl Assessment {
     }
 }
 
-/// A phase at an instant, or nothing if its equations contradict each other for all sides of its sticking contacts.
+/// A phase at an instant, with the sides of its sticking contacts that leave most slack; nothing if its equations
+/// contradict each other for all of them.
 ///
 /// # Errors
 /// If a linear program was not solved.
@@ -68,12 +69,29 @@ pub(super) fn assess(
     phase: &Phase,
     tolerance: f64,
 ) -> Result<Option<Assessment>, Unsolved> {
+    best_sides(instant, question, phase, (tolerance, f64::INFINITY))
+}
+
+/// The same, but no further sides are tried once an admissible state has this margin.
+///
+/// # Errors
+/// If a linear program was not solved.
+pub(super) fn best_sides(
+    instant: &Instant<'_>,
+    question: &Question<'_>,
+    phase: &Phase,
+    (tolerance, enough): (f64, f64),
+) -> Result<Option<Assessment>, Unsolved> {
     let mut best: Option<Assessment> = None;
     for sides in sticking_sides(instant, phase) {
         let phase = with_sides(phase, &sides);
         let Some(found) = assess_sides(instant, question, phase)? else { continue };
         if best.as_ref().is_none_or(|best| found.is_better_than(best, tolerance)) {
+            let done = found.margin >= enough && found.least() >= -tolerance;
             best = Some(found);
+            if done {
+                break;
+            }
         }
     }
     Ok(best)

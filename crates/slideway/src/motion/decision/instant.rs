@@ -17,6 +17,8 @@ const NO_INFLUENCE: f64 = 1e-13;
 const SAME: f64 = 1e-12;
 /// Mobilities that cancel to within this multiple of themselves are zero.
 const DEPENDENT: f64 = 1e-10;
+/// Accelerations below this, in units, are zero.
+const NO_ACCELERATION: f64 = 1e-10;
 
 /// Units in which the numbers of a decision are of order one.
 #[derive(Debug, Clone, Copy)]
@@ -132,32 +134,42 @@ impl<'m> Instant<'m> {
         self.units.force / self.units.acceleration
     }
 
-    /// Whether a joint cannot begin to slide while others are held: no force along its guide accelerates it.
+    /// Whether a joint does not accelerate while others are held, whatever forces act.
     ///
     /// With `A_ij` the acceleration of joint i under a unit force along the guide of joint j (in the middle of the block)
-    /// this is `A_jj - A_jH A_HH^-1 A_Hj = 0`, by elimination with complete pivoting among the held joints H.
+    /// and `a` those without friction this is `A_jj - A_jH A_HH^-1 A_Hj = 0` and `a_j - A_jH A_HH^-1 a_H = 0`, by elimination
+    /// with complete pivoting among the held joints H.
     pub(super) fn is_held(&self, joint: usize, held: &[usize]) -> bool {
         let joints: Vec<usize> = held.iter().copied().chain([joint]).collect();
-        let mut mobility =
-            DMatrix::from_fn(joints.len(), joints.len(), |i, j| self.mobility(joints[i], joints[j]));
-        let greatest = mobility.diagonal().amax();
-        let own = mobility[(joints.len() - 1, joints.len() - 1)].abs();
-        for step in 0..held.len() {
-            let rest = mobility.view((step, step), (held.len() - step, held.len() - step));
-            let (row, column) = rest.iamax_full();
-            if rest[(row, column)].abs() <= DEPENDENT * greatest {
-                break;
-            }
-            mobility.swap_rows(step, step + row);
-            mobility.swap_columns(step, step + column);
-            for other in step + 1..joints.len() {
-                let factor = mobility[(other, step)] / mobility[(step, step)];
-                for k in step..joints.len() {
-                    mobility[(other, k)] -= factor * mobility[(step, k)];
-                }
-            }
-        }
-        mobility[(joints.len() - 1, joints.len() - 1)].abs() <= DEPENDENT * own.max(DEPENDENT * greatest)
+        let last = held.len();
+        let mut matrix = self.mobilities(&joints);
+        let greatest = matrix.columns(0, joints.len()).amax();
+        let own = matrix[(last, last)].abs();
+        eliminate(&mut matrix, held.len(), DEPENDENT * greatest);
+        let rest = matrix[(last, last)].abs();
+        rest <= DEPENDENT * own.max(DEPENDENT * greatest) && matrix[(last, last + 1)].abs() <= NO_ACCELERATION
+    }
+
+    /// The number of joints whose motion depends on that of the others among them.
+    pub(super) fn dependent(&self, joints: &[usize]) -> usize {
+        let mut matrix = self.mobilities(joints);
+        let greatest = matrix.columns(0, joints.len()).amax();
+        joints.len() - eliminate(&mut matrix, joints.len(), DEPENDENT * greatest)
+    }
+
+    /// Whether two joints that begin to slide can do so with these signs: where the motion of one depends on that of the
+    /// other the signs must agree.
+    pub(super) fn can_begin_together(&self, [one, other]: [(usize, f64); 2]) -> bool {
+        let ratio = self.mobility(other.0, one.0) * self.mobility(one.0, one.0);
+        !self.is_held(other.0, &[one.0]) || ratio * one.1 * other.1 >= 0.0
+    }
+
+    /// Mobilities between joints, and in the last column their accelerations without friction.
+    fn mobilities(&self, joints: &[usize]) -> DMatrix<f64> {
+        DMatrix::from_fn(joints.len(), joints.len() + 1, |i, j| match joints.get(j) {
+            Some(pushed) => self.mobility(joints[i], *pushed),
+            None => self.outputs.base[self.sliding_output(joints[i])],
+        })
     }
 
     /// Acceleration of a sliding joint under a unit force along the guide of another one, in units.
@@ -189,6 +201,26 @@ impl<'m> Instant<'m> {
         let guided = self.joints.iter().filter(|joint| joint.couple.is_some());
         guided.enumerate().map(move |(index, joint)| (first + index, joint))
     }
+}
+
+/// Eliminates the leading square block of so many rows from all rows, with complete pivoting; its rank.
+fn eliminate(matrix: &mut DMatrix<f64>, block: usize, zero: f64) -> usize {
+    for step in 0..block {
+        let rest = matrix.view((step, step), (block - step, block - step));
+        let (row, column) = rest.iamax_full();
+        if rest[(row, column)].abs() <= zero {
+            return step;
+        }
+        matrix.swap_rows(step, step + row);
+        matrix.swap_columns(step, step + column);
+        for other in step + 1..matrix.nrows() {
+            let factor = matrix[(other, step)] / matrix[(step, step)];
+            for k in step..matrix.ncols() {
+                matrix[(other, k)] -= factor * matrix[(step, k)];
+            }
+        }
+    }
+    block
 }
 
 fn wrong_count(what: &'static str, expected: usize, found: usize) -> Result<(), Faults> {

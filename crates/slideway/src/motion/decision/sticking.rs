@@ -1,7 +1,7 @@
 //! How much friction is left to joints that stick.
 
 use super::BOUNDARY;
-use super::assessment::assess;
+use super::assessment::{assess, best_sides};
 use super::instant::Instant;
 use super::state::{PhaseState, state};
 use crate::configuration::Configuration;
@@ -11,6 +11,8 @@ use crate::motion::Phase;
 
 /// The margin where no distribution of forces is admissible whatever the friction, or none was found.
 const NONE: f64 = -1.0;
+/// A margin from which on other sides of the contacts that stick are not tried.
+const ENOUGH: f64 = 0.01;
 
 /// A phase with joints that stick.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +36,8 @@ pub struct Sticking {
 ///
 /// at every contact of the joints that stick, `f` being the greatest force of the instant (load, preload or
 /// inertia). It is the greatest over all sides of these contacts and varies continuously with the state, as long as
-/// the sides of contacts that slide do not change. At an instant at which a contact of a joint that sticks is without
+/// the sides of contacts that slide do not change; but if the sides of `phase` leave at least 0.01, others, which could
+/// leave more, are not tried. At an instant at which a contact of a joint that sticks is without
 /// load and preload the margin is zero without becoming negative. It is infinite where no joint sticks, and -1 where
 /// the joints cannot all stick at their velocities, or a linear program was not solved. When it reaches zero,
 /// [`successors`](super::successors) says which joint slips which way.
@@ -49,7 +52,7 @@ pub fn sticking_margin(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let found = assess(&instant, &instant.question(&stopped), phase, BOUNDARY);
+    let found = best_sides(&instant, &instant.question(&stopped), phase, (BOUNDARY, ENOUGH));
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
 

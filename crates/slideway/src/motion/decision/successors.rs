@@ -6,7 +6,7 @@ use super::growth::standing;
 use super::instant::Instant;
 use super::state::{PhaseState, is_same_phase, state};
 use super::system::{Question, Subject};
-use super::{BOUNDARY, Limit, MOST_STATES, Standing};
+use super::{BOUNDARY, MOST_STATES, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
@@ -132,9 +132,6 @@ impl Search<'_> {
             }
             let at = (self.instant, &question, &assessment);
             let Some(standing) = standing(self.mechanism, self.configuration, at) else { continue };
-            if self.slips_though_held(&standing, &assessment.phase) {
-                continue;
-            }
             found.list.extend(self.successor(&question, &assessment, standing, before.as_ref()));
         }
         let follows_unattainable = self.previous.is_some_and(|previous| self.is_unattainable(previous));
@@ -164,7 +161,7 @@ impl Search<'_> {
             return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
         }
         let mut all = Vec::new();
-        for joints in combinations(&joints) {
+        for joints in combinations(&joints).into_iter().filter(|joints| self.can_begin(joints)) {
             let sticks = |k: usize| {
                 self.instant.joint_of(k).is_some_and(|joint| joints[joint] == JointPhase::Sticking)
             };
@@ -183,14 +180,24 @@ impl Search<'_> {
         Ok(all)
     }
 
-    /// Whether some joint should begin to slip, but does not accelerate because its motion depends on that of drives and
-    /// of joints that stick.
-    fn slips_though_held(&self, standing: &Standing, phase: &Phase) -> bool {
-        let Standing::Undecided(limits) = standing else { return false };
+    /// Whether the joints that begin to slip can do so: none depends on joints that stick, and those that depend on one
+    /// another slip in the senses that belong together.
+    fn can_begin(&self, joints: &[JointPhase]) -> bool {
         let held: Vec<usize> =
-            (0..phase.joints.len()).filter(|&joint| phase.joints[joint] == JointPhase::Sticking).collect();
-        let slips = |joint: &usize| limits.contains(&Limit::Slip(self.instant.joints[*joint].id));
-        (0..phase.joints.len()).filter(slips).any(|joint| self.instant.is_held(joint, &held))
+            (0..joints.len()).filter(|&joint| joints[joint] == JointPhase::Sticking).collect();
+        let begins = |joint: usize| match joints[joint] {
+            JointPhase::Sliding(sign) if self.instant.joints[joint].has_friction => {
+                (self.stopped[joint] || self.velocity(joint).zero).then_some((joint, sign))
+            }
+            _ => None,
+        };
+        let slipping: Vec<(usize, f64)> = (0..joints.len()).filter_map(begins).collect();
+        let mut pairs = slipping
+            .iter()
+            .enumerate()
+            .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
+        !slipping.iter().any(|(joint, _)| self.instant.is_held(*joint, &held))
+            && pairs.all(|pair| self.instant.can_begin_together(pair))
     }
 
     fn joint_options(&self, joint: usize) -> Vec<JointPhase> {

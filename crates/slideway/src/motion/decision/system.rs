@@ -125,9 +125,12 @@ impl<'s> System<'s> {
         self.solutions.directions.ncols()
     }
 
-    /// Whether some equations follow from others, so that they could contradict each other at another instant.
+    /// Whether some equations follow from others by chance, so that they could contradict each other at another instant:
+    /// not because joints that stick depend on one another.
     pub(super) fn is_redundant(&self) -> bool {
-        self.pressure.len() + self.stuck_joints().len() > self.unknowns - self.dimension()
+        let stuck = self.stuck_joints();
+        let excess = self.pressure.len() + stuck.len() - (self.unknowns - self.dimension());
+        excess > 0 && excess > self.instant.dependent(&stuck)
     }
 
     fn joint(&self, k: usize) -> JointPhase {

@@ -1,0 +1,223 @@
+//! Tables of sweeps: what is in them, and what becomes of them when something goes wrong.
+
+#![allow(clippy::unwrap_used)]
+
+mod command;
+
+use command::{command, slideway};
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+const KLEPP: [&str; 4] = ["sweep", "models/klepp-2002.toml", "--set", "F_20=0"];
+const DRAWER: &str = "models/drawer.toml";
+
+fn path(folder: &tempfile::TempDir, name: &str) -> (PathBuf, String) {
+    let path = folder.path().join(name);
+    let text = path.to_str().unwrap().to_owned();
+    (path, text)
+}
+
+fn sweep(arguments: &[&str]) -> command::Run {
+    slideway(&[&KLEPP, arguments].concat())
+}
+
+/// The lines of a table without comments.
+fn lines(table: &str) -> Vec<&str> {
+    table.lines().filter(|line| !line.starts_with('#')).collect()
+}
+
+#[test]
+fn a_table_tells_of_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, name) = path(&folder, "klepp.csv");
+    let run = sweep(&["--vary", "mu_1=0..0.8:801", "--output", &name]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    insta::with_settings!({ omit_expression => true }, {
+        insta::assert_snapshot!("summary", run.stdout);
+    });
+    let table = fs::read_to_string(&path).unwrap();
+    assert!(table.contains("# slideway sweep models/klepp-2002.toml --set F_20=0 --vary mu_1=0..0.8:801"));
+    for line in fs::read_to_string(command::top().join("models/klepp-2002.toml")).unwrap().lines() {
+        assert!(line.is_empty() || table.contains(&format!("#   {line}\n")), "{line}");
+    }
+    let lines = lines(&table);
+    let names: Vec<&str> = lines[0].split(',').collect();
+    assert_eq!(&names[..3], ["point", "mu_1", "breakpoint"]);
+    assert!(lines[1..].iter().all(|line| line.split(',').count() == names.len()));
+    let points: Vec<f64> =
+        lines[1..].iter().map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert!(points.is_sorted() && points.contains(&0.453) && points.contains(&0.8));
+    assert!(!folder.path().join("klepp.csv.partial").exists());
+}
+
+/// The archive by a reader that checks sizes and checksums; its numbers are those of the CSV table.
+#[test]
+fn both_forms_hold_the_same_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let (csv, csv_name) = path(&folder, "klepp.csv");
+    let (npz, npz_name) = path(&folder, "klepp.npz");
+    for name in [&csv_name, &npz_name] {
+        assert_eq!(sweep(&["--vary", "mu_1=0..0.8:81", "--output", name]).code, 0);
+    }
+    let mut archive = zip::ZipArchive::new(fs::File::open(&npz).unwrap()).unwrap();
+    let mut rows = Vec::new();
+    archive.by_name("rows.npy").unwrap().read_to_end(&mut rows).unwrap();
+    for name in ["names.npy", "units.npy", "model.npy", "command.npy", "program.npy"] {
+        let mut content = Vec::new();
+        archive.by_name(name).unwrap().read_to_end(&mut content).unwrap();
+        assert!(content.starts_with(b"\x93NUMPY"), "{name}");
+    }
+    let length = u32::from_le_bytes(rows[8..12].try_into().unwrap()) as usize;
+    let header = String::from_utf8(rows[12..12 + length].to_vec()).unwrap();
+    let table = fs::read_to_string(&csv).unwrap();
+    let lines = lines(&table);
+    assert!(header.contains(&format!("'shape': ({},)", lines.len() - 1)), "{header}");
+    let records = &rows[12 + length..];
+    let size = records.len() / (lines.len() - 1);
+    assert_eq!(size * (lines.len() - 1), records.len());
+    for (record, line) in records.chunks_exact(size).zip(&lines[1..]) {
+        let fields: Vec<&str> = line.split(',').collect();
+        assert_eq!(u64::from_le_bytes(record[..8].try_into().unwrap()).to_string(), fields[0]);
+        let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().unwrap());
+        assert_eq!(number(&record[8..16]), fields[1].parse::<f64>().unwrap());
+        let last = number(&record[size - 8..]);
+        match fields.last().unwrap().parse::<f64>() {
+            Ok(value) => assert_eq!(last, value),
+            Err(_) => assert!(last.is_nan()),
+        }
+    }
+}
+
+/// NumPy and pandas, where they are installed.
+#[test]
+fn numpy_reads_the_archive() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, name) = path(&folder, "klepp.npz");
+    assert_eq!(sweep(&["--vary", "mu_1=0..0.8:81", "--output", &name]).code, 0);
+    let script = "import sys, numpy; z = numpy.load(sys.argv[1]); r = z['rows']; \
+        print(len(numpy.unique(r['point'])), r['pattern'][0].decode(), str(z['command'])[:14], \
+        '[bodies.bar]' in str(z['model']))";
+    let output = Command::new("python3").args(["-c", script, &name]).output();
+    let Ok(output) = &output else { return eprintln!("skipped: no Python") };
+    if String::from_utf8_lossy(&output.stderr).contains("No module named 'numpy'") {
+        return eprintln!("skipped: no NumPy");
+    }
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    assert!(text.ends_with("slideway sweep True\n"), "{text}{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// A run that is interrupted while it works, and goes on.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_goes_on_with_the_same_bytes() {
+    for ending in ["csv", "npz"] {
+        let folder = tempfile::tempdir().unwrap();
+        let (whole, whole_name) = path(&folder, &format!("whole.{ending}"));
+        let (target, name) = path(&folder, &format!("table.{ending}"));
+        let partial = folder.path().join(format!("table.{ending}.partial"));
+        let vary = "mu_1=0..0.8:150001";
+        let arguments = |name: &str| [&KLEPP[..], &["--vary", vary, "--output", name]].concat().join(" ");
+        let start = |name: &str, more: &[&str]| {
+            let mut all: Vec<String> = arguments(name).split(' ').map(str::to_owned).collect();
+            all.extend(more.iter().map(|word| (*word).to_owned()));
+            let words: Vec<&str> = all.iter().map(String::as_str).collect();
+            command(&words).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+        };
+        assert!(start(&whole_name, &[]).wait().unwrap().success());
+        let mut child = start(&name, &[]);
+        let begun = Instant::now();
+        while fs::metadata(&partial).map_or(0, |file| file.len()) < 200_000
+            && begun.elapsed() < Duration::from_secs(60)
+        {
+            sleep(Duration::from_millis(2));
+        }
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        let code = child.wait().unwrap().code();
+        let mut said = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        assert_eq!(code, Some(130), "{said}");
+        assert!(said.contains("--resume goes on"), "{said}");
+        assert!(partial.exists() && !target.exists());
+
+        // Another command, and the same one without --resume, are refused.
+        let other = sweep(&["--vary", "mu_1=0..0.7:150001", "--output", &name, "--resume"]);
+        assert_eq!(other.code, 2);
+        assert!(other.stderr.contains("belongs to another sweep"), "{}", other.stderr);
+        let again = sweep(&["--vary", vary, "--output", &name]);
+        assert!(again.code == 2 && again.stderr.contains("unfinished sweep"), "{}", again.stderr);
+
+        assert!(start(&name, &["--resume"]).wait().unwrap().success());
+        let same = |one: &Path, other: &Path| fs::read(one).unwrap() == fs::read(other).unwrap();
+        if ending == "csv" {
+            // The commands differ in the name of the file.
+            let [one, other] = [&whole, &target].map(|path| fs::read_to_string(path).unwrap());
+            assert!(lines(&one) == lines(&other));
+        }
+        let mut renamed = folder.path().join("again");
+        fs::create_dir(&renamed).unwrap();
+        renamed.push(format!("first.{ending}"));
+        fs::rename(&target, &renamed).unwrap();
+        assert!(start(&name, &[]).wait().unwrap().success());
+        assert!(same(&renamed, &target), "{ending}");
+        assert!(!partial.exists());
+    }
+}
+
+#[test]
+fn what_exists_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, name) = path(&folder, "drawer.csv");
+    fs::write(&path, "mine").unwrap();
+    let arguments = ["sweep", DRAWER, "--vary", "mu=0.1,0.2", "--output", &name];
+    let run = slideway(&arguments);
+    assert!(run.code == 2 && run.stderr.contains("exists already"), "{}", run.stderr);
+    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+    assert_eq!(slideway(&[&arguments[..], &["--force"]].concat()).code, 0);
+    assert!(fs::read_to_string(&path).unwrap().contains("normal_force.guide.front"));
+    let nothing = slideway(&[&arguments[..], &["--force", "--resume"]].concat());
+    assert!(nothing.code == 2 && nothing.stderr.contains("no sweep to go on with"), "{}", nothing.stderr);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let run =
+        slideway(&["sweep", DRAWER, "--vary", "mu=0..0.5:2001", "--format", "csv", "--output", "/dev/full"]);
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("cannot be written: no space left on device"), "{}", run.stderr);
+}
+
+#[test]
+fn standard_output_gets_a_table() {
+    let run = slideway(&["sweep", DRAWER, "--vary", "mu=0.1,0.2,0.7"]);
+    assert_eq!(run.code, 0);
+    let lines = lines(&run.stdout);
+    assert_eq!(lines.len(), 4);
+    assert!(lines[3].starts_with("2,0.7,,none,0,0,0,,,,"), "{}", lines[3]);
+    assert!(run.stderr.contains("3 points"), "{}", run.stderr);
+}
+
+#[test]
+fn bad_arguments_are_told() {
+    let cases: [(&[&str], &str); 7] = [
+        (&["--vary", "mu=0.8..0:11"], "reversed"),
+        (&["--vary", "mu=0..0.8"], "how many values"),
+        (&["--vary", "mu=0..abc:3"], "unknown name `abc`"),
+        (&["--vary", "mu=0..1:3", "--vary", "mu=0,1"], "varied twice"),
+        (&["--vary", "mu=0..1:3", "--output", "table.xlsx"], "does not tell the form"),
+        (&["--vary", "mu=0..1:3", "--format", "npz"], "only be written to a file"),
+        (&["--vary", "mu=normal(0.3, 0.1)"], "no samples"),
+    ];
+    for (arguments, part) in cases {
+        let run = slideway(&[&["sweep", DRAWER], arguments].concat());
+        assert_eq!(run.code, 2, "{arguments:?}");
+        assert!(run.stderr.contains(part), "{arguments:?}: {}", run.stderr);
+    }
+    // The same text was a panic of `limits`.
+    let run = slideway(&["limits", DRAWER, "--vary", "mu=0..abc"]);
+    assert!(run.code == 2 && run.stderr.contains("unknown name `abc`"), "{}", run.stderr);
+}

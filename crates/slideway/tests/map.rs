@@ -1,0 +1,175 @@
+//! Maps: against dense grids, against certified solutions, and against boundaries in closed form.
+
+use slideway::fault::{FaultKind, Faults};
+use slideway::gallery;
+use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map};
+use slideway::model::{Model, Settings};
+use slideway::solve::solve;
+
+fn model(name: &str, settings: &[(&str, &str)]) -> Model {
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    Model::parse(gallery::find(name).expect("in the gallery").text)
+        .and_then(|model| model.with(&settings))
+        .expect("a sound model")
+}
+
+fn options(x: &str, y: &str, [width, height]: [usize; 2], colour_by: ColourBy) -> MapOptions {
+    MapOptions { width, height, colour_by, ..MapOptions::of(x, y) }
+}
+
+fn mapped(model: &Model, options: &MapOptions) -> MapReport {
+    map(model, options).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// The value in the middle of a pixel.
+fn middle(range: [f64; 2], pixel: usize, pixels: usize) -> f64 {
+    range[0] + (pixel as f64 + 0.5) / pixels as f64 * (range[1] - range[0])
+}
+
+#[test]
+fn refined_maps_are_those_of_dense_grids() {
+    let klepp = model("klepp-2002", &[]);
+    let crank = model("slider-crank", &[]);
+    let free = model("klepp-2002", &[("F_20", "0")]);
+    let planes = [
+        (&klepp, "mu_1=0..0.8", "mu_2=0..0.4"),
+        (&klepp, "mu_1=0..0.8", "F_20=0..15"),
+        (&klepp, "mu_1=0..0.8", "alpha=60 deg..88 deg"),
+        (&crank, "phi=-175 deg..175 deg", "mu=0..1.5"),
+    ];
+    for (model, x, y) in planes {
+        for colour_by in [ColourBy::Solutions, ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
+            // With the preload, margins have a sliver narrower than a pixel, of which only pieces meet middles of pixels.
+            let has_sliver = colour_by == ColourBy::Margin && !std::ptr::eq(model, &crank);
+            let model = if has_sliver { &free } else { model };
+            if has_sliver && y.starts_with("F_20") {
+                continue;
+            }
+            let refined = mapped(model, &options(x, y, [96, 80], colour_by));
+            let dense = mapped(model, &MapOptions { probe: 1, ..options(x, y, [96, 80], colour_by) });
+            assert_eq!(dense.points, 96 * 80);
+            assert!(refined.points < dense.points, "{x} {y} {colour_by:?}: {} points", refined.points);
+            assert_eq!(refined.classes, dense.classes, "{x} {y} {colour_by:?}");
+            assert_eq!(refined.rows, dense.rows, "{x} {y} {colour_by:?}");
+        }
+    }
+}
+
+#[test]
+fn classes_are_the_numbers_of_certified_solutions() {
+    let klepp = model("klepp-2002", &[]);
+    let (size, ranges) = ([13, 11], [[0.0, 0.8], [0.0, 15.0]]);
+    let options = options("mu_1=0..0.8", "F_20=0 N..15 N", size, ColourBy::Solutions);
+    let report = mapped(&klepp, &MapOptions { probe: 1, ..options });
+    for j in 0..size[1] {
+        for i in 0..size[0] {
+            let [x, y] = [middle(ranges[0], i, size[0]), middle(ranges[1], j, size[1])];
+            let settings =
+                Settings::default().parameter("mu_1", &x.to_string()).parameter("F_20", &y.to_string());
+            let answer = solve(&klepp.with(&settings).expect("sound")).expect("solvable");
+            let meaning = &report.classes[report.class_at(i, j)].meaning;
+            let expected = ClassMeaning::Solutions {
+                solutions: answer.solutions.len(),
+                preload_gap_states: answer.preload_gap_states.len(),
+            };
+            assert_eq!(*meaning, expected, "mu_1 = {x}, F_20 = {y}");
+        }
+    }
+}
+
+/// Klepp (2002), section 7: without preload and moving to the right there are two solutions beyond mu_1 = 0.45265396,
+/// numerically 2 cot(alpha) + 0.1, for mu_2 = mu_3 = 0.1.
+#[test]
+fn the_boundary_is_the_locking_value_to_the_pixel() {
+    let klepp = model("klepp-2002", &[("F_20", "0")]);
+    let pixels = 400;
+    // The middle of row 50 is mu_2 = 0.1.
+    let report =
+        mapped(&klepp, &options("mu_1=0..0.8", "mu_2=0.05..0.15", [pixels, 101], ColourBy::Solutions));
+    let locking = 2.0 / 80.0_f64.to_radians().tan() + 0.1;
+    assert!((locking - 0.452_653_96).abs() < 5e-9);
+    for column in 0..pixels {
+        let solutions = if middle([0.0, 0.8], column, pixels) < locking { 1 } else { 2 };
+        let expected = ClassMeaning::Solutions { solutions, preload_gap_states: 0 };
+        assert_eq!(report.classes[report.class_at(column, 50)].meaning, expected, "column {column}");
+    }
+}
+
+/// docs/src/limits.md: N (L - 2 mu a) = Q a, so that the drawer locks at mu = L / (2 a). If all friction grows by a
+/// factor it does so at L / (2 a mu).
+#[test]
+fn a_drawer_locks_where_its_guide_is_too_short() {
+    let drawer = model("drawer", &[]);
+    let (size, ranges) = ([83, 67], [[0.0, 1.0], [0.2, 0.5]]);
+    let locked = |report: &MapReport, i, j| report.classes[report.class_at(i, j)].meaning.clone();
+    let (x, y) = ("mu=0..1", "L=200 mm..500 mm");
+    let number = mapped(&drawer, &options(x, y, size, ColourBy::Solutions));
+    let margin = mapped(&drawer, &options(x, y, size, ColourBy::Margin));
+    assert_eq!((&*number.y.unit, number.y.scale), ("mm", 1e-3));
+    for j in 0..size[1] {
+        for i in 0..size[0] {
+            let [mu, length] = [middle(ranges[0], i, size[0]), middle(ranges[1], j, size[1])];
+            let factor = length / (2.0 * 0.3 * mu);
+            let one = ClassMeaning::Solutions { solutions: 1, preload_gap_states: 0 };
+            assert_eq!(locked(&number, i, j), if factor > 1.0 { one } else { ClassMeaning::Locked });
+            match locked(&margin, i, j) {
+                ClassMeaning::Locked => assert!(factor <= 1.0, "mu = {mu}, L = {length}"),
+                ClassMeaning::Margin { from, to } => {
+                    assert!(
+                        from <= factor && factor < to.unwrap_or(f64::INFINITY),
+                        "mu = {mu}, L = {length}"
+                    );
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
+
+/// The rod of the slider-crank (crank 50 mm) reaches the line of the piston where r sin(phi) < l. Up to 90 degrees the way
+/// from the drawing at 60 degrees, along which the mechanism is led, is then open, too.
+#[test]
+fn points_that_cannot_be_assembled_have_a_class() {
+    let crank = model("slider-crank", &[]);
+    let options = options("phi=20 deg..90 deg", "l=45 mm..90 mm", [60, 60], ColourBy::Solutions);
+    let report = mapped(&crank, &options);
+    let words: Vec<&str> = report.classes.iter().map(|class| &*class.words).collect();
+    assert!(words.contains(&"cannot be assembled"), "{words:?}");
+    for j in 0..60 {
+        for i in 0..60 {
+            let phi = middle([20.0, 90.0], i, 60).to_radians();
+            let (length, reach) = (middle([0.045, 0.09], j, 60), 0.05 * phi.sin());
+            let is_refused = words[report.class_at(i, j)] == "cannot be assembled";
+            assert_eq!(is_refused, length < reach, "phi = {phi}, l = {length}");
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    let klepp = model("klepp-2002", &[]);
+    let options = options("mu_1=0..0.8", "alpha=60 deg..88 deg", [101, 67], ColourBy::Modes);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| mapped(&klepp, &options))
+    };
+    let one = with(1);
+    assert!(one.classes.len() > 3);
+    assert_eq!(one, with(3));
+}
+
+#[test]
+fn nonsense_is_refused() {
+    let klepp = model("klepp-2002", &[]);
+    let faults = |x: &str, y: &str| -> Faults { map(&klepp, &MapOptions::of(x, y)).expect_err("refused") };
+    let kind = |x: &str, y: &str| faults(x, y).sorted()[0].kind.clone();
+    assert!(matches!(kind("mu_1=0..0.8", "mu_1=0..1"), FaultKind::SameAxes { .. }));
+    assert!(matches!(kind("mu_1=0.5..0.5", "mu_2=0..1"), FaultKind::EmptyRange { .. }));
+    assert!(matches!(kind("mu_1=0..1", "mu_2=1..0"), FaultKind::ReversedRange { .. }));
+    assert!(matches!(kind("mu_1", "mu_2=0..1"), FaultKind::RangeNeeded { .. }));
+    assert!(matches!(kind("mu_1=0..1", "k=0..1"), FaultKind::NothingVaries { .. }));
+    let unknown = kind("mu_9=0..1", "mu_2=0..1");
+    assert!(matches!(unknown, FaultKind::UnknownName { nearest: Some(_), .. }), "{unknown:?}");
+    // Both axes are judged at once.
+    assert_eq!(faults("mu_9=0..1", "mu_2=1..0").sorted().len(), 2);
+}
