@@ -361,9 +361,6 @@ pub enum FaultKind {
     NoDirectionAtRest,
     #[error("the model has no drives, so no effort is unknown")]
     NoDrives { coordinate: Option<String> },
-    // Motion.
-    #[error("the motion cannot begin in the contact mode that is prescribed")]
-    ContradictoryPhase,
 
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]

@@ -46,7 +46,7 @@ pub(super) fn html(animation: &Animation) -> String {
         out,
         "<p><button id=\"play\">pause</button> <input id=\"time\" type=\"range\" min=\"0\" max=\"{}\" value=\"0\" \
          aria-label=\"time\"> <span id=\"clock\"></span>, mode <span class=\"mode\" id=\"mode\"></span></p>\n\
-         <p>{}. Guides are widened so that the contact modes can be seen. Blue: normal reactions on the blocks; red: friction.</p>\n\
+         <p>{}. Guides are widened so that the contact modes can be seen. Arrows: normal reactions and friction on the blocks, loads, and sliding velocities.</p>\n\
          <ol id=\"log\"></ol>",
         animation.frames.len().saturating_sub(1),
         speed(animation)
@@ -71,7 +71,7 @@ const SCRIPT: &str = r#"const element = id => document.getElementById(id);
 const log = element("log");
 for (const [time, words] of events) {
   const line = document.createElement("li");
-  line.textContent = time.toPrecision(6) + " s  " + words;
+  line.textContent = time.toFixed(5) + " s  " + words;
   line.onclick = () => { playing = false; show(frames.findIndex(frame => frame[0] >= time)); };
   log.append(line);
 }
@@ -91,7 +91,7 @@ function show(index) {
     if (past) last = line;
   });
   if (last) {
-    last.className = "now";
+    last.className = "past now";
     log.scrollTop = last.offsetTop - log.offsetTop - log.clientHeight / 2;
   }
 }

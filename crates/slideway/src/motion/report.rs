@@ -1,11 +1,12 @@
 //! What is told of a motion: plain data, which are the JSON output.
 
+use super::energy::{kinetic, potential};
 use super::event::Event;
 use super::history::{End, Energy, History};
 use super::options::SimulateOptions;
 use super::phase::JointPhase;
 use super::series::Series;
-use crate::configuration::unit;
+use crate::configuration::{Configuration, unit};
 use crate::report::number::number;
 use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
 use serde::Serialize;
@@ -185,8 +186,8 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         start: history.start(),
         until: history.start() + options.duration,
         stop: history.stop(),
-        initial: state(history, history.start()),
-        last: state(history, history.stop()),
+        initial: state(history, &history.initial),
+        last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
         events: history.events.iter().map(|event| event_report(history, event)).collect(),
         phases: phases(history),
         end: end_report(history, options),
@@ -203,9 +204,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     }
 }
 
-fn state(history: &History, time: f64) -> Vec<CoordinateState> {
-    let mut reader = history.reader();
-    let configuration = reader.configuration(time).unwrap_or(&history.initial);
+fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateState> {
     let values = configuration.coordinates.iter().zip(&configuration.rates);
     let coordinates = history.mechanism.coordinates.iter().zip(values);
     coordinates
@@ -370,10 +369,10 @@ fn first(faults: &crate::fault::Faults) -> String {
 
 fn energy(history: &History) -> EnergyReport {
     let mechanism = &history.mechanism;
-    let mut reader = history.reader();
-    let mut at = |time| reader.at(time).map(|sample| sample.energy);
-    let [start, stop] = [history.start(), history.stop()].map(&mut at);
-    let energies = |of: fn(&Energy) -> f64| [&start, &stop].map(|energy| energy.as_ref().map_or(0.0, of));
+    let stop = history.reader().at(history.stop()).map(|sample| sample.energy);
+    let last = |of: fn(&Energy) -> f64| stop.as_ref().map_or(0.0, of);
+    // Before any impulse at the start.
+    let initial = &history.initial;
     let named = |names: Vec<String>, of: fn(&Energy) -> &[f64]| {
         let values = stop.as_ref().map_or(&[][..], of);
         names.into_iter().zip(values).map(|(name, value)| Named { name, value: *value }).collect()
@@ -382,12 +381,12 @@ fn energy(history: &History) -> EnergyReport {
     let loads = mechanism.loads.iter().map(|load| load.name.to_string()).collect();
     let drives = mechanism.drives.iter().map(|drive| drive.name.to_string()).collect();
     EnergyReport {
-        kinetic: energies(|energy| energy.kinetic),
-        potential: energies(|energy| energy.potential),
+        kinetic: [kinetic(mechanism, initial), last(|energy| energy.kinetic)],
+        potential: [potential(mechanism, initial), last(|energy| energy.potential)],
         friction: named(contacts, |energy| &energy.friction),
         loads: named(loads, |energy| &energy.loads),
         drives: named(drives, |energy| &energy.drives),
-        impulses: energies(|energy| energy.impulses)[1],
+        impulses: last(|energy| energy.impulses),
         error: history.energy_error,
         relative_error: if history.energy_scale > 0.0 {
             history.energy_error / history.energy_scale
