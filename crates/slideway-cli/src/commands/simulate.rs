@@ -5,7 +5,7 @@ use crate::arguments::{CheckFormat, Destination, Preference, SimulateArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
-use crate::picture::{Picture, SHARPNESS, beside};
+use crate::picture::{Picture, beside};
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
@@ -231,7 +231,7 @@ impl<'a> Files<'a> {
         if let Some((picture, output)) = &self.plot {
             let portrait = self.arguments.phase_portrait;
             let figure = if portrait { portrait_figure(history) } else { motion_figure(history) };
-            picture.write(&to_svg(&figure, theme), SHARPNESS, output)?;
+            picture.write(&to_svg(&figure, theme), output)?;
         }
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
