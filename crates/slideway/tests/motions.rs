@@ -210,8 +210,7 @@ impl SpringGuides {
         let normal =
             [spring(y + sin - 80_f64.to_radians().sin(), y_rate + cos * turning), end(0.1), end(-0.1)];
         let slides = [x_rate - sin * turning, x_rate, x_rate];
-        let friction: [f64; 3] =
-            std::array::from_fn(|k| -self.mu[k] * normal[k].abs() * slides[k].signum());
+        let friction: [f64; 3] = std::array::from_fn(|k| -self.mu[k] * normal[k].abs() * slides[k].signum());
         // Spring and damper between S and the wall 2 m to its left, and the force at S.
         let (s0, c0) = 80_f64.to_radians().sin_cos();
         let to_s = [x + cos / 2.0 - (c0 / 2.0 - 2.0), y + sin / 2.0 - s0 / 2.0];

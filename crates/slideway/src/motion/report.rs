@@ -347,14 +347,18 @@ fn finished(history: &History, time: &str) -> String {
         let joints = &interval.phase.joints;
         !joints.is_empty() && joints.iter().all(|joint| *joint == JointPhase::Sticking)
     };
+    let jams = history.events.iter().flat_map(|event| &event.causes);
+    let jams = match jams.filter(|cause| matches!(cause, super::Cause::Jams { .. })).count() {
+        0 => String::new(),
+        1 => " It has jammed once.".to_owned(),
+        count => format!(" It has jammed {count} times."),
+    };
     match history.phases.last() {
         Some(interval) if at_rest(interval) => {
-            format!(
-                "At {time} s the time is over; since {} s all sliding joints have stuck.",
-                number(interval.from)
-            )
+            let from = number(interval.from);
+            format!("At {time} s the time is over; since {from} s all sliding joints have stuck.{jams}")
         }
-        _ => format!("At {time} s the time is over; it is still moving."),
+        _ => format!("At {time} s the time is over; it is still moving.{jams}"),
     }
 }
 

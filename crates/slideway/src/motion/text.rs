@@ -7,6 +7,8 @@ use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Style, Verdict, count, spaced};
 
+/// Energies below this part of the greatest are rounding.
+const LITTLE: f64 = 1e-13;
 /// Of longer logs so many events are told from the beginning, ...
 const FIRST: usize = 40;
 /// ... and so many from the end.
@@ -136,7 +138,7 @@ impl Page<'_, SimulateReport> {
             [energy.kinetic, energy.potential].map(|[start, stop]| vec![shown(start), shown(stop)]);
         let mut rows = vec![row("kinetic", kinetic), row("potential", potential)];
         let mut add = |what: &str, list: &[Named]| {
-            for Named { name, value } in list.iter().filter(|named| named.value != 0.0) {
+            for Named { name, value } in list.iter().filter(|named| named.value.abs() > LITTLE * greatest) {
                 rows.push(row(&format!("{what} {name}"), vec![String::new(), number(*value)]));
             }
         };
