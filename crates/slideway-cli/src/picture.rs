@@ -48,7 +48,9 @@ impl Picture {
     pub(crate) fn write_scaled(self, svg: &str, scale: f64, output: &Output) -> Result<(), Failure> {
         match self {
             Self::Svg => output.write_bytes(svg.as_bytes()),
-            Self::Png => output.write_bytes(&png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?),
+            Self::Png => output.write_bytes(
+                &png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
+            ),
         }
     }
 }

@@ -20,7 +20,7 @@ static FACE: LazyLock<Option<Face<'static>>> =
 /// assert!(40.0 < width && width < 50.0);
 /// ```
 pub fn width(text: &str, size: f64) -> f64 {
-    text.chars().map(|character| advance(character)).sum::<f64>() * size
+    text.chars().map(advance).sum::<f64>() * size
 }
 
 /// Outlines of a text as the data of an SVG path, beginning at (x, y) on the base line.

@@ -40,7 +40,7 @@ fn refined_maps_are_those_of_dense_grids() {
     for (model, x, y) in planes {
         for colour_by in [ColourBy::Solutions, ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
             // With the preload, margins have a sliver narrower than a pixel, of which only pieces meet middles of pixels.
-            let has_sliver = colour_by == ColourBy::Margin && !std::ptr::eq(model, &crank);
+            let has_sliver = colour_by == ColourBy::Margin && !std::ptr::eq(model, &raw const crank);
             let model = if has_sliver { &free } else { model };
             if has_sliver && y.starts_with("F_20") {
                 continue;

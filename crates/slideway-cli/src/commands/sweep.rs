@@ -44,7 +44,7 @@ fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
     let ending = path.and_then(|path| path.extension()?.to_str());
     match (arguments.format, ending) {
         (Some(format), _) => Ok(format),
-        (None, Some("csv")) | (None, None) => Ok(TableFormat::Csv),
+        (None, Some("csv") | None) => Ok(TableFormat::Csv),
         (None, Some("npz")) => Ok(TableFormat::Npz),
         (None, Some(_)) => Err(Failure::UnknownEnding { path: path.map(Path::to_owned).unwrap_or_default() }),
     }

@@ -63,9 +63,9 @@ pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
         integer(&mut out, u64::from(head.rejected));
         text(&mut out, head.kind.word().as_bytes());
         if head.branch == 0 {
-            out.push(b',')
+            out.push(b',');
         } else {
-            integer(&mut out, u64::from(head.branch))
+            integer(&mut out, u64::from(head.branch));
         }
         text(&mut out, rows.pattern(row).trim_ascii());
         if layout.attainability {

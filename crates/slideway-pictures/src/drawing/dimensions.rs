@@ -30,13 +30,12 @@ impl Painter<'_> {
                     (place - slide.guide.origin).dot(&slide.guide.along)
                 })
                 .collect();
-            let (from, to) = match places[..] {
-                [front, rear] => (rear, front),
-                _ => {
-                    let half = 0.5 * length * self.view.scale;
-                    let middle = places.first().copied().unwrap_or(0.0);
-                    (middle - half, middle + half)
-                }
+            let (from, to) = if let [front, rear] = places[..] {
+                (rear, front)
+            } else {
+                let half = 0.5 * length * self.view.scale;
+                let middle = places.first().copied().unwrap_or(0.0);
+                (middle - half, middle + half)
             };
             let downwards = -upper_side(slide.guide.across);
             let edge = downwards * slide.half_channel();

@@ -89,6 +89,10 @@ impl ContactStates {
 }
 
 /// What a scene shows beside the mechanism itself.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each stands for one kind of thing, whatever the others are"
+)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneOptions {
     /// Guides are widened, and blocks lie on the faces that their contacts touch.

@@ -7,6 +7,7 @@ use crate::typeface::STACK;
 use std::fmt::Write;
 
 /// Where the colours of a picture come from.
+#[expect(clippy::large_enum_variant, reason = "there is one for each picture")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colours {
     /// From a theme, written into the picture.

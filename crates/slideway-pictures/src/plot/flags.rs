@@ -20,7 +20,7 @@ pub(super) struct Flag<'f> {
 
 /// Places labels from right to left, each in the lowest row that is free: a line that rises to a higher row passes on the
 /// left of all labels that were placed before.
-pub(super) fn flags<'f>(mut values: Vec<(f64, &'f MarkedValue)>, right: f64, size: f64) -> Vec<Flag<'f>> {
+pub(super) fn flags(mut values: Vec<(f64, &MarkedValue)>, right: f64, size: f64) -> Vec<Flag<'_>> {
     values.sort_by(|one, other| other.0.total_cmp(&one.0));
     let mut flags: Vec<Flag<'_>> = Vec::new();
     let mut begins: Vec<f64> = Vec::new();

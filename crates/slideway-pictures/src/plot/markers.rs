@@ -42,7 +42,7 @@ pub(super) fn places(points: &[[f64; 2]], phase: f64) -> Vec<[f64; 2]> {
 pub(super) fn draw(quantity: usize, [x, y]: [f64; 2], [colour, background]: [&str; 2], svg: &mut Svg) {
     let shape = SHAPES[quantity % SHAPES.len()];
     // After a round of shapes they are filled.
-    let fill = if quantity / SHAPES.len() % 2 == 0 { background } else { colour };
+    let fill = if (quantity / SHAPES.len()).is_multiple_of(2) { background } else { colour };
     let style = [("class", "marker"), ("fill", fill), ("stroke", colour), ("stroke-width", "1.6")];
     if shape.is_empty() {
         let [x, y, radius] = [x, y, SIZE].map(coordinate);

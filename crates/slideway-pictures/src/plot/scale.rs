@@ -66,7 +66,7 @@ pub(super) fn tick_text(value: f64, step: f64, greatest: f64) -> String {
         return "0".to_owned();
     }
     if greatest >= 1e6 || step < 1e-5 {
-        let text = format!("{:.6e}", value);
+        let text = format!("{value:.6e}");
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
         return format!("{}e{exponent}", mantissa.replace('-', "\u{2212}"));
@@ -82,7 +82,7 @@ pub(super) fn tick_text(value: f64, step: f64, greatest: f64) -> String {
 /// The range of a panel's vertical axis that its curves ask for: all of them, but for what lies near values at which they
 /// grow without bound; with zero if it is not far away.
 pub fn fitting_range(panel: &Panel) -> [f64; 2] {
-    let values = panel.curves.iter().flat_map(|curve| visible(curve)).filter(|value| value.is_finite());
+    let values = panel.curves.iter().flat_map(visible).filter(|value| value.is_finite());
     let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {
         (least.min(value), greatest.max(value))
     });

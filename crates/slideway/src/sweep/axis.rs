@@ -60,7 +60,6 @@ impl Values {
     /// The value with this number, both ends of a range being exact.
     pub(super) fn at(&self, index: u64) -> f64 {
         match self {
-            // Rounded once: 0..0.8 in 800 steps has 0.453.
             Self::Linear { from, to, count } => between(index, *count, [*from, *to], |index, last| {
                 (from * (last - index) + to * index) / last
             }),

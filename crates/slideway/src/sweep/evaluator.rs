@@ -303,7 +303,7 @@ impl Writer<'_> {
         let kind = if in_gap { RowKind::PreloadGap } else { RowKind::Solution };
         let negative_determinant = Some(state.negative_determinant);
         let verdict = self.verdict(&state.pattern[..contacts]);
-        rows.heads.push(RowHead { kind, negative_determinant, verdict, ..head(point, PointStatus::None) });
+        rows.heads.push(RowHead { kind, verdict, negative_determinant, ..head(point, PointStatus::None) });
         if in_gap {
             self.counts.gap_states += 1;
         } else {

@@ -64,6 +64,8 @@ use std::ops::ControlFlow;
 const CHUNK: u64 = 1024;
 /// Chunks of which each thread may hold the rows at a time.
 const CHUNKS_PER_THREAD: usize = 4;
+/// Less of a distribution than this is not worth telling.
+const NEGLIGIBLE: f64 = 1e-9;
 /// The most points of a sweep.
 const MOST_POINTS: u64 = 1_000_000_000_000;
 
@@ -175,7 +177,7 @@ impl Sweep {
     /// Distributions that were cut off at zero because friction is never negative: name, and the part that was left out.
     pub fn cut_off(&self) -> impl Iterator<Item = (&str, f64)> {
         self.axes.iter().filter_map(|axis| match axis.values {
-            Values::Drawn(distribution) if distribution.left_out() > 0.0 => {
+            Values::Drawn(distribution) if distribution.left_out() > NEGLIGIBLE => {
                 Some((axis.quantity.name.as_str(), distribution.left_out()))
             }
             _ => None,
