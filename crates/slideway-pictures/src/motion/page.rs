@@ -149,13 +149,15 @@ pub(super) fn svg(animation: &Animation) -> String {
     for index in &common {
         out.push_str(&animation.shapes[*index]);
     }
+    let uses = Uses::of(animation, common.len());
+    uses.define(animation, &mut out);
     let left = short(corner.x + 12.0);
     let below = animation.bounds.greatest.y;
     for (number, frame) in animation.frames.iter().enumerate() {
         let begin = animation.frame_time * number as f64;
         let _ = writeln!(out, "<g class=\"frame\">{}", shown(begin, animation.frame_time));
         for index in &frame.shapes[common.len()..] {
-            out.push_str(&animation.shapes[*index]);
+            uses.draw(animation, *index, &mut out);
         }
         let _ = writeln!(
             out,
@@ -173,6 +175,35 @@ pub(super) fn svg(animation: &Animation) -> String {
         speed(animation)
     );
     out
+}
+
+/// How often each shape occurs behind those that all frames share.
+struct Uses(Vec<usize>);
+
+impl Uses {
+    fn of(animation: &Animation, shared: usize) -> Self {
+        let mut counts = vec![0; animation.shapes.len()];
+        let later = animation.frames.iter().flat_map(|frame| &frame.shapes[shared..]);
+        later.for_each(|index| counts[*index] += 1);
+        Self(counts)
+    }
+
+    /// Shapes that occur several times are written once.
+    fn define(&self, animation: &Animation, out: &mut String) {
+        out.push_str("<defs>\n");
+        for (index, shape) in animation.shapes.iter().enumerate().filter(|(index, _)| self.0[*index] > 1) {
+            let _ = writeln!(out, "<g id=\"s{index}\">{}</g>", shape.trim_end());
+        }
+        out.push_str("</defs>\n");
+    }
+
+    fn draw(&self, animation: &Animation, index: usize, out: &mut String) {
+        if self.0[index] > 1 {
+            let _ = write!(out, "<use href=\"#s{index}\"/>");
+        } else {
+            out.push_str(&animation.shapes[index]);
+        }
+    }
 }
 
 /// The words of each event until the next.
