@@ -113,6 +113,22 @@ fn the_slider_crank_agrees_with_an_independent_integration() {
     }
 }
 
+/// At a dead centre the piston stands while the crank turns on, however loose the tolerance: nothing may be taken from it.
+#[test]
+fn a_dead_centre_takes_no_energy_at_any_tolerance() {
+    for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9] {
+        let options =
+            SimulateOptions { tolerance, longest_step: Some(2e-3), ..SimulateOptions::new(0.2) };
+        let history = history("slider-crank", &[("gas", "0 N"), ("T", "0 N m")], &options);
+        assert_eq!(history.end, End::Finished);
+        let error = history.energy_error / history.energy_scale;
+        assert!(error < 20.0 * tolerance, "{tolerance:e} {error:e}");
+        // reference/slider-crank-motion.toml
+        let phi = history.reader().configuration(0.2).unwrap().coordinates[0];
+        assert!((phi - 22.446_919_530_611).abs() < 100.0 * tolerance, "{tolerance:e} {phi}");
+    }
+}
+
 /// Whether the bar of the paper's example slides to the left at some time.
 fn slides_to_the_left(history: &History) -> bool {
     let mut reader = history.reader();

@@ -1,6 +1,7 @@
 //! Figures of a motion: quantities over time with the contact modes as bands, and the phase portrait.
 
 use crate::plot::{Axis, Band, Branch, Curve, Figure, Panel, Stroke};
+use crate::theme::LIGHT;
 use slideway::motion::{History, Series};
 
 /// Points of a curve, shared among the phases.
@@ -89,8 +90,10 @@ fn names(history: &History) -> String {
     names.join(", ")
 }
 
+/// Colours that have been used are told apart by dashes.
 fn branch(name: &str, colour: usize) -> Branch {
-    Branch { name: name.to_owned(), colour, stroke: Stroke::Solid }
+    let stroke = if colour < LIGHT.series.len() { Stroke::Solid } else { Stroke::Dashed };
+    Branch { name: name.to_owned(), colour, stroke }
 }
 
 /// A motion, phase by phase, so that jumps at events stay jumps.

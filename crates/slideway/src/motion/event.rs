@@ -11,6 +11,9 @@ use crate::report::number::number;
 use crate::solve::mode_in_words;
 use nalgebra::Vector2;
 
+/// The words of an event that changes nothing.
+pub(super) const NOTHING: &str = "it goes on as before";
+
 /// Why a phase ends, or what is told.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -142,7 +145,7 @@ impl Words<'_> {
                 })),
             }
         }
-        if parts.is_empty() { "it goes on as before".to_owned() } else { parts.join("; ") }
+        if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
     }
 
     fn cause(&self, cause: &Cause, after: Option<&Phase>) -> Option<String> {

@@ -1,7 +1,7 @@
 //! What is told of a motion: plain data, which are the JSON output.
 
 use super::energy::{kinetic, potential};
-use super::event::Event;
+use super::event::{Event, NOTHING};
 use super::history::{End, Energy, History};
 use super::options::SimulateOptions;
 use super::phase::JointPhase;
@@ -188,7 +188,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         stop: history.stop(),
         initial: state(history, &history.initial),
         last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
-        events: history.events.iter().map(|event| event_report(history, event)).collect(),
+        events: history.events.iter().filter(is_told).map(|event| event_report(history, event)).collect(),
         phases: phases(history),
         end: end_report(history, options),
         energy: energy(history),
@@ -198,7 +198,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             steps: history.statistics.steps,
             repeated: history.statistics.rejected,
             evaluations: history.statistics.evaluations,
-            events: history.events.len(),
+            events: history.events.iter().filter(is_told).count(),
         },
         samples: None,
     }
@@ -215,6 +215,11 @@ fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateStat
             rate: *rate,
         })
         .collect()
+}
+
+/// A normal force may touch zero once more within rounding: nothing follows, and nothing is told.
+fn is_told(event: &&Event) -> bool {
+    event.words != NOTHING
 }
 
 fn event_report(history: &History, event: &Event) -> EventReport {
