@@ -115,6 +115,16 @@ show hold-both.txt 0 hold models/painleve-klein.toml --set mu=4 --set "P_1=12 N"
 show hold-neither.txt 1 hold $examples/guided-tips.toml
 show hold-cam.txt 1 hold models/cam-follower.toml --load cam
 
+# Motion.
+show help-simulate.txt 0 simulate --help
+show simulate-oscillator.txt 0 simulate models/frictional-oscillator.toml --until 3s
+show simulate-stick-slip.txt 0 simulate models/stick-slip.toml --until 2s
+show simulate-klepp.txt 0 simulate models/klepp-2002-spring.toml --until 1s
+show simulate-klepp-locked.txt 0 simulate models/klepp-2002-spring.toml --until 10s --set mu_1=0.6 --prefer sliding
+show simulate-klepp-jam.txt 0 simulate models/klepp-2002-spring.toml --until 10s --set mu_1=0.6 --set direction=-1
+show simulate-branches.txt 0 simulate models/klepp-2002-spring.toml --until 0.1s --set mu_1=0.6 --all-branches
+show simulate-contradiction.txt 2 simulate models/klepp-2002-spring.toml --until 1s --set mu_1=0.6 --mode "- - -"
+
 # Design.
 show help-size.txt 0 size --help
 show help-drive.txt 0 drive --help

@@ -49,3 +49,19 @@ plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --qu
     --output "$pictures/map-margin.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by jam \
     --output "$pictures/map-jam.svg" --force
+
+# Motions.
+# motion FILE OPTION ARGUMENTS...: a plot or a moving picture of a motion.
+motion() {
+    local file=$1 option=$2
+    shift 2
+    "$slideway" simulate "$@" "$option" "$pictures/$file" --force >/dev/null
+}
+
+motion motion-oscillator.svg --plot models/frictional-oscillator.toml --until 2s
+motion motion-stick-slip.svg --plot models/stick-slip.toml --until 4s
+motion motion-klepp.svg --plot models/klepp-2002-spring.toml --until 2s
+motion animation-oscillator.svg --animate models/frictional-oscillator.toml --until 1.6s --slow-motion 5
+motion animation-stick-slip.svg --animate models/stick-slip.toml --until 2s --slow-motion 4
+motion animation-klepp.svg --animate models/klepp-2002-spring.toml --until 1s --slow-motion 8
+draw motion-near-the-jam.svg models/klepp-2002-spring.toml --set mu_1=0.44 --set direction=-1

@@ -58,6 +58,12 @@ pub(crate) enum Failure {
     NoSuchSolution { count: usize },
     /// An answer that is no text would go to a terminal.
     BinaryOnTerminal,
+    /// The ending of a file names no form of a time series.
+    SeriesFormat { path: PathBuf },
+    /// A table with absurdly many rows.
+    TooManyRows { rows: f64, most: f64 },
+    /// Files hold one motion.
+    SeveralMotions,
     /// Standard output cannot be written.
     StandardOutput { error: io::Error },
 }
@@ -110,6 +116,13 @@ impl Failure {
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
             Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
+            Self::SeriesFormat { path } => {
+                format!("`{}` names no form of a time series", path.display())
+            }
+            Self::TooManyRows { rows, most } => {
+                format!("the table would have {rows:.1e} rows; at most {most:.0e} are written")
+            }
+            Self::SeveralMotions => "files hold one motion, not all branches".to_owned(),
             Self::StandardOutput { error } => format!("the answer cannot be written: {}", reason(error)),
         }
     }
@@ -130,6 +143,9 @@ impl Failure {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
+            Self::SeriesFormat { .. } => Some("end its name in .csv, .npz or .json".to_owned()),
+            Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
+            Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
             Self::Overflow { .. } => Some("look for entries of absurd magnitude".to_owned()),
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),

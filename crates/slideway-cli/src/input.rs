@@ -4,7 +4,7 @@ use crate::arguments::ModelArguments;
 use crate::failure::Failure;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::gallery;
-use slideway::model::{Model, SIZE_LIMIT, Settings};
+use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -69,6 +69,12 @@ impl Input {
     /// The failure that these faults are.
     pub(crate) fn refused(&self, faults: Faults) -> Failure {
         Failure::Input(Box::new(FaultyInput { input: self.clone(), faults }))
+    }
+
+    /// The failure that these faults of another option of the command line are.
+    pub(crate) fn refused_option(&self, option: Setting, faults: Faults) -> Failure {
+        let input = Self { settings: Settings::single(option), ..self.clone() };
+        Failure::Input(Box::new(FaultyInput { input, faults }))
     }
 
     /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in place.

@@ -8,6 +8,7 @@ mod input;
 mod output;
 mod picture;
 mod table;
+mod time_series;
 mod watch;
 
 use arguments::{Arguments, Command};
@@ -52,6 +53,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Drive(arguments) => commands::drive(arguments, output),
         Command::Map(arguments) => commands::map(arguments, output),
         Command::Check(arguments) => commands::check(arguments, output),
+        Command::Simulate(arguments) => commands::simulate(arguments, output),
         Command::Hold(arguments) => commands::hold(arguments, output),
         Command::Draw(arguments) => commands::draw(arguments, output),
         Command::Sweep(arguments) => commands::sweep(arguments, output),

@@ -25,6 +25,20 @@ impl Watch {
         Self { start: Instant::now(), limit, shown: Duration::ZERO, line: ProgressLine::new() }
     }
 
+    /// Tells how far a simulation has come between two times (s), and breaks when time is up.
+    pub(crate) fn follow(&mut self, time: f64, [start, until]: [f64; 2]) -> ControlFlow<()> {
+        let elapsed = self.start.elapsed();
+        if self.limit.is_some_and(|limit| elapsed >= limit) {
+            return ControlFlow::Break(());
+        }
+        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
+            self.shown = elapsed;
+            let part = (time - start) / (until - start);
+            self.line.show(&format!("t = {time:.4} s of {until} s ({:.0} %), {} s", 100.0 * part, elapsed.as_secs()));
+        }
+        ControlFlow::Continue(())
+    }
+
     /// Tells of the progress, and breaks when time is up.
     pub(crate) fn look(&mut self, progress: &Progress) -> ControlFlow<()> {
         let elapsed = self.start.elapsed();

@@ -5,6 +5,7 @@
 
 pub mod drawing;
 pub mod map;
+pub mod motion;
 pub mod page;
 pub mod plot;
 pub mod raster;

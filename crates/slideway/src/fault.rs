@@ -340,6 +340,14 @@ pub enum FaultKind {
     #[error("the mechanism has {expected} {what}, but {found} are given")]
     WrongCount { what: &'static str, expected: usize, found: usize },
 
+    // Motion.
+    #[error("the motion cannot begin in the contact mode `{wanted}`")]
+    ContradictoryPhase { wanted: String, possible: Vec<String> },
+    #[error("`{text}` is no contact mode: it needs one of + - 0 = for each of {}", contacts.join(", "))]
+    MalformedMode { text: String, contacts: Vec<String> },
+    #[error("the end of the simulation, {end} s, is not after its start, {start} s")]
+    NothingToSimulate { start: f64, end: f64 },
+
     // Design and drives.
     #[error("a margin at rest needs the load that it concerns")]
     LoadNeeded { known: Vec<String> },
@@ -353,9 +361,6 @@ pub enum FaultKind {
     NoDirectionAtRest,
     #[error("the model has no drives, so no effort is unknown")]
     NoDrives { coordinate: Option<String> },
-    // Motion.
-    #[error("the motion cannot begin in the contact mode that is prescribed")]
-    ContradictoryPhase,
 
     // Search for the modes.
     #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
@@ -409,6 +414,13 @@ impl FaultKind {
             }
             Self::NotAssembled { reached: Some(reached), .. } => {
                 Some(format!("on the way from the drawing it can be assembled as far as {reached}"))
+            }
+            Self::ContradictoryPhase { possible, .. } if possible.is_empty() => {
+                Some("it can begin in no mode: `slideway solve` says why".to_owned())
+            }
+            Self::ContradictoryPhase { possible, .. } => {
+                let modes: Vec<String> = possible.iter().map(|mode| format!("`{mode}`")).collect();
+                Some(format!("possible at the start: {}", modes.join(", ")))
             }
             Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
             Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
@@ -467,6 +479,10 @@ impl FaultKind {
             }
             Self::Both { .. } | Self::DoubledJoint { .. } => Some("remove one of them"),
             Self::SelfJoint { .. } => Some("a joint needs two different bodies, or a body and ground"),
+            Self::MalformedMode { .. } => Some(
+                "+ and - are the signs of normal forces, 0 is a preload gap, = is a contact whose joint sticks",
+            ),
+            Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
                 "friction coefficients must grow in proportion to it, or by a constant more, and nothing else may depend on it",

@@ -18,6 +18,7 @@
 //!
 //! [`limits::limits`] finds the values of a parameter at which modes begin and end, [`size::size`] those at which a wanted
 //! margin against locking is just met, and [`drive::drive`] the efforts that drives need against friction.
+//!
 //! [`motion::simulate`] follows a mechanism in time.
 //!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)

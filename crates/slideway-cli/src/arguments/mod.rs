@@ -13,6 +13,7 @@ mod modes;
 mod plot;
 mod report;
 mod search;
+mod simulate;
 mod size;
 mod solve;
 mod sweep;
@@ -31,6 +32,7 @@ pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use plot::{PictureTheme, PlotArguments};
 pub(crate) use report::ReportArguments;
 pub(crate) use search::SearchArguments;
+pub(crate) use simulate::{Preference, SimulateArguments};
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
 pub(crate) use sweep::{SweepArguments, TableFormat};
@@ -65,6 +67,7 @@ Examples:
   slideway drive drawer.toml                    which push it needs, with which efficiency
   slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
+  slideway simulate drawer.toml --until 1s      its motion in time
   slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
   slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
@@ -99,6 +102,9 @@ pub(crate) enum Command {
     /// Say whether a mechanism stays at rest, and how it begins to move if not
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
+    /// Follow a mechanism in time through sliding, sticking, changes of contact mode and jamming
+    #[command(after_help = simulate::HELP)]
+    Simulate(SimulateArguments),
     /// Draw a mechanism and its solutions to a picture, SVG or PNG
     #[command(after_help = draw::HELP)]
     Draw(DrawArguments),

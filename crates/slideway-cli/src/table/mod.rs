@@ -1,7 +1,7 @@
 //! Tables of a sweep: rows as they come, in files that can be continued.
 
 mod csv;
-mod npz;
+pub(crate) mod npz;
 mod partial;
 mod record;
 

@@ -18,7 +18,7 @@ const LARGE: u32 = u32::MAX;
 
 /// A member of the archive.
 struct Member {
-    name: &'static str,
+    name: String,
     crc: u32,
     size: u64,
     offset: u64,
@@ -26,7 +26,7 @@ struct Member {
 
 /// What stands before the records, with sizes that are not known yet.
 pub(super) fn head(layout: &Layout) -> Vec<u8> {
-    let mut head = local_header(&Member { name: ROWS, crc: 0, size: 0, offset: 0 });
+    let mut head = local_header(&Member { name: ROWS.to_owned(), crc: 0, size: 0, offset: 0 });
     head.extend(array_header(layout, 0));
     head
 }
@@ -48,7 +48,7 @@ pub(super) fn finish(
     crc.update(&header);
     crc.combine(data);
     let size = header_size + bytes - head(layout).len() as u64;
-    let rows = Member { name: ROWS, crc: crc.finalize(), size, offset: 0 };
+    let rows = Member { name: ROWS.to_owned(), crc: crc.finalize(), size, offset: 0 };
     file.seek(SeekFrom::Start(0))?;
     file.write_all(&local_header(&rows))?;
     file.write_all(&header)?;
@@ -71,7 +71,7 @@ pub(super) fn finish(
         let content = text_array(&texts, single);
         let mut crc = Hasher::new();
         crc.update(&content);
-        let member = Member { name, crc: crc.finalize(), size: content.len() as u64, offset };
+        let member = Member { name: name.to_owned(), crc: crc.finalize(), size: content.len() as u64, offset };
         file.write_all(&local_header(&member))?;
         file.write_all(&content)?;
         offset += local_header_size(name) as u64 + member.size;
@@ -79,6 +79,32 @@ pub(super) fn finish(
     }
     file.write_all(&directory(&members, offset))?;
     file.flush()
+}
+
+/// An archive of arrays with their names.
+pub(crate) fn archive(arrays: &[(String, Vec<u8>)]) -> Vec<u8> {
+    let mut out = Vec::new();
+    let mut members = Vec::with_capacity(arrays.len());
+    for (name, content) in arrays {
+        let mut crc = Hasher::new();
+        crc.update(content);
+        let (size, offset) = (content.len() as u64, out.len() as u64);
+        let member = Member { name: format!("{name}.npy"), crc: crc.finalize(), size, offset };
+        out.extend(local_header(&member));
+        out.extend_from_slice(content);
+        members.push(member);
+    }
+    let start = out.len() as u64;
+    out.extend(directory(&members, start));
+    out
+}
+
+/// Numbers as an array.
+pub(crate) fn number_array(values: impl ExactSizeIterator<Item = f64>) -> Vec<u8> {
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}", values.len());
+    let mut out = npy_header(&header, header.len());
+    values.for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+    out
 }
 
 fn local_header_size(name: &str) -> usize {
@@ -177,7 +203,7 @@ fn npy_header(header: &str, room: usize) -> Vec<u8> {
 }
 
 /// Texts as an array of UTF-32; a single one as an array without dimensions.
-fn text_array(texts: &[&str], single: bool) -> Vec<u8> {
+pub(crate) fn text_array(texts: &[&str], single: bool) -> Vec<u8> {
     let length = texts.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
     let shape = if single { "()".to_owned() } else { format!("({},)", texts.len()) };
     let header = format!("{{'descr': '<U{length}', 'fortran_order': False, 'shape': {shape}, }}");

@@ -68,6 +68,13 @@ pub fn write(scene: &Scene, frame: &Frame<'_>) -> String {
     out
 }
 
+/// One shape.
+pub(crate) fn markup(element: &super::Element) -> String {
+    let mut out = String::new();
+    shape(&mut out, class_name(element.class), &element.shape);
+    out
+}
+
 fn shape(out: &mut String, class: &str, shape: &Shape) {
     let _ = match shape {
         Shape::Line(places) => {
@@ -121,7 +128,7 @@ fn points(places: &[Point]) -> String {
 }
 
 /// Two decimals, without zeros at the end.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

@@ -93,6 +93,11 @@ impl Settings {
         &self.entries
     }
 
+    /// A single setting.
+    pub fn single(setting: Setting) -> Self {
+        Self { entries: vec![setting] }
+    }
+
     fn with(mut self, kind: SettingKind, name: &str, value: &str) -> Self {
         self.entries.push(Setting { kind, name: name.to_owned(), value: value.to_owned() });
         self

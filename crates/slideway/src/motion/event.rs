@@ -9,6 +9,10 @@ use crate::mechanism::Mechanism;
 use crate::modes::Side;
 use crate::report::number::number;
 use crate::solve::mode_in_words;
+use nalgebra::Vector2;
+
+/// The words of an event that changes nothing.
+pub(super) const NOTHING: &str = "it goes on as before";
 
 /// Why a phase ends, or what is told.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +70,39 @@ impl Cause {
         }
     }
 
+    /// Its name in reports.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::NormalForceZero(_) => "normal_force_zero",
+            Self::PreloadGapEnds(..) => "preload_gap_ends",
+            Self::Stops(_) => "stops",
+            Self::Slips => "slips",
+            Self::Locks => "locks",
+            Self::ReactionLimit(_) => "reaction_limit",
+            Self::Tips(_) => "tips",
+            Self::OverlapVanishes(_) => "overlap_vanishes",
+            Self::TravelLimit { .. } => "travel_limit",
+            Self::User(..) => "user",
+            Self::Jams { .. } => "jams",
+        }
+    }
+
+    /// The joint, contact or function of which it tells.
+    pub fn subject<'a>(&'a self, mechanism: &'a Mechanism) -> Option<&'a str> {
+        match self {
+            Self::NormalForceZero(contact)
+            | Self::PreloadGapEnds(contact, _)
+            | Self::ReactionLimit(contact) => Some(&mechanism.contacts[contact.index()].name),
+            Self::Stops(joint)
+            | Self::Tips(joint)
+            | Self::OverlapVanishes(joint)
+            | Self::TravelLimit { joint, .. } => Some(&mechanism.joints[joint.index()].name),
+            Self::User(_, name) => Some(name),
+            Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
+        }
+    }
+
     /// Whether the phase cannot simply go on.
     pub(super) fn ends_phase(&self) -> bool {
         !matches!(self, Self::User(..))
@@ -81,9 +118,11 @@ pub struct Event {
     pub causes: Vec<Cause>,
     /// The phase that follows; nothing where the motion ends.
     pub phase: Option<Phase>,
-    /// The phases that were possible besides, in their order.
-    pub alternatives: Vec<Successor>,
-    /// What happened, as a sentence.
+    /// All phases that were possible, in their order.
+    pub successors: Vec<Successor>,
+    /// Which of them was taken.
+    pub taken: Option<usize>,
+    /// What happened, in words.
     pub words: String,
 }
 
@@ -102,15 +141,11 @@ impl Words<'_> {
             match before {
                 Some(before) => parts.extend(self.changes(causes, before, after)),
                 None => parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
-                    format!("{} {}", self.name(*joint), self.state(index, *joint, after))
+                    format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
                 })),
             }
         }
-        let time = number(self.configuration.time);
-        if parts.is_empty() {
-            return format!("at {time} s it goes on as before");
-        }
-        format!("at {time} s {}", parts.join("; "))
+        if parts.is_empty() { NOTHING.to_owned() } else { parts.join("; ") }
     }
 
     fn cause(&self, cause: &Cause, after: Option<&Phase>) -> Option<String> {
@@ -155,10 +190,10 @@ impl Words<'_> {
             let told = match (before.joints[index], after.joints[index]) {
                 (JointPhase::Sliding(_), JointPhase::Sticking) => format!("{name} stops and sticks"),
                 (JointPhase::Sticking, JointPhase::Sliding(_)) => {
-                    format!("{name} starts to slide: it {}", self.state(index, *joint, after))
+                    format!("{name} starts to slide: it {}", self.state("is now", index, *joint, after))
                 }
                 (JointPhase::Sliding(old), JointPhase::Sliding(new)) if old != new => {
-                    format!("{name} reverses: it {}", self.state(index, *joint, after))
+                    format!("{name} reverses: it {}", self.state("is now", index, *joint, after))
                 }
                 (JointPhase::Sliding(_), JointPhase::Sliding(_)) => {
                     let slider = self.mechanism.slider(*joint)?;
@@ -167,7 +202,7 @@ impl Words<'_> {
                         .iter()
                         .any(|k| before.contacts[k.index()] != after.contacts[k.index()]);
                     if changed {
-                        format!("{name} changes side: it {}", self.state(index, *joint, after))
+                        format!("{name} changes side: it {}", self.mode("is now", *joint, after))
                     } else if stops {
                         format!("{name} stands for an instant and slides on")
                     } else {
@@ -181,29 +216,30 @@ impl Words<'_> {
         self.sliders.iter().enumerate().filter_map(one).collect()
     }
 
-    /// What a sliding joint does: "is now on the upper side of the slot".
-    fn state(&self, index: usize, joint: JointId, phase: &Phase) -> String {
-        let Some(slider) = self.mechanism.slider(joint) else { return String::new() };
-        if phase.joints[index] == JointPhase::Sticking {
-            return "sticks".to_owned();
+    /// What a sliding joint does: "is now on the upper side of the slot, sliding to the right".
+    fn state(&self, verb: &str, index: usize, joint: JointId, phase: &Phase) -> String {
+        match (phase.joints[index], self.mechanism.slider(joint)) {
+            (JointPhase::Sliding(sign), Some(slider)) => {
+                let tangent = self.configuration.slide(self.mechanism, slider).tangent;
+                format!("{}, sliding {}", self.mode(verb, joint, phase), direction_in_words(tangent * sign))
+            }
+            _ => "sticks".to_owned(),
         }
-        let contacts: Vec<ContactPhase> = slider.contacts.iter().map(|k| phase.contacts[k.index()]).collect();
-        let signs: Vec<i8> = contacts
-            .iter()
-            .map(|contact| match contact {
-                ContactPhase::Pressed(Side::Positive) => 1,
-                ContactPhase::Pressed(Side::Negative) => -1,
-                ContactPhase::PreloadGap => 0,
-            })
-            .collect();
+    }
+
+    /// Where a sliding joint touches its guide: "is now on the upper side of the slot".
+    fn mode(&self, verb: &str, joint: JointId, phase: &Phase) -> String {
+        let Some(slider) = self.mechanism.slider(joint) else { return String::new() };
+        let sign = |contact: &ContactId| match phase.contacts[contact.index()] {
+            ContactPhase::Pressed(Side::Positive) => 1,
+            ContactPhase::Pressed(Side::Negative) => -1,
+            ContactPhase::PreloadGap => 0,
+        };
+        let signs: Vec<i8> = slider.contacts.iter().map(sign).collect();
         let tangent = self.configuration.slide(self.mechanism, slider).tangent;
-        let gaps: Vec<&str> = slider
-            .contacts
-            .iter()
-            .filter(|k| phase.contacts[k.index()] == ContactPhase::PreloadGap)
-            .map(|k| self.contact(*k))
-            .collect();
-        let mode = format!("is now {}", mode_in_words(slider, tangent, &signs));
+        let in_gap = |k: &&ContactId| phase.contacts[k.index()] == ContactPhase::PreloadGap;
+        let gaps: Vec<&str> = slider.contacts.iter().filter(in_gap).map(|k| self.contact(*k)).collect();
+        let mode = format!("{verb} {}", mode_in_words(slider, tangent, &signs));
         if gaps.is_empty() {
             mode
         } else {
@@ -217,5 +253,16 @@ impl Words<'_> {
 
     fn contact(&self, contact: ContactId) -> &str {
         &self.mechanism.contacts[contact.index()].name
+    }
+}
+
+/// Where something moves, as one looks at the drawing.
+fn direction_in_words(direction: Vector2<f64>) -> &'static str {
+    if direction.y.abs() > direction.x.abs() * (1.0 + 1e-9) {
+        if direction.y > 0.0 { "up" } else { "down" }
+    } else if direction.x > 0.0 {
+        "to the right"
+    } else {
+        "to the left"
     }
 }

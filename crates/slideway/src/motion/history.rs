@@ -84,6 +84,11 @@ pub enum End {
     ReactionLimit(ContactId),
     /// A function of the user has passed zero; its number.
     UserEvent(usize),
+    /// The branch that was wanted after an event does not exist; the number of the branching, counted from 1.
+    NoSuchBranch {
+        /// Counted from 1.
+        branching: usize,
+    },
     /// At rest neither sticking nor sliding is possible.
     NoContinuation,
     /// Impulses do not bring it into a state from which it can go on.

@@ -32,11 +32,15 @@ mod history;
 mod linear;
 mod options;
 mod phase;
+mod report;
 mod root;
 mod rules;
 mod run;
+mod series;
 mod smooth;
 mod stepper;
+mod text;
+mod tree;
 mod watch;
 
 #[cfg(test)]
@@ -45,9 +49,16 @@ mod tests;
 pub use equations::Drift;
 pub use event::{Cause, Event};
 pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
-pub use options::{Crossing, SimulateOptions, UserEvent};
+pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
+pub use report::{
+    BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
+    SimulateReport, StatisticsReport, report, to_json,
+};
 pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
+pub use series::{Column, Series};
+pub use text::{to_text, tree_to_text};
+pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report, tree_to_json};
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -56,7 +67,7 @@ use crate::model::Model;
 use run::Run;
 use std::ops::ControlFlow;
 
-/// The motion of a model from its state on.
+/// The motion of a model from its state on, with the events of the model.
 ///
 /// # Errors
 /// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
@@ -64,7 +75,8 @@ pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Fau
     check(options)?;
     let mechanism = Mechanism::new(model)?;
     let configuration = Configuration::new(&mechanism)?;
-    simulate_with(&mechanism, &configuration, options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
+    let options = options.clone().with_events_of(&mechanism);
+    simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
 }
 
 /// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told the time after every

@@ -1,9 +1,10 @@
 //! What a simulation is asked for, and what it may cost.
 
-use super::phase::Phase;
 use crate::configuration::Configuration;
-use crate::expression::{Expression, ExpressionFault};
-use crate::mechanism::Mechanism;
+use crate::expression::Expression;
+use crate::fault::{Fault, FaultKind};
+use crate::mechanism::{Mechanism, Quantity};
+use crate::model::CrossingDirection;
 
 /// What a simulation is asked for, and what it may cost.
 #[derive(Debug, Clone)]
@@ -21,13 +22,17 @@ pub struct SimulateOptions {
     pub most_events: usize,
     /// Normal force (N) from which on the mechanism counts as locked.
     pub reaction_limit: Option<f64>,
-    /// Functions of coordinates, rates and time that are watched.
+    /// Functions of coordinates, rates and time that are watched; the events of a model are among them if
+    /// [`SimulateOptions::with_events_of`] adds them.
     pub events: Vec<UserEvent>,
-    /// The phase to begin with, where several are possible.
-    pub initial: Option<Phase>,
+    /// The phase to begin with, as its [pattern](super::Phase::pattern).
+    pub initial: Option<String>,
     /// Which of the possible phases is taken at each branching, in their order, counted from 0; the first where the
-    /// list ends.
+    /// list ends. A branching is an event after which several phases are possible.
     pub branches: Vec<usize>,
+    /// Whether at a branching behind the list the phase is taken in which the fewest joints stick, instead of the first: what could
+    /// wedge itself at rest then slides on as long as it can.
+    pub prefers_sliding: bool,
 }
 
 impl SimulateOptions {
@@ -43,7 +48,24 @@ impl SimulateOptions {
             events: Vec::new(),
             initial: None,
             branches: Vec::new(),
+            prefers_sliding: false,
         }
+    }
+
+    /// With the events of a model.
+    #[must_use]
+    pub fn with_events_of(mut self, mechanism: &Mechanism) -> Self {
+        self.events.extend(mechanism.events.iter().map(|event| UserEvent {
+            name: event.name.to_string(),
+            function: EventFunction::OfModel(event.zero_of),
+            crossing: match event.direction {
+                CrossingDirection::Rising => Crossing::Rising,
+                CrossingDirection::Falling => Crossing::Falling,
+                CrossingDirection::Both => Crossing::Any,
+            },
+            ends: event.stops,
+        }));
+        self
     }
 }
 
@@ -65,20 +87,30 @@ pub struct UserEvent {
     /// Its name.
     pub name: String,
     /// The function.
-    pub expression: Expression,
+    pub function: EventFunction,
     /// Which zeros count.
     pub crossing: Crossing,
     /// Whether the simulation ends there.
     pub ends: bool,
 }
 
+/// What is watched for zeros.
+#[derive(Debug, Clone)]
+pub enum EventFunction {
+    /// A quantity of the mechanism.
+    OfModel(Quantity),
+    /// An expression of its own.
+    Expression(Expression),
+}
+
 impl UserEvent {
-    pub(super) fn value(
-        &self,
-        mechanism: &Mechanism,
-        configuration: &Configuration,
-    ) -> Result<f64, ExpressionFault> {
+    pub(super) fn value(&self, mechanism: &Mechanism, configuration: &Configuration) -> Result<f64, Fault> {
         let Configuration { coordinates, rates, time, .. } = configuration;
-        self.expression.evaluate(&mechanism.values(coordinates, rates, *time))
+        match &self.function {
+            EventFunction::OfModel(quantity) => mechanism.quantity(*quantity, coordinates, rates, *time),
+            EventFunction::Expression(expression) => expression
+                .evaluate(&mechanism.values(coordinates, rates, *time))
+                .map_err(|fault| Fault::general(FaultKind::Expression(fault.kind))),
+        }
     }
 }

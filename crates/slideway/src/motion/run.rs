@@ -10,6 +10,7 @@ use super::smooth::{Ended, Smooth};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
+use crate::report::spaced;
 use std::ops::ControlFlow;
 
 /// Sliding velocities below this multiple of the greatest velocity count as zero.
@@ -92,7 +93,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 Ended::End(end) => return end,
             };
             if let Some(end) = self.terminal(&causes) {
-                self.tell(causes, None, Vec::new());
+                self.tell(causes, Vec::new(), None);
                 return end;
             }
             if causes.iter().any(Cause::ends_phase) {
@@ -102,7 +103,7 @@ impl<'a, 'm> Run<'a, 'm> {
                     Err(faults) => return End::Undecided(faults),
                 }
             } else {
-                self.tell(causes, Some(phase), Vec::new());
+                self.note(causes, Some(phase), Vec::new(), None);
             }
             if self.history.events.len() >= self.options.most_events {
                 return End::EventLimit;
@@ -196,12 +197,14 @@ impl<'a, 'm> Run<'a, 'm> {
             };
             let successors = self.decisions.successors(&instant)?;
             let successors = without_held(successors, &causes, previous.as_ref());
-            if let Some((taken, alternatives)) = self.choose(successors)? {
-                self.tell(causes, Some(taken.phase), alternatives);
-                return Ok(None);
+            if !successors.is_empty() {
+                let taken = self.choose(&successors)?;
+                self.tell(causes, successors, taken);
+                let branching = self.branchings;
+                return Ok(if taken.is_some() { None } else { Some(End::NoSuchBranch { branching }) });
             }
             if stopped.iter().all(|stopped| *stopped) {
-                self.tell(causes, None, Vec::new());
+                self.tell(causes, Vec::new(), None);
                 return Ok(Some(End::NoContinuation));
             }
             let Some(jam) = self.decisions.jam(&instant)? else { break };
@@ -212,31 +215,35 @@ impl<'a, 'm> Run<'a, 'm> {
             causes.push(Cause::Jams { energy_lost: jam.energy_lost });
             previous = None;
         }
-        self.tell(causes, None, Vec::new());
+        self.tell(causes, Vec::new(), None);
         Ok(Some(End::Jammed))
     }
 
-    /// The phase that is taken, and the others.
-    fn choose(
-        &mut self,
-        mut successors: Vec<Successor>,
-    ) -> Result<Option<(Successor, Vec<Successor>)>, Faults> {
-        if successors.is_empty() {
-            return Ok(None);
-        }
-        let mut chosen = 0;
+    /// The number of the phase that is taken; nothing where the branch that is wanted does not exist.
+    fn choose(&mut self, successors: &[Successor]) -> Result<Option<usize>, Faults> {
+        let mechanism = self.smooth.equations.mechanism;
         if self.phase.is_none()
-            && let Some(initial) = &self.options.initial
+            && let Some(wanted) = &self.options.initial
         {
-            let found = successors.iter().position(|successor| successor.phase == *initial);
-            chosen = found.ok_or_else(|| Fault::general(FaultKind::ContradictoryPhase))?;
-        } else if successors.len() > 1 {
-            let wanted = self.options.branches.get(self.branchings).copied().unwrap_or(0);
-            chosen = wanted.min(successors.len() - 1);
-            self.branchings += 1;
+            let patterns: Vec<String> =
+                successors.iter().map(|successor| successor.phase.pattern(mechanism)).collect();
+            let Some(found) = patterns.iter().position(|pattern| pattern == wanted) else {
+                let possible = patterns.iter().map(|pattern| spaced(pattern)).collect();
+                return Err(Fault::general(FaultKind::ContradictoryPhase {
+                    wanted: spaced(wanted),
+                    possible,
+                })
+                .into());
+            };
+            return Ok(Some(found));
         }
-        let taken = successors.remove(chosen);
-        Ok(Some((taken, successors)))
+        if successors.len() < 2 {
+            return Ok(Some(0));
+        }
+        let preferred = if self.options.prefers_sliding { fewest_sticking(successors) } else { 0 };
+        let wanted = self.options.branches.get(self.branchings).copied().unwrap_or(preferred);
+        self.branchings += 1;
+        Ok((wanted < successors.len()).then_some(wanted))
     }
 
     /// Which sliding joints have no sliding velocity.
@@ -252,8 +259,19 @@ impl<'a, 'm> Run<'a, 'm> {
         equations.sliders.iter().enumerate().map(one).collect()
     }
 
-    /// Records an event, and begins the phase that follows.
-    fn tell(&mut self, causes: Vec<Cause>, phase: Option<Phase>, alternatives: Vec<Successor>) {
+    /// Records an event after which these phases are possible, and begins the one that is taken.
+    fn tell(&mut self, causes: Vec<Cause>, successors: Vec<Successor>, taken: Option<usize>) {
+        let phase = taken.map(|taken| successors[taken].phase.clone());
+        self.note(causes, phase, successors, taken);
+    }
+
+    fn note(
+        &mut self,
+        causes: Vec<Cause>,
+        phase: Option<Phase>,
+        successors: Vec<Successor>,
+        taken: Option<usize>,
+    ) {
         let time = self.smooth.time;
         let equations = &self.smooth.equations;
         let words = Words {
@@ -262,7 +280,7 @@ impl<'a, 'm> Run<'a, 'm> {
             sliders: &equations.sliders,
         };
         let words = words.event(&causes, self.phase.as_ref(), phase.as_ref());
-        self.history.events.push(Event { time, causes, phase: phase.clone(), alternatives, words });
+        self.history.events.push(Event { time, causes, phase: phase.clone(), successors, taken, words });
         if phase != self.phase {
             if let Some(interval) = self.history.phases.last_mut() {
                 interval.to = time;
@@ -295,4 +313,12 @@ fn without_held(
         successors.retain(|successor| successor.phase.joints != previous.joints);
     }
     successors
+}
+
+/// The first of the phases in which the fewest joints stick.
+fn fewest_sticking(successors: &[Successor]) -> usize {
+    let sticking = |successor: &Successor| {
+        successor.phase.joints.iter().filter(|joint| **joint == JointPhase::Sticking).count()
+    };
+    (0..successors.len()).min_by_key(|index| sticking(&successors[*index])).unwrap_or(0)
 }

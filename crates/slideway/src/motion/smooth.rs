@@ -10,7 +10,6 @@ use super::rules::Decisions;
 use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
-use crate::fault::{Fault, FaultKind};
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -22,6 +21,10 @@ const ROOT_TOLERANCE: f64 = 1e-13;
 const USER_ZERO: f64 = 1e-9;
 /// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
 const LITTLE_VELOCITY: f64 = 1e-2;
+/// Velocities are set to zero where that changes none by more than this multiple of the tolerance, ...
+const SETTLED: f64 = 100.0;
+/// ... which counts as at least this.
+const LEAST_TOLERANCE: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
 
@@ -304,8 +307,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             let margin = decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
             return margin.map_err(Failure::Loads);
         }
-        let value = self.watch.value(watched, phase, equations);
-        value.map_err(|fault| Failure::Loads(Fault::general(FaultKind::Expression(fault.kind)).into()))
+        self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))
     }
 
     /// The first instant within the step at which something falls through zero, as a fraction, and all that does.
@@ -399,7 +401,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
     }
 
-    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines would.
+    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines would; unless that
+    /// changes more than errors of steps do: at a dead centre the joint stands while the mechanism moves on.
     pub(super) fn settle(&mut self, phase: &Phase, stopped: &[bool]) {
         if !stopped.contains(&true) {
             return;
@@ -410,8 +413,21 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 *joint = JointPhase::Sticking;
             }
         }
-        if self.equations.enter(&held, self.time, &self.state).is_ok() {
-            self.equations.project(&mut self.state);
+        if self.equations.enter(&held, self.time, &self.state).is_err() {
+            return;
+        }
+        let mut settled = self.state.clone();
+        self.equations.project(&mut settled);
+        let size = self.equations.mechanism.size;
+        let bodies = 3 * self.equations.mechanism.bodies.len();
+        let rates = settled[bodies..2 * bodies].iter().zip(&self.state[bodies..2 * bodies]);
+        let change = rates.enumerate().fold(0.0_f64, |greatest, (index, (new, old))| {
+            let scale = if index % 3 == 2 { size } else { 1.0 };
+            greatest.max(scale * (new - old).abs())
+        });
+        let permitted = SETTLED * self.tolerance.max(LEAST_TOLERANCE);
+        if change <= permitted * self.watch.magnitudes.velocity {
+            self.state = settled;
         }
     }
 

@@ -4,7 +4,7 @@ use super::equations::Equations;
 use super::linear::Determinant;
 use super::options::{Crossing, UserEvent};
 use super::phase::{ContactPhase, JointPhase, Phase};
-use crate::expression::ExpressionFault;
+use crate::fault::Fault;
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::Reaction;
 use crate::model::SliderKind;
@@ -163,7 +163,7 @@ impl<'o> Watch<'o> {
         watched: Watched,
         phase: &Phase,
         equations: &Equations<'_>,
-    ) -> Result<f64, ExpressionFault> {
+    ) -> Result<f64, Fault> {
         let (mechanism, configuration) = (equations.mechanism, &equations.configuration);
         let slider = |joint: JointId| mechanism.slider(joint).expect("sliding joints slide");
         Ok(match watched {

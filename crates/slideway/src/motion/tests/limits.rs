@@ -9,8 +9,8 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::Side;
 use crate::motion::{
-    ContactPhase, Crossing, Decisions, End, Instant, Jam, JointPhase, Phase, SimulateOptions, Successor,
-    UserEvent, simulate,
+    ContactPhase, Crossing, Decisions, End, EventFunction, Instant, Jam, JointPhase, Phase, SimulateOptions,
+    Successor, UserEvent, simulate,
 };
 use crate::report::Verdict;
 use std::ops::ControlFlow;
@@ -66,7 +66,7 @@ fn functions_of_the_user_are_events() {
     names.coordinate("x");
     let event = |text: &str, crossing: Crossing, ends: bool| UserEvent {
         name: text.to_owned(),
-        expression: parse(text, &names).unwrap(),
+        function: EventFunction::Expression(parse(text, &names).unwrap()),
         crossing,
         ends,
     };
@@ -101,13 +101,11 @@ fn limits_of_steps_and_events() {
 #[test]
 fn a_contradictory_phase_is_refused() {
     let mut options = SimulateOptions::new(1.0);
-    let pressed = |side| vec![ContactPhase::Pressed(side); 2];
-    options.initial =
-        Some(Phase { joints: vec![JointPhase::Sliding(1.0)], contacts: pressed(Side::Negative) });
+    options.initial = Some("--".to_owned());
     let faults = simulate(&model(&block("0.25", "rate = 2", "")), &options).unwrap_err();
-    assert_eq!(faults.sorted()[0].kind, FaultKind::ContradictoryPhase);
-    options.initial =
-        Some(Phase { joints: vec![JointPhase::Sliding(1.0)], contacts: pressed(Side::Positive) });
+    let (wanted, possible) = ("- -".to_owned(), vec!["+ +".to_owned()]);
+    assert_eq!(faults.sorted()[0].kind, FaultKind::ContradictoryPhase { wanted, possible });
+    options.initial = Some("++".to_owned());
     assert!(simulate(&model(&block("0.25", "rate = 2", "")), &options).is_ok());
 }
 

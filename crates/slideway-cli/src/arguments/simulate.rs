@@ -1,0 +1,130 @@
+//! `slideway simulate`
+
+use super::values::{duration, positive};
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::time::Duration;
+
+pub(super) const HELP: &str = "\
+Examples:
+  slideway simulate frictional-oscillator.toml --until 3s
+  slideway simulate stick-slip.toml --until 10s --plot stick-slip.svg --animate stick-slip.html
+  slideway simulate slider-crank.toml --until 0.2s --step 0.1ms --output motion.csv
+  slideway simulate klepp-2002-spring.toml --until 10s --set mu_1=0.6 --mode \"+ - +\"
+  slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 --all-branches
+
+Exit codes:
+  0  followed to the end, to an event that ends it, or to a limit of travel
+  1  friction locks the mechanism: it cannot go on
+  2  faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
+  3  not followed to the end: too many steps or events, or what follows cannot be decided
+
+What was computed until then is told and written in any case, unless the motion cannot begin.";
+
+/// Arguments of `slideway simulate`.
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// The time at which it ends, such as 10s, `500 ms` or an expression of parameters.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) until: String,
+
+    /// The contact mode to begin with: + or - (sign of the normal force), 0 (preload gap) or = (sticks) for each contact.
+    #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
+    pub(crate) mode: Option<String>,
+
+    /// Which of several possible modes is taken at each decision, counted from 1; the preferred one behind the last.
+    #[arg(long, value_name = "N,M,...", value_delimiter = ',', value_parser = branch)]
+    pub(crate) branch: Vec<usize>,
+
+    /// Which of several possible modes is preferred: by the rule of the book, or the one in which the fewest joints stick.
+    #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
+    pub(crate) prefer: Preference,
+
+    /// Follow every branch wherever several modes are possible.
+    #[arg(long)]
+    pub(crate) all_branches: bool,
+
+    /// How many motions --all-branches follows at most.
+    #[arg(long, value_name = "N", default_value = "32", value_parser = count, requires = "all_branches")]
+    pub(crate) max_motions: usize,
+
+    /// Write the motion as a table: FILE.csv, FILE.npz, or FILE.json for the report with the table in it.
+    #[command(flatten)]
+    pub(crate) destination: Destination,
+
+    /// Step of the table, such as 1ms; the steps of the solver without it.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) step: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) plot: PlotArguments,
+
+    /// Plot the rate of each coordinate over its value instead.
+    #[arg(long, requires = "plot")]
+    pub(crate) phase_portrait: bool,
+
+    /// Draw the mechanism moving, contact modes exaggerated: FILE.html or FILE.svg.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) animate: Option<PathBuf>,
+
+    /// How many seconds of the animation one second of the motion takes.
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "animate")]
+    pub(crate) slow_motion: Option<f64>,
+
+    /// Tell all events, also of long logs.
+    #[arg(long)]
+    pub(crate) all_events: bool,
+
+    /// Relative error that each step is permitted.
+    #[arg(long, value_name = "ERROR", default_value = "1e-8", value_parser = positive)]
+    pub(crate) tolerance: f64,
+
+    /// The longest step of the solver; a thousandth of the time without it.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) longest_step: Option<String>,
+
+    /// It ends after so many steps of the solver.
+    #[arg(long, value_name = "N", default_value = "1000000", value_parser = count)]
+    pub(crate) max_steps: usize,
+
+    /// It ends after so many events.
+    #[arg(long, value_name = "N", default_value = "100000", value_parser = count)]
+    pub(crate) max_events: usize,
+
+    /// The mechanism counts as locked where a normal force exceeds this (N).
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub(crate) max_reaction: Option<f64>,
+
+    /// It ends after this time on the clock: 30s, 500ms, 2min.
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time_limit: Option<Duration>,
+
+    /// Form of what is told.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+}
+
+/// Which of several possible modes is preferred.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Preference {
+    /// What continues the motion; else sticking before sliding, attainable before unattainable.
+    #[default]
+    Rule,
+    /// The mode in which the fewest joints stick.
+    Sliding,
+}
+
+fn branch(text: &str) -> Result<usize, String> {
+    count(text.trim()).map(|number| number - 1)
+}
+
+fn count(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err("it must be a whole number from 1 on".to_owned()),
+    }
+}

@@ -1,0 +1,266 @@
+//! `slideway simulate`
+
+use crate::Outcome;
+use crate::arguments::{CheckFormat, Destination, Preference, SimulateArguments};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::Output;
+use crate::picture::{Picture, beside};
+use crate::time_series::{SeriesFormat, to_csv, to_npz};
+use crate::watch::Watch;
+use slideway::configuration::Configuration;
+use slideway::fault::{Fault, FaultKind};
+use slideway::mechanism::Mechanism;
+use slideway::model::{Model, Setting, SettingKind};
+use slideway::motion::{self, End, History, SimulateOptions, Thorough};
+use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway_pictures::plot::to_svg;
+use std::path::Path;
+
+/// Rows of a table that are too many to be meant.
+const MOST_ROWS: f64 = 1e7;
+
+/// Follows a mechanism in time.
+pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
+    arguments.model.spare(&arguments.destination)?;
+    let files = Files::new(arguments, output)?;
+    let input = Input::read(&arguments.model)?;
+    let model = input.model()?;
+    let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
+    let question = Question { arguments, input: &input, model: &model, mechanism: &mechanism };
+    let options = question.options()?;
+    let step = question.step(&options)?;
+    let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
+
+    let until = mechanism.time + options.duration;
+    let mut watch = Watch::new(arguments.time_limit);
+    let mut progress = |time| watch.follow(time, [mechanism.time, until]);
+    let told = if arguments.all_branches {
+        let most = (&mut Thorough as &mut dyn motion::Decisions, arguments.max_motions);
+        let tree = motion::simulate_all(&mechanism, &configuration, &options, most, &mut progress);
+        Told::all(arguments, &tree.map_err(|faults| input.refused(faults))?, &options, output)
+    } else {
+        let history =
+            motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
+        let history = history.map_err(|faults| input.refused(faults))?;
+        files.write(&history, &options, step)?;
+        Told::one(arguments, &history, &options, output)
+    };
+    drop(watch);
+    output.write(&told.text)?;
+    Ok(told.outcome)
+}
+
+/// The answer on standard output.
+struct Told {
+    text: String,
+    outcome: Outcome,
+}
+
+impl Told {
+    fn one(
+        arguments: &SimulateArguments,
+        history: &History,
+        options: &SimulateOptions,
+        output: &Output,
+    ) -> Self {
+        let report = motion::report(history, options);
+        let text = match arguments.format {
+            CheckFormat::Text => motion::to_text(&report, output.style(), arguments.all_events),
+            CheckFormat::Json => motion::to_json(&report),
+        };
+        Self { text, outcome: outcome(&history.end) }
+    }
+
+    fn all(
+        arguments: &SimulateArguments,
+        tree: &motion::Tree,
+        options: &SimulateOptions,
+        output: &Output,
+    ) -> Self {
+        let report = motion::tree_report(tree, options);
+        let text = match arguments.format {
+            CheckFormat::Text => motion::tree_to_text(&report, output.style(), arguments.all_events),
+            CheckFormat::Json => motion::tree_to_json(&report),
+        };
+        // The best that any motion comes to.
+        let outcomes = tree.histories.iter().map(|branching| outcome(&branching.history.end));
+        Self { text, outcome: outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown) }
+    }
+}
+
+fn outcome(end: &End) -> Outcome {
+    match end {
+        End::NoContinuation | End::Jammed | End::ReactionLimit(_) => Outcome::NoSolution,
+        End::NoValue(_) | End::NoSuchBranch { .. } => Outcome::Refused,
+        End::Accumulation | End::StepLimit | End::EventLimit | End::Undecided(_) | End::Interrupted => {
+            Outcome::Unknown
+        }
+        _ => Outcome::Done,
+    }
+}
+
+/// What is asked of a model.
+struct Question<'q> {
+    arguments: &'q SimulateArguments,
+    input: &'q Input,
+    model: &'q Model,
+    mechanism: &'q Mechanism,
+}
+
+impl Question<'_> {
+    fn options(&self) -> Result<SimulateOptions, Failure> {
+        let arguments = self.arguments;
+        let (start, end) = (self.mechanism.time, self.time("until", &arguments.until)?);
+        if end <= start {
+            return Err(self.refused(FaultKind::NothingToSimulate { start, end }));
+        }
+        let longest_step = self.positive_time("longest-step", arguments.longest_step.as_deref())?;
+        let initial = arguments.mode.as_deref().map(|text| self.mode(text)).transpose()?;
+        let options = SimulateOptions {
+            tolerance: arguments.tolerance,
+            longest_step,
+            most_steps: arguments.max_steps,
+            most_events: arguments.max_events,
+            reaction_limit: arguments.max_reaction,
+            initial,
+            branches: arguments.branch.clone(),
+            prefers_sliding: arguments.prefer == Preference::Sliding,
+            ..SimulateOptions::new(end - start)
+        };
+        Ok(options.with_events_of(self.mechanism))
+    }
+
+    /// The step of the table.
+    fn step(&self, options: &SimulateOptions) -> Result<Option<f64>, Failure> {
+        let step = self.positive_time("step", self.arguments.step.as_deref())?;
+        match step.map(|step| options.duration / step) {
+            Some(rows) if rows > MOST_ROWS => Err(Failure::TooManyRows { rows, most: MOST_ROWS }),
+            _ => Ok(step),
+        }
+    }
+
+    /// A contact mode without its blanks.
+    fn mode(&self, text: &str) -> Result<String, Failure> {
+        let pattern: String = text.chars().filter(|sign| !sign.is_whitespace()).collect();
+        let contacts = &self.mechanism.contacts;
+        if pattern.len() == contacts.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
+            return Ok(pattern);
+        }
+        let contacts = contacts.iter().map(|contact| contact.name.to_string()).collect();
+        Err(self.refused(FaultKind::MalformedMode { text: text.to_owned(), contacts }))
+    }
+
+    fn positive_time(&self, name: &str, text: Option<&str>) -> Result<Option<f64>, Failure> {
+        let Some(text) = text else { return Ok(None) };
+        let value = self.time(name, text)?;
+        if value > 0.0 {
+            return Ok(Some(value));
+        }
+        let wanted = "greater than zero";
+        Err(self.refused(FaultKind::OutOfRange { what: format!("--{name}"), wanted, value }))
+    }
+
+    /// A time of the command line (s).
+    fn time(&self, name: &str, text: &str) -> Result<f64, Failure> {
+        let setting =
+            Setting { kind: SettingKind::Time, name: name.to_owned(), value: text.trim().to_owned() };
+        let value = self.model.setting_value(&setting);
+        value.map_err(|faults| self.input.refused_option(setting, faults))
+    }
+
+    fn refused(&self, kind: FaultKind) -> Failure {
+        self.input.refused(Fault::general(kind).into())
+    }
+}
+
+/// The files that are written beside what is told.
+struct Files<'a> {
+    arguments: &'a SimulateArguments,
+    table: Option<(SeriesFormat, Output)>,
+    plot: Option<(Picture, Output)>,
+    animation: Option<(AnimationFormat, Output)>,
+}
+
+impl<'a> Files<'a> {
+    /// Before the work it is seen whether they can be written.
+    fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
+        let place = |path: &Path| {
+            let destination =
+                Destination { output: Some(path.to_owned()), force: arguments.destination.force };
+            arguments.model.spare(&destination)?;
+            output.to(&destination)
+        };
+        let table = match arguments.destination.output.as_deref() {
+            Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),
+            None => None,
+        };
+        let animation = match arguments.animate.as_deref() {
+            Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
+            None => None,
+        };
+        let plot = beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+        let others = [arguments.destination.output.as_ref(), arguments.plot.plot.as_ref()];
+        if let Some(path) = arguments.animate.as_ref().filter(|path| others.contains(&Some(*path))) {
+            return Err(Failure::SameOutput { path: path.clone() });
+        }
+        if arguments.all_branches && (table.is_some() || plot.is_some() || animation.is_some()) {
+            return Err(Failure::SeveralMotions);
+        }
+        Ok(Self { arguments, table, plot, animation })
+    }
+
+    fn write(&self, history: &History, options: &SimulateOptions, step: Option<f64>) -> Result<(), Failure> {
+        if let Some((format, output)) = &self.table {
+            let times = match step {
+                Some(step) => history.times_in_steps(step),
+                None => history.times().collect(),
+            };
+            let series = history.series(&times);
+            match format {
+                SeriesFormat::Csv => output.write(&to_csv(&series))?,
+                SeriesFormat::Npz => output.write_bytes(&to_npz(&series))?,
+                SeriesFormat::Json => {
+                    let mut report = motion::report(history, options);
+                    report.samples = Some(series);
+                    output.write(&motion::to_json(&report))?;
+                }
+            }
+        }
+        let theme = self.arguments.plot.theme.colours();
+        if let Some((picture, output)) = &self.plot {
+            let portrait = self.arguments.phase_portrait;
+            let figure = if portrait { portrait_figure(history) } else { motion_figure(history) };
+            picture.write(&to_svg(&figure, theme), output)?;
+        }
+        if let Some((format, output)) = &self.animation {
+            let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
+            let animation = animation(history, &options, theme);
+            output.write_bytes(
+                match format {
+                    AnimationFormat::Html => animation.to_html(),
+                    AnimationFormat::Svg => animation.to_svg(),
+                }
+                .as_bytes(),
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// The form of a moving picture, by the ending of its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum AnimationFormat {
+    Html,
+    Svg,
+}
+
+impl AnimationFormat {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
+            Some("html" | "htm") => Ok(Self::Html),
+            Some("svg") => Ok(Self::Svg),
+            _ => Err(Failure::PictureFormat { path: path.to_owned(), known: &[".html", ".svg"] }),
+        }
+    }
+}

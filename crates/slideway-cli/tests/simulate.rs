@@ -1,0 +1,157 @@
+//! `slideway simulate`: what is refused, what ends a motion early, files.
+
+#![allow(clippy::unwrap_used)]
+
+mod command;
+
+use command::{Run, slideway, slideway_reading};
+
+const OSCILLATOR: &str = "models/frictional-oscillator.toml";
+const KLEPP: &str = "models/klepp-2002-spring.toml";
+
+/// A block of 1 kg on a rough floor, pushed along it.
+fn pushed(force: &str) -> String {
+    format!(
+        r#"
+gravity = "10 m/s^2"
+[points]
+C = [0, 0]
+[bodies.block]
+points = ["C"]
+mass = "1 kg"
+centre_of_mass = "C"
+shape = {{ rectangle = ["0.2 m", "0.1 m"] }}
+[joints.floor]
+type = "guided_slider"
+block = "block"
+at = "C"
+along = "0 deg"
+length = "0.2 m"
+mu = 0.1
+[loads.push]
+type = "force"
+at = "block.C"
+components = ["{force}", 0]
+[coordinates.x]
+slide = "floor"
+rate = "5 m/s"
+"#
+    )
+}
+
+fn refused(arguments: &[&str]) -> String {
+    let run = slideway(arguments);
+    assert_eq!(run.code, 2, "{}", run.stderr);
+    assert_eq!(run.stdout, "");
+    run.stderr
+}
+
+#[track_caller]
+fn assert_tells(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "`{part}` is missing in\n{text}");
+    }
+}
+
+#[test]
+fn times_that_make_no_sense_are_refused() {
+    for until in ["0s", "-1s"] {
+        let message = refused(&["simulate", OSCILLATOR, "--until", until]);
+        assert_tells(&message, &["is not after its start", "--until"]);
+    }
+    let message = refused(&["simulate", OSCILLATOR, "--until", "2 s", "--time", "3 s"]);
+    assert_tells(&message, &["the end of the simulation, 2 s, is not after its start, 3 s"]);
+    let message = refused(&["simulate", OSCILLATOR, "--until", "3 kg"]);
+    assert_tells(&message, &["--until=3 kg", "command line"]);
+    let message = refused(&["simulate", OSCILLATOR, "--until", "3s", "--step", "0 ms"]);
+    assert_tells(&message, &["--step", "greater than zero"]);
+    let message = refused(&["simulate", OSCILLATOR, "--until", "3s", "--step", "1e-9 s"]);
+    assert_tells(&message, &["rows", "choose a longer --step"]);
+    refused(&["simulate", OSCILLATOR, "--until", "3s", "--tolerance", "0"]);
+    refused(&["simulate", OSCILLATOR, "--until", "1/0"]);
+}
+
+#[test]
+fn a_contradictory_mode_is_refused_with_those_that_exist() {
+    let message = refused(&["simulate", KLEPP, "--until", "1s", "--mode", "- - -"]);
+    assert_tells(&message, &["cannot begin in the contact mode `- - -`", "possible at the start: `"]);
+    let message = refused(&["simulate", KLEPP, "--until", "1s", "--mode", "+ +"]);
+    assert_tells(&message, &["upper, lower.front, lower.rear", "= is a contact whose joint sticks"]);
+}
+
+#[test]
+fn a_state_that_cannot_be_assembled_is_refused() {
+    let crank = "models/slider-crank.toml";
+    let message = refused(&["simulate", crank, "--until", "1s", "--set", "l=45 mm", "--at", "phi=90 deg"]);
+    assert_tells(&message, &["assembled"]);
+}
+
+#[test]
+fn files_without_a_known_ending_are_refused() {
+    let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--output", "motion.xls"]);
+    assert_tells(&message, &["`motion.xls` names no form of a time series", ".csv"]);
+    let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--animate", "motion.gif"]);
+    assert_tells(&message, &[".html"]);
+    let message =
+        refused(&["simulate", OSCILLATOR, "--until", "1s", "--all-branches", "--output", "motion.csv"]);
+    assert_tells(&message, &["--branch"]);
+}
+
+/// 1 N s / sqrt(1.3 s - t) grows without bound towards 1.3 s and has no value behind it.
+#[test]
+fn a_load_without_a_value_ends_the_motion_and_keeps_what_was_computed() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("motion.csv");
+    let model = pushed("1 N * sqrt(1.3 - t/(1 s))");
+    let arguments = ["simulate", "-", "--until", "2s", "--output", file.to_str().unwrap()];
+    let Run { code, stdout, .. } = slideway_reading(&arguments, model.as_bytes());
+    assert_eq!(code, 2);
+    assert_tells(&stdout, &["It ends at 1.3 s", "In the end: x = "]);
+    let rows = std::fs::read_to_string(&file).unwrap();
+    let last: f64 = rows.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
+    assert!((last - 1.3).abs() < 1e-6, "{last}");
+    assert!(!rows.contains("NaN") && !rows.contains("inf"));
+}
+
+#[test]
+fn the_step_limit_is_told_with_the_state() {
+    let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--max-steps", "20"]);
+    assert_eq!(run.code, 3);
+    assert_tells(&run.stdout, &["after the 20 steps that were permitted", "In the end: x = "]);
+}
+
+#[test]
+fn a_branch_that_does_not_exist_is_told() {
+    let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--branch", "7"]);
+    assert_eq!(run.code, 2);
+    assert_tells(&run.stdout, &["the branch that was wanted", "does not exist"]);
+}
+
+#[test]
+fn json_has_its_schema_and_the_table_its_step() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("motion.json");
+    let path = file.to_str().unwrap();
+    let arguments =
+        ["simulate", OSCILLATOR, "--until", "0.5 s", "--step", "0.1 s", "--output", path, "--format", "json"];
+    let run = slideway(&arguments);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let told: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(told["schema"], "slideway/simulate/1");
+    assert!(told.get("samples").is_none());
+    let written: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
+    let times: Vec<f64> = written["samples"]["columns"][0]["values"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|time| time.as_f64().unwrap())
+        .collect();
+    assert_eq!(times.len(), 6);
+    assert!(times.iter().enumerate().all(|(index, time)| (time - 0.1 * index as f64).abs() < 1e-15));
+}
+
+#[test]
+fn the_same_command_gives_the_same_bytes() {
+    let arguments = ["simulate", KLEPP, "--until", "0.5s", "--format", "json"];
+    assert_eq!(slideway(&arguments).stdout, slideway(&arguments).stdout);
+}

@@ -1,0 +1,185 @@
+//! The mechanism moving: one drawing for each frame, contact modes exaggerated.
+
+use super::page;
+use crate::drawing::svg::markup;
+use crate::drawing::{
+    Bounds, Class, ContactForces, ContactState, ContactStates, Scene, SceneOptions, Shape, View, scene,
+};
+use crate::theme::Theme;
+use slideway::configuration::Configuration;
+use slideway::motion::{History, Sample};
+
+/// Frames for a second on the clock.
+const FRAMES_PER_SECOND: f64 = 25.0;
+/// At most so many frames.
+const MOST_FRAMES: usize = 400;
+/// Without a wish a motion is shown as fast as it is if that takes between these times (s), else in this time.
+const USUAL: [f64; 3] = [3.0, 16.0, 8.0];
+/// Width and height of the part of the drawing that the mechanism takes (drawing units).
+const SIZE: [f64; 2] = [560.0, 300.0];
+/// Length of the arrow of the greatest force (drawing units).
+const LONGEST_ARROW: f64 = 80.0;
+/// The greatest force is that which only this part of the frames exceeds: forces may grow very large before a jam.
+const RARE: f64 = 0.05;
+/// Around the drawing (drawing units).
+const MARGIN: f64 = 24.0;
+
+/// How a motion is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AnimationOptions {
+    /// How many seconds one second of the motion takes.
+    pub slow_motion: Option<f64>,
+}
+
+/// A moving picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Animation {
+    pub(super) title: String,
+    pub(super) bounds: Bounds,
+    /// The shapes that occur, each once, as SVG.
+    pub(super) shapes: Vec<String>,
+    pub(super) frames: Vec<FrameOf>,
+    /// What is told, and from when on (s).
+    pub(super) events: Vec<(f64, String)>,
+    /// Start and end of the motion (s).
+    pub(super) times: [f64; 2],
+    /// Seconds on the clock between two frames.
+    pub(super) frame_time: f64,
+    pub(super) slow_motion: f64,
+    pub(super) theme: Theme,
+}
+
+/// One frame.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FrameOf {
+    /// s
+    pub(super) time: f64,
+    /// The mode, spaced.
+    pub(super) mode: String,
+    /// Indices of shapes, in the order in which they are drawn.
+    pub(super) shapes: Vec<usize>,
+}
+
+impl Animation {
+    /// As a page by itself, with a slider for the time and the log of events.
+    pub fn to_html(&self) -> String {
+        page::html(self)
+    }
+
+    /// As an SVG document that moves by itself.
+    pub fn to_svg(&self) -> String {
+        page::svg(self)
+    }
+}
+
+/// A motion as a moving picture.
+pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -> Animation {
+    let times = [history.start(), history.stop()];
+    let duration = times[1] - times[0];
+    let slow_motion = options.slow_motion.unwrap_or_else(|| {
+        if (USUAL[0]..=USUAL[1]).contains(&duration) || duration <= 0.0 { 1.0 } else { USUAL[2] / duration }
+    });
+    let shown = duration * slow_motion;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let count = (shown * FRAMES_PER_SECOND).ceil().clamp(1.0, MOST_FRAMES as f64) as usize;
+    let mut reader = history.reader();
+    let samples: Vec<Sample> = (0..=count)
+        .filter_map(|index| reader.at(times[0] + duration * index as f64 / count as f64))
+        .collect();
+    let painted = Painted::new(history, &samples);
+    let (shapes, frames, bounds) = painted.frames();
+    Animation {
+        title: history.mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned()),
+        bounds,
+        shapes,
+        frames,
+        events: history.events.iter().map(|event| (event.time, event.words.clone())).collect(),
+        times,
+        frame_time: shown / count as f64,
+        slow_motion,
+        theme: *theme,
+    }
+}
+
+struct Painted<'h> {
+    history: &'h History,
+    samples: &'h [Sample],
+    view: View,
+    options: SceneOptions,
+}
+
+impl<'h> Painted<'h> {
+    fn new(history: &'h History, samples: &'h [Sample]) -> Self {
+        let configurations: Vec<&Configuration> =
+            samples.iter().map(|sample| &sample.configuration).collect();
+        let view = View::fitting(&history.mechanism, &configurations, SIZE);
+        let mut forces: Vec<f64> = samples
+            .iter()
+            .flat_map(|sample| sample.contacts.iter().map(|contact| contact.normal_force.abs()))
+            .collect();
+        forces.sort_by(f64::total_cmp);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the length")]
+        let rare = (forces.len() as f64 * (1.0 - RARE)) as usize;
+        let greatest = forces.get(rare).or(forces.last()).copied().unwrap_or(0.0);
+        let scale = if greatest > 0.0 { LONGEST_ARROW / greatest } else { 1.0 };
+        Self { history, samples, view, options: SceneOptions::contact_mode(scale) }
+    }
+
+    /// The shapes that occur, the frames made of them, and what they need of the drawing.
+    fn frames(&self) -> (Vec<String>, Vec<FrameOf>, Bounds) {
+        let mut shapes: Vec<String> = Vec::new();
+        let mut known = std::collections::HashMap::new();
+        let mut frames = Vec::with_capacity(self.samples.len());
+        let mut bounds: Option<Bounds> = None;
+        for sample in self.samples {
+            let scene = self.scene(sample);
+            bounds = bounds.into_iter().chain(scene.bounds()).reduce(Bounds::with);
+            let mut indices = Vec::with_capacity(scene.elements.len());
+            for element in &scene.elements {
+                let text = markup(element);
+                let index = *known.entry(text).or_insert_with_key(|text| {
+                    shapes.push(text.clone());
+                    shapes.len() - 1
+                });
+                indices.push(index);
+            }
+            let mode = self.mode(sample);
+            let signs: Vec<String> = mode.chars().map(|sign| sign.to_string()).collect();
+            let time = sample.configuration.time;
+            frames.push(FrameOf { time, mode: signs.join(" "), shapes: indices });
+        }
+        let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
+        (shapes, frames, bounds.unwrap_or(empty).widened(MARGIN))
+    }
+
+    fn mode(&self, sample: &Sample) -> String {
+        let phase = self.history.phases.get(sample.phase);
+        phase.map_or_else(String::new, |interval| interval.phase.pattern(&self.history.mechanism))
+    }
+
+    /// The drawing at a time; words would flicker and are left out.
+    fn scene(&self, sample: &Sample) -> Scene {
+        let mode = self.mode(sample);
+        let contacts = sample.contacts.iter().zip(mode.chars()).map(|(contact, sign)| ContactState {
+            side: match sign {
+                '+' => 1.0,
+                '-' => -1.0,
+                '0' => 0.0,
+                _ if contact.normal_force == 0.0 => 0.0,
+                _ => contact.normal_force.signum(),
+            },
+            forces: Some(ContactForces {
+                normal: contact.normal_force,
+                friction: contact.friction_force.unwrap_or(0.0),
+                couple: 0.0,
+            }),
+        });
+        let states = ContactStates { contacts: contacts.collect(), efforts: sample.efforts.clone() };
+        let mut scene =
+            scene(&self.history.mechanism, &sample.configuration, &states, &self.view, &self.options);
+        scene
+            .elements
+            .retain(|element| element.class != Class::Leader && !matches!(element.shape, Shape::Text(_)));
+        scene
+    }
+}

@@ -1,0 +1,176 @@
+//! Figures of a motion: quantities over time with the contact modes as bands, and the phase portrait.
+
+use crate::plot::{Axis, Band, Branch, Curve, Figure, Panel, Stroke};
+use crate::theme::LIGHT;
+use slideway::motion::{History, Series};
+
+/// Points of a curve, shared among the phases.
+const POINTS: f64 = 1500.0;
+/// Points of a phase at least.
+const LEAST: usize = 6;
+/// The end of a phase is read so much before its end, as a part of it: forces may jump there.
+const BEFORE_END: f64 = 1e-9;
+
+/// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, energies.
+pub fn motion_figure(history: &History) -> Figure {
+    let samples = Samples::of(history);
+    let mut builder = Builder { samples: &samples, branches: Vec::new() };
+    let mechanism = &history.mechanism;
+    let mut panels = Vec::new();
+    for (angles, unit) in [(false, "m"), (true, "rad")] {
+        let coordinates =
+            mechanism.coordinates.iter().filter(|coordinate| coordinate.kind.is_angle() == angles);
+        let curves: Vec<(String, String)> = coordinates
+            .map(|coordinate| (coordinate.name.to_string(), coordinate.name.to_string()))
+            .collect();
+        if !curves.is_empty() {
+            panels.push(builder.panel("Coordinates", ("coordinate", unit), &curves));
+        }
+    }
+    let contacts = mechanism.contacts.iter();
+    let forces: Vec<(String, String)> = contacts
+        .map(|contact| (contact.name.to_string(), format!("{}.normal_force", contact.name)))
+        .collect();
+    let mut panel = builder.panel("Normal forces and contact modes", ("normal force", "N"), &forces);
+    panel.bands = bands(history);
+    panels.push(panel);
+    let energies = [
+        ("kinetic energy", "energy.kinetic"),
+        ("potential energy", "energy.potential"),
+        ("taken by friction", "energy.friction"),
+        ("work of loads", "energy.loads"),
+        ("work of drives", "energy.drives"),
+        ("lost in impulses", "energy.impulses"),
+    ];
+    let energies: Vec<(String, String)> = energies
+        .iter()
+        .filter(|(_, column)| samples.is_used(column))
+        .map(|(name, column)| ((*name).to_owned(), (*column).to_owned()))
+        .collect();
+    panels.push(builder.panel("Energy", ("energy", "J"), &energies));
+    Figure {
+        title: mechanism.title.clone().unwrap_or_default(),
+        subtitle: format!(
+            "Modes: signs of the normal forces of {}; = where the joint sticks",
+            names(history)
+        ),
+        panels,
+        branches: builder.branches,
+        quantities: vec![String::new()],
+    }
+}
+
+/// The phase portrait: the rate of every coordinate over its value.
+pub fn portrait_figure(history: &History) -> Figure {
+    let samples = Samples::of(history);
+    let coordinates = history.mechanism.coordinates.iter().enumerate();
+    let panel = |(index, coordinate): (usize, &slideway::mechanism::Coordinate)| {
+        let name = &coordinate.name;
+        let unit = if coordinate.kind.is_angle() { "rad" } else { "m" };
+        let axis = |name: String, unit: String| Axis { name, unit, range: None };
+        let pieces = samples.pieces.iter().map(|piece| curve(piece, (name, &format!("{name}.rate")), index));
+        Panel {
+            x: axis(name.to_string(), unit.to_owned()),
+            y: axis(format!("rate of {name}"), format!("{unit}/s")),
+            curves: pieces.collect(),
+            ..Panel::default()
+        }
+    };
+    Figure {
+        title: history.mechanism.title.clone().unwrap_or_default(),
+        panels: coordinates.clone().map(panel).collect(),
+        branches: coordinates.map(|(index, coordinate)| branch(&coordinate.name, index)).collect(),
+        quantities: vec![String::new()],
+        ..Figure::default()
+    }
+}
+
+fn names(history: &History) -> String {
+    let names: Vec<&str> = history.mechanism.contacts.iter().map(|contact| &*contact.name).collect();
+    names.join(", ")
+}
+
+/// Colours that have been used are told apart by dashes.
+fn branch(name: &str, colour: usize) -> Branch {
+    let stroke = if colour < LIGHT.series.len() { Stroke::Solid } else { Stroke::Dashed };
+    Branch { name: name.to_owned(), colour, stroke }
+}
+
+/// A motion, phase by phase, so that jumps at events stay jumps.
+struct Samples {
+    pieces: Vec<Series>,
+    range: [f64; 2],
+}
+
+impl Samples {
+    fn of(history: &History) -> Self {
+        let range = [history.start(), history.stop()];
+        let whole = range[1] - range[0];
+        let piece = |phase: &slideway::motion::PhaseInterval| {
+            let length = phase.to - phase.from;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of POINTS")]
+            let points = ((POINTS * length / whole) as usize).max(LEAST);
+            let last = length * (1.0 - BEFORE_END);
+            let times = (0..=points).map(|point| phase.from + last * point as f64 / points as f64);
+            history.series(&times.collect::<Vec<_>>())
+        };
+        let phases = history.phases.iter().filter(|phase| phase.to > phase.from);
+        Self { pieces: phases.map(piece).collect(), range }
+    }
+
+    /// Whether a column has another number than zero.
+    fn is_used(&self, name: &str) -> bool {
+        let columns = self.pieces.iter().filter_map(|piece| piece.column(name));
+        columns.flat_map(|column| column.values.iter().flatten()).any(|value| *value != 0.0)
+    }
+}
+
+struct Builder<'s> {
+    samples: &'s Samples,
+    branches: Vec<Branch>,
+}
+
+impl Builder<'_> {
+    /// A panel with the time as its axis; curves are given by their names and columns.
+    fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[(String, String)]) -> Panel {
+        let mut drawn = Vec::new();
+        for (name, column) in curves {
+            let index = self.branches.len();
+            self.branches.push(branch(name, index));
+            drawn.extend(self.samples.pieces.iter().map(|piece| curve(piece, ("t", column), index)));
+        }
+        Panel {
+            title: title.to_owned(),
+            x: Axis { name: "t".to_owned(), unit: "s".to_owned(), range: Some(self.samples.range) },
+            y: Axis { name: name.to_owned(), unit: unit.to_owned(), range: None },
+            curves: drawn,
+            ..Panel::default()
+        }
+    }
+}
+
+/// One column over another.
+fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
+    let values = |name: &str| series.column(name).map_or(&[][..], |column| &column.values);
+    let pairs = values(x).iter().zip(values(y));
+    let points = pairs.filter_map(|(x, y)| Some([(*x)?, (*y)?])).collect();
+    Curve { branch, quantity: 0, points, ends: <[crate::plot::End; 2]>::default() }
+}
+
+/// The contact modes along the time.
+fn bands(history: &History) -> Vec<Band> {
+    let mut patterns: Vec<String> = Vec::new();
+    let mut bands = Vec::new();
+    for phase in history.phases.iter().filter(|phase| phase.to > phase.from) {
+        let pattern = phase.phase.pattern(&history.mechanism);
+        let known = patterns.iter().position(|known| *known == pattern);
+        let colour = known.unwrap_or_else(|| {
+            patterns.push(pattern.clone());
+            patterns.len() - 1
+        });
+        let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();
+        let meaning = format!("mode {}", signs.join(" "));
+        bands.push(Band { from: phase.from, to: phase.to, colour, meaning });
+    }
+    bands
+}

@@ -1,0 +1,304 @@
+//! A moving picture as a document by itself.
+
+use super::animation::Animation;
+use crate::drawing::svg::{Colour, rules, short};
+use crate::escaped;
+use crate::typeface::STACK;
+use std::fmt::Write;
+
+/// Room for the words below the drawing (drawing units).
+const CAPTION: f64 = 78.0;
+/// At most so many events are told in an SVG document.
+const MOST_TOLD: usize = 200;
+/// Letters in a line of the caption.
+const LETTERS: usize = 96;
+
+/// A page with a slider for the time and the log of events.
+pub(super) fn html(animation: &Animation) -> String {
+    let theme = &animation.theme;
+    let mut out = String::new();
+    let _ = write!(
+        out,
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n\
+         body {{ font-family: {STACK}; background: {background}; color: {ink}; margin: 1.5em auto; max-width: 60em; }}\n\
+         svg {{ width: 100%; height: auto; }}\n\
+         #time {{ width: 60%; }}\n\
+         .mode {{ font-family: monospace; }}\n\
+         #log {{ height: 12em; overflow-y: auto; border-top: 1px solid {muted}; padding-left: 0; list-style: none; }}\n\
+         #log li {{ padding: 0.15em 0.4em; cursor: pointer; color: {muted}; }}\n\
+         #log li.past {{ color: {ink}; }}\n\
+         #log li.now {{ background: {body}; font-weight: bold; }}\n\
+         {rules}</style>\n<h1>{title}</h1>\n",
+        title = escaped(&animation.title),
+        background = theme.background,
+        ink = theme.ink,
+        muted = theme.muted,
+        body = theme.body,
+        rules = rules(&Colour::of_theme(theme)),
+    );
+    let _ = writeln!(
+        out,
+        "<svg viewBox=\"{}\" role=\"img\" aria-label=\"{}\"><g id=\"drawing\"></g></svg>",
+        view_box(animation, 0.0),
+        escaped(&animation.title)
+    );
+    let _ = writeln!(
+        out,
+        "<p><button id=\"play\">pause</button> <input id=\"time\" type=\"range\" min=\"0\" max=\"{}\" value=\"0\" \
+         aria-label=\"time\"> <span id=\"clock\"></span>, mode <span class=\"mode\" id=\"mode\"></span></p>\n\
+         <p>{}. Guides are widened so that the contact modes can be seen. Arrows: normal reactions and friction on the blocks, loads, and sliding velocities.</p>\n\
+         <ol id=\"log\"></ol>",
+        animation.frames.len().saturating_sub(1),
+        speed(animation)
+    );
+    out.push_str("<script>\n\"use strict\";\nconst shapes = [");
+    list(&mut out, animation.shapes.iter().map(|shape| literal(shape.trim_end())));
+    out.push_str("];\nconst frames = [");
+    list(
+        &mut out,
+        animation.frames.iter().map(|frame| {
+            let shapes: Vec<String> = frame.shapes.iter().map(ToString::to_string).collect();
+            format!("[{:?},{},[{}]]", frame.time, literal(&frame.mode), shapes.join(","))
+        }),
+    );
+    out.push_str("];\nconst events = [");
+    list(&mut out, animation.events.iter().map(|(time, words)| format!("[{time:?},{}]", literal(words))));
+    let _ = write!(out, "];\nconst frameTime = {:?};\n{SCRIPT}</script>\n</html>\n", animation.frame_time);
+    out
+}
+
+const SCRIPT: &str = r#"const element = id => document.getElementById(id);
+const log = element("log");
+for (const [time, words] of events) {
+  const line = document.createElement("li");
+  line.textContent = time.toFixed(5) + " s  " + words;
+  line.onclick = () => { playing = false; show(frames.findIndex(frame => frame[0] >= time)); };
+  log.append(line);
+}
+let current = 0, playing = true, started = null;
+function show(index) {
+  current = index < 0 ? frames.length - 1 : index;
+  const [time, mode, parts] = frames[current];
+  element("drawing").innerHTML = parts.map(part => shapes[part]).join("");
+  element("time").value = current;
+  element("clock").textContent = "t = " + time.toFixed(4) + " s";
+  element("mode").textContent = mode;
+  element("play").textContent = playing ? "pause" : "play";
+  let last = null;
+  [...log.children].forEach((line, number) => {
+    const past = events[number][0] <= time;
+    line.className = past ? "past" : "";
+    if (past) last = line;
+  });
+  if (last) {
+    last.className = "past now";
+    log.scrollTop = last.offsetTop - log.offsetTop - log.clientHeight / 2;
+  }
+}
+element("time").oninput = () => { playing = false; show(Number(element("time").value)); };
+element("play").onclick = () => {
+  playing = !playing;
+  started = null;
+  if (playing && current === frames.length - 1) current = 0;
+  show(current);
+};
+function step(now) {
+  if (playing) {
+    if (started === null) started = now - 1000 * frameTime * current;
+    const index = Math.floor((now - started) / (1000 * frameTime));
+    if (index >= frames.length) {
+      playing = false;
+      show(frames.length - 1);
+    } else if (index !== current) show(index);
+  }
+  requestAnimationFrame(step);
+}
+const wanted = new URLSearchParams(location.search).get("frame");
+if (wanted !== null) playing = false;
+show(wanted === null ? 0 : Math.min(Number(wanted), frames.length - 1));
+requestAnimationFrame(step);
+"#;
+
+/// A document that moves by itself: every frame is a group that is shown in its time.
+pub(super) fn svg(animation: &Animation) -> String {
+    let size = animation.bounds.size();
+    let theme = &animation.theme;
+    let total = animation.frame_time * animation.frames.len() as f64;
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"{}\" role=\"img\" font-family=\"{STACK}\">\n\
+         <title>{}</title>\n<style>\n{}.frame, .told {{ display: none; }}\n</style>",
+        short(size.x),
+        short(size.y + CAPTION),
+        view_box(animation, CAPTION),
+        escaped(&animation.title),
+        rules(&Colour::of_theme(theme)),
+    );
+    let corner = animation.bounds.least;
+    let _ = writeln!(
+        out,
+        "<rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\
+         <animate id=\"clock\" attributeName=\"opacity\" from=\"1\" to=\"1\" begin=\"0s;clock.end\" dur=\"{total:.3}s\"/></rect>",
+        short(corner.x),
+        short(corner.y),
+        short(size.x),
+        short(size.y + CAPTION),
+    );
+    let common = common(animation);
+    for index in &common {
+        out.push_str(&animation.shapes[*index]);
+    }
+    let uses = Uses::of(animation, common.len());
+    uses.define(animation, &mut out);
+    let left = short(corner.x + 12.0);
+    let below = animation.bounds.greatest.y;
+    for (number, frame) in animation.frames.iter().enumerate() {
+        let begin = animation.frame_time * number as f64;
+        let _ = writeln!(out, "<g class=\"frame\">{}", shown(begin, animation.frame_time));
+        for index in &frame.shapes[common.len()..] {
+            uses.draw(animation, *index, &mut out);
+        }
+        let _ = writeln!(
+            out,
+            "<text class=\"s-words\" x=\"{left}\" y=\"{}\" font-size=\"15\">t = {:.4} s, mode {}</text></g>",
+            short(below + 16.0),
+            frame.time,
+            escaped(&frame.mode)
+        );
+    }
+    events(animation, &mut out, [corner.x + 12.0, below + 38.0]);
+    let _ = writeln!(
+        out,
+        "<text class=\"s-dimension\" stroke=\"none\" x=\"{left}\" y=\"{}\" font-size=\"12\">{}</text>\n</svg>",
+        short(below + 72.0),
+        speed(animation)
+    );
+    out
+}
+
+/// How often each shape occurs behind those that all frames share.
+struct Uses(Vec<usize>);
+
+impl Uses {
+    fn of(animation: &Animation, shared: usize) -> Self {
+        let mut counts = vec![0; animation.shapes.len()];
+        let later = animation.frames.iter().flat_map(|frame| &frame.shapes[shared..]);
+        later.for_each(|index| counts[*index] += 1);
+        Self(counts)
+    }
+
+    /// Shapes that occur several times are written once.
+    fn define(&self, animation: &Animation, out: &mut String) {
+        out.push_str("<defs>\n");
+        for (index, shape) in animation.shapes.iter().enumerate().filter(|(index, _)| self.0[*index] > 1) {
+            let _ = writeln!(out, "<g id=\"s{index}\">{}</g>", shape.trim_end());
+        }
+        out.push_str("</defs>\n");
+    }
+
+    fn draw(&self, animation: &Animation, index: usize, out: &mut String) {
+        if self.0[index] > 1 {
+            let _ = write!(out, "<use href=\"#s{index}\"/>");
+        } else {
+            out.push_str(&animation.shapes[index]);
+        }
+    }
+}
+
+/// The words of each event until the next.
+fn events(animation: &Animation, out: &mut String, [x, y]: [f64; 2]) {
+    let clock = |time: f64| (time - animation.times[0]) * animation.slow_motion;
+    let total = animation.frame_time * animation.frames.len() as f64;
+    let told = &animation.events[..animation.events.len().min(MOST_TOLD)];
+    for (number, (time, words)) in told.iter().enumerate() {
+        let begin = clock(*time);
+        let end = told.get(number + 1).map_or(total, |(next, _)| clock(*next));
+        if end <= begin {
+            continue;
+        }
+        let _ = write!(out, "<g class=\"told\">{}", shown(begin, end - begin));
+        for (line, text) in lines(&format!("{time:.4} s: {words}")).iter().take(2).enumerate() {
+            let _ = write!(
+                out,
+                "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
+                short(x),
+                short(y + 16.0 * line as f64),
+                escaped(text)
+            );
+        }
+        out.push_str("</g>\n");
+    }
+}
+
+fn lines(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in text.split(' ') {
+        let last = lines.last_mut().expect("there is always a line");
+        if last.len() + word.len() > LETTERS && !last.is_empty() {
+            lines.push(word.to_owned());
+        } else {
+            if !last.is_empty() {
+                last.push(' ');
+            }
+            last.push_str(word);
+        }
+    }
+    lines
+}
+
+/// What makes a group visible from a time of the clock on, for some time (s).
+fn shown(begin: f64, duration: f64) -> String {
+    format!(
+        "<set attributeName=\"display\" to=\"inline\" begin=\"clock.begin+{begin:.3}s\" dur=\"{duration:.3}s\"/>"
+    )
+}
+
+/// The shapes with which every frame begins.
+fn common(animation: &Animation) -> Vec<usize> {
+    let Some(first) = animation.frames.first() else { return Vec::new() };
+    let length = |frame: &super::animation::FrameOf| {
+        frame.shapes.iter().zip(&first.shapes).take_while(|(one, other)| one == other).count()
+    };
+    let shared = animation.frames.iter().map(length).min().unwrap_or(0);
+    first.shapes[..shared].to_vec()
+}
+
+fn speed(animation: &Animation) -> String {
+    let factor = animation.slow_motion;
+    if factor == 1.0 {
+        "As fast as it is".to_owned()
+    } else if factor > 1.0 {
+        format!("{factor:.1} times slower than it is")
+    } else {
+        format!("{:.1} times faster than it is", 1.0 / factor)
+    }
+}
+
+fn view_box(animation: &Animation, below: f64) -> String {
+    let (corner, size) = (animation.bounds.least, animation.bounds.size());
+    [corner.x, corner.y, size.x, size.y + below].map(short).join(" ")
+}
+
+fn list(out: &mut String, items: impl Iterator<Item = String>) {
+    for (index, item) in items.enumerate() {
+        out.push_str(if index == 0 { "\n" } else { ",\n" });
+        out.push_str(&item);
+    }
+}
+
+/// A text as JavaScript writes it, within a page.
+fn literal(text: &str) -> String {
+    let mut out = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            '<' => out.push_str("\\u003c"),
+            other => out.push(other),
+        }
+    }
+    out.push('"');
+    out
+}

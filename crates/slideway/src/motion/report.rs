@@ -1,0 +1,406 @@
+//! What is told of a motion: plain data, which are the JSON output.
+
+use super::energy::{kinetic, potential};
+use super::event::{Event, NOTHING};
+use super::history::{End, Energy, History};
+use super::options::SimulateOptions;
+use super::phase::JointPhase;
+use super::series::Series;
+use crate::configuration::{Configuration, unit};
+use crate::report::number::number;
+use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
+use serde::Serialize;
+
+/// Version of the layout of a [`SimulateReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/simulate/1";
+
+/// A motion in time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SimulateReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// What the model is.
+    pub model: ModelSummary,
+    /// The names of the contacts, in the order of their signs in modes.
+    pub contacts: Vec<String>,
+    /// Relative error that each step was permitted.
+    pub tolerance: f64,
+    /// When it begins (s).
+    pub start: f64,
+    /// When it was to end (s).
+    pub until: f64,
+    /// When it ends (s).
+    pub stop: f64,
+    /// Coordinates and rates at the start.
+    pub initial: Vec<CoordinateState>,
+    /// Coordinates and rates at the end.
+    pub last: Vec<CoordinateState>,
+    /// What happened, in its order.
+    pub events: Vec<EventReport>,
+    /// The phases, one after the other.
+    pub phases: Vec<PhaseReport>,
+    /// How it ends.
+    pub end: EndReport,
+    /// Where the energy went.
+    pub energy: EnergyReport,
+    /// How far the joints were violated before each projection: of positions, in sizes of the mechanism or rad.
+    pub position_drift: f64,
+    /// Likewise, of velocities, per second.
+    pub velocity_drift: f64,
+    /// What it cost.
+    pub statistics: StatisticsReport,
+    /// The motion as a table, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<Series>,
+}
+
+/// Something that happened at an instant.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EventReport {
+    /// When (s).
+    pub time: f64,
+    /// Everything that came together.
+    pub causes: Vec<CauseReport>,
+    /// What happened, in words.
+    pub words: String,
+    /// The mode that follows; nothing where the motion ends.
+    pub mode: Option<String>,
+    /// All modes that were possible, in the order of preference, if there were several.
+    pub branches: Vec<BranchReport>,
+    /// Energy lost in impulses (J).
+    pub energy_lost: f64,
+}
+
+/// Why a phase ended, or what was told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CauseReport {
+    /// `start`, `normal_force_zero`, `preload_gap_ends`, `stops`, `slips`, `locks`, `reaction_limit`, `tips`,
+    /// `overlap_vanishes`, `travel_limit`, `user`, `jams`.
+    pub kind: &'static str,
+    /// The joint, contact or function.
+    pub of: Option<String>,
+}
+
+/// A mode in which the motion could go on.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BranchReport {
+    /// Its number, counted from 1.
+    pub number: usize,
+    /// The mode.
+    pub mode: String,
+    /// Whether it was taken.
+    pub taken: bool,
+    /// Whether it continues the motion without a jump of forces.
+    pub continues: bool,
+    /// Whether a real mechanism can take it.
+    pub attainable: Verdict,
+}
+
+/// A phase and when it holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhaseReport {
+    /// Its start (s).
+    pub from: f64,
+    /// Its end (s).
+    pub to: f64,
+    /// The mode: for each contact `+` or `-`, `0` in a preload gap, `=` where its joint sticks.
+    pub mode: String,
+    /// For each sliding joint the sign of its velocity, 0 where it sticks.
+    pub sliding: Vec<i8>,
+}
+
+/// How a motion ends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EndReport {
+    /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `no_continuation`, `jammed`,
+    /// `accumulation`, `step_limit`, `event_limit`, `no_value`, `undecided`, `interrupted`.
+    pub kind: &'static str,
+    /// In words.
+    pub words: String,
+    /// Whether the mechanism cannot move on: friction locks it.
+    pub locked: bool,
+}
+
+/// Where the energy went (J).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EnergyReport {
+    /// Kinetic energy at the start and at the end.
+    pub kinetic: [f64; 2],
+    /// Potential energy at the start and at the end.
+    pub potential: [f64; 2],
+    /// Dissipated by the friction of each contact.
+    pub friction: Vec<Named>,
+    /// Work of each load that is no constant spring.
+    pub loads: Vec<Named>,
+    /// Work of each drive.
+    pub drives: Vec<Named>,
+    /// Lost in impulses.
+    pub impulses: f64,
+    /// The greatest error of the balance at any step.
+    pub error: f64,
+    /// That error in relation to the greatest kinetic energy, work or dissipation.
+    pub relative_error: f64,
+}
+
+/// A number with its name.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// J
+    pub value: f64,
+}
+
+/// What a simulation cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct StatisticsReport {
+    /// Steps that were accepted.
+    pub steps: usize,
+    /// Steps that were repeated with a shorter length.
+    pub repeated: usize,
+    /// Evaluations of the equations.
+    pub evaluations: u64,
+    /// Events.
+    pub events: usize,
+}
+
+/// The report as indented JSON, ending in a line end; its version is in `schema`.
+pub fn to_json(report: &SimulateReport) -> String {
+    indented_json(report)
+}
+
+/// What is told of a motion that was simulated with these options.
+pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
+    let mechanism = &history.mechanism;
+    SimulateReport {
+        schema: SCHEMA,
+        model: ModelSummary {
+            title: mechanism.title.clone(),
+            degrees_of_freedom: mechanism.coordinates.len(),
+            bodies: mechanism.bodies.len(),
+            contacts: mechanism.contacts.len(),
+            drives: mechanism.drives.len(),
+        },
+        contacts: mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),
+        tolerance: options.tolerance,
+        start: history.start(),
+        until: history.start() + options.duration,
+        stop: history.stop(),
+        initial: state(history, &history.initial),
+        last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
+        events: history.events.iter().filter(is_told).map(|event| event_report(history, event)).collect(),
+        phases: phases(history),
+        end: end_report(history, options),
+        energy: energy(history),
+        position_drift: history.drift.position,
+        velocity_drift: history.drift.velocity,
+        statistics: StatisticsReport {
+            steps: history.statistics.steps,
+            repeated: history.statistics.rejected,
+            evaluations: history.statistics.evaluations,
+            events: history.events.iter().filter(is_told).count(),
+        },
+        samples: None,
+    }
+}
+
+fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateState> {
+    let values = configuration.coordinates.iter().zip(&configuration.rates);
+    let coordinates = history.mechanism.coordinates.iter().zip(values);
+    coordinates
+        .map(|(coordinate, (value, rate))| CoordinateState {
+            name: coordinate.name.to_string(),
+            unit: unit(&coordinate.kind),
+            value: *value,
+            rate: *rate,
+        })
+        .collect()
+}
+
+/// A normal force may touch zero once more within rounding: nothing follows, and nothing is told.
+fn is_told(event: &&Event) -> bool {
+    event.words != NOTHING
+}
+
+fn event_report(history: &History, event: &Event) -> EventReport {
+    let mechanism = &history.mechanism;
+    let branch = |(index, successor): (usize, &super::rules::Successor)| BranchReport {
+        number: index + 1,
+        mode: successor.phase.pattern(mechanism),
+        taken: event.taken == Some(index),
+        continues: successor.continues,
+        attainable: successor.verdict,
+    };
+    let several = event.successors.len() > 1;
+    let lost = event.causes.iter().map(|cause| match cause {
+        super::Cause::Jams { energy_lost } => *energy_lost,
+        _ => 0.0,
+    });
+    EventReport {
+        time: event.time,
+        causes: event
+            .causes
+            .iter()
+            .map(|cause| CauseReport {
+                kind: cause.kind(),
+                of: cause.subject(mechanism).map(ToOwned::to_owned),
+            })
+            .collect(),
+        words: event.words.clone(),
+        mode: event.phase.as_ref().map(|phase| phase.pattern(mechanism)),
+        branches: if several {
+            event.successors.iter().enumerate().map(branch).collect()
+        } else {
+            Vec::new()
+        },
+        energy_lost: lost.sum(),
+    }
+}
+
+fn phases(history: &History) -> Vec<PhaseReport> {
+    let one = |interval: &super::PhaseInterval| PhaseReport {
+        from: interval.from,
+        to: interval.to,
+        mode: interval.phase.pattern(&history.mechanism),
+        sliding: interval
+            .phase
+            .joints
+            .iter()
+            .map(|joint| match joint {
+                JointPhase::Sliding(sign) if *sign < 0.0 => -1,
+                JointPhase::Sliding(_) => 1,
+                JointPhase::Sticking => 0,
+            })
+            .collect(),
+    };
+    history.phases.iter().map(one).collect()
+}
+
+fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
+    let (kind, words) = end_in_words(history, options);
+    let locked = matches!(history.end, End::NoContinuation | End::Jammed | End::ReactionLimit(_));
+    EndReport { kind, words, locked }
+}
+
+/// The name of the end in reports, and a sentence.
+fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, String) {
+    let mechanism = &history.mechanism;
+    let time = number(history.stop());
+    let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
+    match &history.end {
+        End::Finished => ("finished", finished(history, &time)),
+        End::TravelLimit(id) => (
+            "travel_limit",
+            format!("It ends at {time} s, where {} reaches a limit of its travel.", joint(id)),
+        ),
+        End::OverlapVanished(id) => {
+            ("overlap_vanished", format!("It ends at {time} s, where {} leaves its guide.", joint(id)))
+        }
+        End::ReactionLimit(id) => {
+            let contact = &mechanism.contacts[id.index()].name;
+            let words = format!(
+                "It ends at {time} s: the normal force of {contact} has reached its limit, so that the mechanism counts as locked."
+            );
+            ("reaction_limit", words)
+        }
+        End::UserEvent(_) => {
+            ("user_event", format!("It ends at {time} s the event: {}.", last_words(history)))
+        }
+        End::NoSuchBranch { branching } => (
+            "no_such_branch",
+            format!(
+                "It ends at {time} s: the branch that was wanted at the {branching}. decision does not exist there."
+            ),
+        ),
+        End::NoContinuation => (
+            "no_continuation",
+            format!("It ends at {time} s: at rest neither sticking nor sliding is possible."),
+        ),
+        End::Jammed => {
+            let words = format!(
+                "It ends at {time} s: it jams, and no impulse leads to a state in which it can go on."
+            );
+            ("jammed", words)
+        }
+        End::Accumulation => {
+            let words = format!("It ends at {time} s, where events come closer and closer together.");
+            ("accumulation", words)
+        }
+        End::StepLimit => {
+            let words = format!(
+                "It ends at {time} s, after the {} steps that were permitted: the equations are stiff there, or the tolerance is small.",
+                options.most_steps
+            );
+            ("step_limit", words)
+        }
+        End::EventLimit => {
+            let words =
+                format!("It ends at {time} s, after the {} events that were permitted.", options.most_events);
+            ("event_limit", words)
+        }
+        End::NoValue(faults) => ("no_value", format!("It ends at {time} s: {}.", first(faults))),
+        End::Undecided(faults) => {
+            ("undecided", format!("It ends at {time} s: what follows cannot be decided: {}.", first(faults)))
+        }
+        End::Interrupted => ("interrupted", format!("It was interrupted at {time} s.")),
+    }
+}
+
+/// The end of a motion that was followed to the end: whether it is at rest, and for how long.
+fn finished(history: &History, time: &str) -> String {
+    let at_rest = |interval: &super::PhaseInterval| {
+        let joints = &interval.phase.joints;
+        !joints.is_empty() && joints.iter().all(|joint| *joint == JointPhase::Sticking)
+    };
+    let jams = history.events.iter().flat_map(|event| &event.causes);
+    let jams = match jams.filter(|cause| matches!(cause, super::Cause::Jams { .. })).count() {
+        0 => String::new(),
+        1 => " It has jammed once.".to_owned(),
+        count => format!(" It has jammed {count} times."),
+    };
+    match history.phases.last() {
+        Some(interval) if at_rest(interval) => {
+            let from = number(interval.from);
+            format!("At {time} s the time is over; since {from} s all sliding joints have stuck.{jams}")
+        }
+        _ => format!("At {time} s the time is over; it is still moving.{jams}"),
+    }
+}
+
+/// The words of the last event.
+fn last_words(history: &History) -> &str {
+    history.events.last().map_or("an event", |event| &event.words)
+}
+
+fn first(faults: &crate::fault::Faults) -> String {
+    faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string())
+}
+
+fn energy(history: &History) -> EnergyReport {
+    let mechanism = &history.mechanism;
+    let stop = history.reader().at(history.stop()).map(|sample| sample.energy);
+    let last = |of: fn(&Energy) -> f64| stop.as_ref().map_or(0.0, of);
+    // Before any impulse at the start.
+    let initial = &history.initial;
+    let named = |names: Vec<String>, of: fn(&Energy) -> &[f64]| {
+        let values = stop.as_ref().map_or(&[][..], of);
+        names.into_iter().zip(values).map(|(name, value)| Named { name, value: *value }).collect()
+    };
+    let contacts = mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect();
+    let loads = mechanism.loads.iter().map(|load| load.name.to_string()).collect();
+    let drives = mechanism.drives.iter().map(|drive| drive.name.to_string()).collect();
+    EnergyReport {
+        kinetic: [kinetic(mechanism, initial), last(|energy| energy.kinetic)],
+        potential: [potential(mechanism, initial), last(|energy| energy.potential)],
+        friction: named(contacts, |energy| &energy.friction),
+        loads: named(loads, |energy| &energy.loads),
+        drives: named(drives, |energy| &energy.drives),
+        impulses: last(|energy| energy.impulses),
+        error: history.energy_error,
+        relative_error: if history.energy_scale > 0.0 {
+            history.energy_error / history.energy_scale
+        } else {
+            0.0
+        },
+    }
+}

@@ -1,0 +1,133 @@
+//! A motion as a table: one row for each time.
+
+use super::history::{History, Sample};
+use crate::configuration::unit;
+use crate::kinetics::ConstraintRow;
+use crate::mechanism::Mechanism;
+use serde::Serialize;
+
+/// Times closer to the end than this part of the step are the end.
+const AT_END: f64 = 1e-9;
+
+/// A motion as a table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Series {
+    /// The numbers; the first column is the time.
+    pub columns: Vec<Column>,
+    /// The contact mode of each row, as the [pattern](super::Phase::pattern) of its phase.
+    pub modes: Vec<String>,
+}
+
+/// A column of numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Column {
+    /// What it is, such as `phi.rate` or `upper.normal_force`.
+    pub name: String,
+    /// Its unit; empty for pure numbers.
+    pub unit: &'static str,
+    /// One for each row; nothing where the quantity is not defined: friction forces of joints that stick.
+    pub values: Vec<Option<f64>>,
+}
+
+impl Series {
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+}
+
+impl History {
+    /// Times from the start in this step (s), and the end.
+    pub fn times_in_steps(&self, step: f64) -> Vec<f64> {
+        let (start, stop) = (self.start(), self.stop());
+        let multiples = (0_u32..).map(|index| start + f64::from(index) * step);
+        let mut times: Vec<f64> = multiples.take_while(|time| *time < stop - AT_END * step).collect();
+        times.push(stop);
+        times
+    }
+
+    /// The motion at these times; those outside of it are left out. At an event it is what follows.
+    ///
+    /// Columns are `t`, then for each coordinate its value, rate and acceleration, for each contact its normal force, friction
+    /// force and sliding velocity, for each drive its effort, and the energies: kinetic, potential, dissipated by the friction of all
+    /// contacts, work of loads and of drives, lost in impulses.
+    ///
+    /// ```
+    /// use slideway::model::Model;
+    /// use slideway::motion::{SimulateOptions, simulate};
+    ///
+    /// let text = slideway::gallery::find("frictional-oscillator").expect("in the gallery").text;
+    /// let history = simulate(&Model::parse(text)?, &SimulateOptions::new(1.0))?;
+    /// let series = history.series(&history.times_in_steps(0.1));
+    /// assert_eq!(series.modes.len(), 11);
+    /// // The spring alone would bring it to x = v_0 sqrt(m/k) = 0.126 m at most.
+    /// let x = series.column("x").expect("a coordinate");
+    /// assert!(x.values.iter().flatten().all(|x| x.abs() < 0.127));
+    /// # Ok::<(), slideway::fault::Faults>(())
+    /// ```
+    pub fn series(&self, times: &[f64]) -> Series {
+        let mechanism = &self.mechanism;
+        let mut columns = columns(mechanism);
+        let mut modes = Vec::with_capacity(times.len());
+        let patterns: Vec<String> =
+            self.phases.iter().map(|interval| interval.phase.pattern(mechanism)).collect();
+        let mut reader = self.reader();
+        let mut row = Vec::with_capacity(columns.len());
+        for sample in times.iter().filter_map(|time| reader.at(*time)) {
+            row.clear();
+            values(mechanism, &sample, &mut row);
+            columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
+            modes.push(patterns.get(sample.phase).cloned().unwrap_or_default());
+        }
+        Series { columns, modes }
+    }
+}
+
+fn columns(mechanism: &Mechanism) -> Vec<Column> {
+    let mut columns = Vec::new();
+    let mut add = |name: String, unit| columns.push(Column { name, unit, values: Vec::new() });
+    add("t".to_owned(), "s");
+    for coordinate in &mechanism.coordinates {
+        let name = &coordinate.name;
+        let units = if coordinate.kind.is_angle() { ["rad/s", "rad/s^2"] } else { ["m/s", "m/s^2"] };
+        add(name.to_string(), unit(&coordinate.kind));
+        add(format!("{name}.rate"), units[0]);
+        add(format!("{name}.acceleration"), units[1]);
+    }
+    for contact in &mechanism.contacts {
+        add(format!("{}.normal_force", contact.name), "N");
+        add(format!("{}.friction_force", contact.name), "N");
+        add(format!("{}.sliding_velocity", contact.name), "m/s");
+    }
+    for drive in &mechanism.drives {
+        let is_force = matches!(drive.effort, crate::mechanism::Effort::Force { .. });
+        add(format!("{}.effort", drive.name), if is_force { "N" } else { "N m" });
+    }
+    for name in ["kinetic", "potential", "friction", "loads", "drives", "impulses"] {
+        add(format!("energy.{name}"), "J");
+    }
+    columns
+}
+
+/// The numbers of a row, in the order of the columns.
+fn values(mechanism: &Mechanism, sample: &Sample, row: &mut Vec<Option<f64>>) {
+    let configuration = &sample.configuration;
+    row.push(Some(configuration.time));
+    let mut equation = ConstraintRow::empty();
+    let states = mechanism.coordinates.iter().zip(configuration.coordinates.iter().zip(&configuration.rates));
+    for (coordinate, (value, rate)) in states {
+        equation.set_coordinate(mechanism, configuration, coordinate.kind);
+        let terms =
+            equation.entries.iter().map(|&(at, factor)| factor * sample.accelerations[at / 3][at % 3]);
+        let acceleration = terms.sum::<f64>() - equation.right_hand_side;
+        row.extend([Some(*value), Some(*rate), Some(acceleration)]);
+    }
+    for contact in &sample.contacts {
+        row.extend([Some(contact.normal_force), contact.friction_force, Some(contact.sliding_velocity)]);
+    }
+    row.extend(sample.efforts.iter().map(|effort| Some(*effort)));
+    let energy = &sample.energy;
+    let sum = |list: &[f64]| Some(list.iter().sum());
+    row.extend([Some(energy.kinetic), Some(energy.potential), sum(&energy.friction)]);
+    row.extend([sum(&energy.loads), sum(&energy.drives), Some(energy.impulses)]);
+}

@@ -1,0 +1,193 @@
+//! A motion as text for people: a log of what happened, and how good it is.
+
+use super::report::{EventReport, Named, SimulateReport};
+use super::tree::TreeReport;
+use crate::report::number::{against, number, precise};
+use crate::report::page::Page;
+use crate::report::table::table;
+use crate::report::{Style, Verdict, count, spaced};
+
+/// Energies below this part of the greatest are rounding.
+const LITTLE: f64 = 1e-13;
+/// Of longer logs so many events are told from the beginning, ...
+const FIRST: usize = 40;
+/// ... and so many from the end.
+const LAST: usize = 10;
+
+/// The report as text: the start, the events, the end, the energies. Of a long log the beginning and the end are told,
+/// or everything with `all_events`.
+pub fn to_text(report: &SimulateReport, style: Style, all_events: bool) -> String {
+    let mut text = Page::new(report, style);
+    text.heading();
+    text.events(all_events);
+    text.line("");
+    text.headline(&report.end.words);
+    text.last_state();
+    text.energy();
+    text.quality();
+    text.out
+}
+
+/// All motions as text: how each of them ends, then their logs.
+pub fn tree_to_text(report: &TreeReport, style: Style, all_events: bool) -> String {
+    let mut text = Page::new(report, style);
+    let number = count(report.histories.len(), "motion", "motions");
+    let completeness = if report.complete { "these are all" } else { "there are more" };
+    text.headline(&format!("{number}; {completeness}"));
+    for (index, history) in report.histories.iter().enumerate() {
+        text.line(&format!(
+            "  {} ({}): {}",
+            index + 1,
+            branches(&history.branches),
+            history.motion.end.words
+        ));
+    }
+    for (index, history) in report.histories.iter().enumerate() {
+        text.line("");
+        text.headline(&format!("Motion {} ({})", index + 1, branches(&history.branches)));
+        text.out.push_str(&to_text(&history.motion, style, all_events));
+    }
+    text.out
+}
+
+/// "branches 1, 2"
+fn branches(branches: &[usize]) -> String {
+    let numbers: Vec<String> = branches.iter().map(ToString::to_string).collect();
+    match numbers.as_slice() {
+        [] => "without branches".to_owned(),
+        [one] => format!("branch {one}"),
+        several => format!("branches {}", several.join(", ")),
+    }
+}
+
+impl Page<'_, SimulateReport> {
+    fn heading(&mut self) {
+        let report = self.report;
+        let model = &report.model;
+        if let Some(title) = &model.title {
+            self.headline(title);
+        }
+        let parts = [
+            count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+            count(model.bodies, "body", "bodies"),
+            count(model.contacts, "contact", "contacts"),
+        ];
+        let [start, until] = [report.start, report.until].map(number);
+        self.line(&format!("{}; from {start} s to {until} s", parts.join(", ")));
+        self.line("");
+        self.state("At the start", &report.initial);
+    }
+
+    fn state(&mut self, when: &str, state: &[crate::report::CoordinateState]) {
+        let rates =
+            self.report.initial.iter().chain(&self.report.last).map(|coordinate| coordinate.rate.abs());
+        let greatest = rates.fold(1e-6, f64::max);
+        let one = |coordinate: &crate::report::CoordinateState| {
+            let crate::report::CoordinateState { name, unit, value, rate } = coordinate;
+            // What is left of a velocity at rest is rounding.
+            let rate = against(*rate, greatest);
+            format!("{name} = {} {unit}, rate {rate} {unit}/s", number(*value))
+        };
+        let parts: Vec<String> = state.iter().map(one).collect();
+        self.line(&format!("{when}: {}", parts.join("; ")));
+    }
+
+    fn last_state(&mut self) {
+        self.state("In the end", &self.report.last);
+    }
+
+    fn events(&mut self, all: bool) {
+        let events = &self.report.events;
+        self.line("");
+        self.headline(&format!("What happens (modes of {})", self.report.contacts.join(", ")));
+        let all = all || events.len() <= FIRST + LAST;
+        let (first, last) = if all { (events.len(), events.len()) } else { (FIRST, events.len() - LAST) };
+        let shown = || events[..first].iter().chain(&events[last..]);
+        let modes = shown().filter_map(|event| event.mode.as_ref()).map(|mode| spaced(mode).len());
+        let widths = (shown().map(|event| when(event).len()).max().unwrap_or(0), modes.max().unwrap_or(0));
+        events[..first].iter().for_each(|event| self.event(event, widths));
+        if !all {
+            let left_out = count(last - first, "event is", "events are");
+            self.line(&format!("  ... {left_out} left out here; --all-events tells all of them"));
+            events[last..].iter().for_each(|event| self.event(event, widths));
+        }
+    }
+
+    fn event(&mut self, event: &EventReport, (time, mode): (usize, usize)) {
+        let pattern = event.mode.as_deref().map(spaced).unwrap_or_default();
+        self.line(&format!("  {:>time$}   {pattern:mode$}   {}", when(event), event.words));
+        for branch in event.branches.iter().filter(|branch| !branch.taken) {
+            let jump = if branch.continues { "" } else { ", with a jump" };
+            let text = format!(
+                "could also go on as {}{jump}{} (branch {})",
+                spaced(&branch.mode),
+                verdict(branch.attainable),
+                branch.number
+            );
+            self.line(&format!("  {:time$}   {:mode$}     {text}", "", ""));
+        }
+    }
+
+    fn energy(&mut self) {
+        let energy = &self.report.energy;
+        self.line("");
+        self.headline("Energy (J)");
+        let greatest = energy.kinetic.iter().chain(&energy.potential).fold(0.0_f64, |a, b| a.max(b.abs()));
+        let shown = |value: f64| against(value, greatest);
+        let [kinetic, potential] =
+            [energy.kinetic, energy.potential].map(|[start, stop]| vec![shown(start), shown(stop)]);
+        let mut rows = vec![row("kinetic", kinetic), row("potential", potential)];
+        let mut add = |what: &str, list: &[Named]| {
+            for Named { name, value } in list.iter().filter(|named| named.value.abs() > LITTLE * greatest) {
+                rows.push(row(&format!("{what} {name}"), vec![String::new(), number(*value)]));
+            }
+        };
+        add("taken by the friction of", &energy.friction);
+        add("work of", &energy.loads);
+        add("work of", &energy.drives);
+        if energy.impulses != 0.0 {
+            rows.push(row("lost in impulses", vec![String::new(), number(energy.impulses)]));
+        }
+        self.out.push_str(&table(&["", "start", "end"], &rows, 1));
+    }
+
+    fn quality(&mut self) {
+        let report = self.report;
+        self.line("");
+        self.line(&format!(
+            "The balance of energy closes to {:.1e} J, {:.1e} of the greatest of them.",
+            report.energy.error, report.energy.relative_error
+        ));
+        self.line(&format!(
+            "Joints were off by at most {:.1e} of the size of the mechanism before each correction.",
+            report.position_drift
+        ));
+        let statistics = &report.statistics;
+        self.line(&format!(
+            "{} ({} repeated), {} of the equations, {}; tolerance {}.",
+            count(statistics.steps, "step", "steps"),
+            statistics.repeated,
+            format_args!("{} evaluations", statistics.evaluations),
+            count(statistics.events, "event", "events"),
+            number(report.tolerance)
+        ));
+    }
+}
+
+fn when(event: &EventReport) -> String {
+    format!("{} s", precise(event.time))
+}
+
+fn row(name: &str, mut values: Vec<String>) -> Vec<String> {
+    values.insert(0, name.to_owned());
+    values
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Attainable => ", attainable",
+        Verdict::Unattainable => ", unattainable",
+        Verdict::Flutter => ", with flutter",
+        Verdict::Undecided | Verdict::NotComputed => "",
+    }
+}

@@ -1,0 +1,124 @@
+//! All motions that are possible where several phases can follow an event.
+
+use super::history::History;
+use super::options::SimulateOptions;
+use super::report::{SimulateReport, report};
+use super::rules::Decisions;
+use super::{Cause, simulate_with};
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::mechanism::Mechanism;
+use crate::report::indented_json;
+use serde::Serialize;
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+
+/// Version of the layout of a [`TreeReport`]; changes whenever a field is renamed or removed.
+const SCHEMA: &str = "slideway/simulate-tree/1";
+
+/// All motions from a state.
+#[derive(Debug, Clone)]
+pub struct Tree {
+    /// The motions; the first takes the preferred branch everywhere.
+    pub histories: Vec<Branching>,
+    /// Whether these are all.
+    pub complete: bool,
+}
+
+/// A motion, and which branch it takes.
+#[derive(Debug, Clone)]
+pub struct Branching {
+    /// At each event with several possible phases the number of the one that is taken, counted from 0.
+    pub branches: Vec<usize>,
+    /// The motion.
+    pub history: History,
+}
+
+/// All motions, told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TreeReport {
+    /// Version of this layout.
+    pub schema: &'static str,
+    /// Whether these are all motions.
+    pub complete: bool,
+    /// The motions.
+    pub histories: Vec<BranchingReport>,
+}
+
+/// A motion, told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BranchingReport {
+    /// At each event with several possible phases the number of the one that is taken, counted from 1.
+    pub branches: Vec<usize>,
+    /// The motion.
+    pub motion: SimulateReport,
+}
+
+/// All motions of a mechanism from a state on, `most` of them at most, those first that differ earliest from the motion
+/// along the preferred branches. Branches that the options prescribe are kept.
+///
+/// # Errors
+/// As [`simulate_with`]; a progress function that breaks ends the search.
+pub fn simulate_all(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    options: &SimulateOptions,
+    (decisions, most): (&mut dyn Decisions, usize),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Tree, Faults> {
+    let mut open = VecDeque::from([options.branches.clone()]);
+    let mut tree = Tree { histories: Vec::new(), complete: true };
+    let mut interrupted = false;
+    while let Some(branches) = open.pop_front() {
+        if tree.histories.len() >= most || interrupted {
+            tree.complete = false;
+            break;
+        }
+        let fixed = branches.len();
+        let options = SimulateOptions { branches, ..options.clone() };
+        let mut watched = |time| {
+            let flow = progress(time);
+            interrupted = flow.is_break();
+            flow
+        };
+        let history = simulate_with(mechanism, configuration, &options, decisions, &mut watched)?;
+        let (taken, counts) = branchings(&history, options.initial.is_some());
+        for (index, count) in counts.iter().enumerate().skip(fixed) {
+            for other in (0..*count).filter(|other| *other != taken[index]) {
+                let mut branches = taken[..index].to_vec();
+                branches.push(other);
+                open.push_back(branches);
+            }
+        }
+        tree.histories.push(Branching { branches: taken, history });
+    }
+    tree.complete &= !interrupted;
+    Ok(tree)
+}
+
+/// At each branching the phase that was taken, and how many there were.
+fn branchings(history: &History, has_initial: bool) -> (Vec<usize>, Vec<usize>) {
+    let chosen = |event: &&super::Event| {
+        event.successors.len() > 1 && !(has_initial && event.causes.contains(&Cause::Start))
+    };
+    let events = history.events.iter().filter(chosen);
+    events.filter_map(|event| Some((event.taken?, event.successors.len()))).unzip()
+}
+
+/// What is told of all motions.
+pub fn tree_report(tree: &Tree, options: &SimulateOptions) -> TreeReport {
+    let one = |branching: &Branching| BranchingReport {
+        branches: branching.branches.iter().map(|branch| branch + 1).collect(),
+        motion: report(&branching.history, options),
+    };
+    TreeReport {
+        schema: SCHEMA,
+        complete: tree.complete,
+        histories: tree.histories.iter().map(one).collect(),
+    }
+}
+
+/// The report as indented JSON, ending in a line end; its version is in `schema`.
+pub fn tree_to_json(report: &TreeReport) -> String {
+    indented_json(report)
+}
