@@ -48,6 +48,10 @@ pub(crate) enum Failure {
     UnknownEnding { path: PathBuf },
     /// A table that is not written from beginning to end.
     NoStream,
+    /// A plot of a sweep that does not go along a line.
+    NoLine,
+    /// A plot of a quantity that the model has none of.
+    NothingToPlot,
     /// A sweep was interrupted.
     Interrupted { done: u64, points: u64, path: PathBuf },
     /// The output would take the place of the model.
@@ -105,6 +109,10 @@ impl Failure {
                 format!("the ending of `{}` does not tell the form of the table", path.display())
             }
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
+            Self::NoLine => {
+                "a plot needs one varied quantity with ascending values, and no samples".to_owned()
+            }
+            Self::NothingToPlot => "the model has nothing of the quantity that is to be plotted".to_owned(),
             Self::Interrupted { done, points, path } => {
                 format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
             }
@@ -160,6 +168,9 @@ impl Failure {
                 "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
             ),
             Self::UnknownEnding { .. } => Some("use .csv or .npz, or say it with --format".to_owned()),
+            Self::NoLine => {
+                Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
+            }
             Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
             Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
             _ => None,

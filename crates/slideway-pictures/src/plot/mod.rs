@@ -32,10 +32,12 @@ mod markers;
 mod panel;
 mod scale;
 pub(crate) mod svg;
+mod sweep;
 
 pub use figure::{Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
 pub use limits::limits_figure;
 pub use scale::fitting_range;
+pub use sweep::{Extract, Extractor, SweepPlot};
 
 use crate::theme::{DASHES, Theme};
 use legend::Legend;
