@@ -37,7 +37,7 @@ pub(crate) enum Failure {
     /// Two outputs would go to the same file.
     SameOutput { path: PathBuf },
     /// The ending of a picture's file says nothing of its format.
-    PictureFormat { path: PathBuf, known: &'static [&'static str] },
+    FileFormat { path: PathBuf, known: &'static [&'static str] },
     /// An unfinished table is where a new one would be written.
     Unfinished { path: PathBuf },
     /// There is no unfinished table.
@@ -95,8 +95,8 @@ impl Failure {
             Self::OutputExists { path } => format!("`{}` exists already", path.display()),
             Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
-            Self::PictureFormat { path, .. } => {
-                format!("the ending of `{}` names no format of pictures", path.display())
+            Self::FileFormat { path, .. } => {
+                format!("the ending of `{}` names no known format", path.display())
             }
             Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
             Self::NothingToResume { path } => {
@@ -158,7 +158,7 @@ impl Failure {
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
-            Self::PictureFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
+            Self::FileFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
             Self::Unfinished { .. } => {
                 Some("go on with it by --resume, or begin anew with --force".to_owned())
