@@ -235,7 +235,8 @@ mod tests {
             for index in 0..sampling.count {
                 let [x, y] = [0, 1].map(|dimension| sampling.at(index, dimension, 2));
                 assert!(0.0 < x && x < 1.0 && 0.0 < y && y < 1.0);
-                cells[(4.0 * x) as usize + 4 * (4.0 * y) as usize] += 1;
+                let quarter = |share: f64| [0.25, 0.5, 0.75].iter().filter(|end| share >= **end).count();
+                cells[quarter(x) + 4 * quarter(y)] += 1;
             }
             // 250 each; the standard deviation of independent ones is 15.
             let limit = if spread == Spread::Random { 60 } else { 12 };

@@ -26,13 +26,13 @@ pub(super) fn attainability(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Attainability {
-    examine(instant, configuration, phase, |guides, sides| guides.of(sides))
+    examine(instant, configuration, phase, ElasticGuides::of)
         .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
 }
 
 /// The verdict of [`attainability`] alone.
 pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
-    examine(instant, configuration, phase, |guides, sides| guides.verdict_on(sides))
+    examine(instant, configuration, phase, ElasticGuides::verdict_on)
         .unwrap_or(Verdict::NotComputed)
 }
 
