@@ -53,7 +53,7 @@ fn pages_have_all_parts_and_need_nothing_else() {
         "Not attainable: threshold between sliding (solution 2) and jamming.",
         "<svg ",
         "<table class=\"limits\">",
-        "<img src=\"data:image/svg+xml,",
+        "<img class=\"on-light\" src=\"data:image/svg+xml,",
         "# The example of H. J. Klepp",
         "--vary &quot;mu_1=0..0.8&quot;</code>",
     ] {
@@ -132,7 +132,10 @@ fn a_browser_shows_and_prints_the_page_without_complaint() {
     assert!(complaints.is_empty(), "{complaints:?}");
     assert_eq!(dom.matches("<svg").count(), 1);
     assert_eq!(dom.matches("<table class=\"contacts\"").count(), 4, "three solutions and a preload gap");
-    assert_eq!(dom.matches("<picture>").count(), 1);
+    // One plot, for light and for dark screens; paper gets the light one, whatever the screen.
+    for class in ["on-light", "on-dark"] {
+        assert_eq!(dom.matches(&format!("<img class=\"{class}\"")).count(), 1);
+    }
     let pdf = directory.path().join("page.pdf");
     let print = format!("--print-to-pdf={}", pdf.display());
     browse(&browser, &profile, &["--no-pdf-header-footer", &print], &file);

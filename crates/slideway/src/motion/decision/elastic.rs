@@ -26,13 +26,13 @@ pub(super) fn attainability(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Attainability {
-    examine(instant, configuration, phase, ElasticGuides::of)
+    examine(instant, configuration, phase, |guides, sides| guides.of(sides))
         .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
 }
 
 /// The verdict of [`attainability`] alone.
 pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
-    examine(instant, configuration, phase, ElasticGuides::verdict_on)
+    examine(instant, configuration, phase, |guides, sides| guides.verdict_on(sides))
         .unwrap_or(Verdict::NotComputed)
 }
 
