@@ -188,7 +188,12 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         stop: history.stop(),
         initial: state(history, &history.initial),
         last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
-        events: history.events.iter().filter(is_told).map(|event| event_report(history, event)).collect(),
+        events: history
+            .events
+            .iter()
+            .filter(|event| is_told(event))
+            .map(|event| event_report(history, event))
+            .collect(),
         phases: phases(history),
         end: end_report(history, options),
         energy: energy(history),
@@ -198,7 +203,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             steps: history.statistics.steps,
             repeated: history.statistics.rejected,
             evaluations: history.statistics.evaluations,
-            events: history.events.iter().filter(is_told).count(),
+            events: history.events.iter().filter(|event| is_told(event)).count(),
         },
         samples: None,
     }
@@ -218,7 +223,7 @@ fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateStat
 }
 
 /// A normal force may touch zero once more within rounding: nothing follows, and nothing is told.
-fn is_told(event: &&Event) -> bool {
+fn is_told(event: &Event) -> bool {
     event.words != NOTHING
 }
 
