@@ -37,7 +37,7 @@ pub(crate) enum Failure {
     /// Two outputs would go to the same file.
     SameOutput { path: PathBuf },
     /// The ending of a picture's file says nothing of its format.
-    PictureFormat { path: PathBuf, known: &'static [&'static str] },
+    FileFormat { path: PathBuf, known: &'static [&'static str] },
     /// An unfinished table is where a new one would be written.
     Unfinished { path: PathBuf },
     /// There is no unfinished table.
@@ -48,6 +48,10 @@ pub(crate) enum Failure {
     UnknownEnding { path: PathBuf },
     /// A table that is not written from beginning to end.
     NoStream,
+    /// A plot of a sweep that does not go along a line.
+    NoLine,
+    /// A plot of a quantity that the model has none of.
+    NothingToPlot,
     /// A sweep was interrupted.
     Interrupted { done: u64, points: u64, path: PathBuf },
     /// The output would take the place of the model.
@@ -91,8 +95,8 @@ impl Failure {
             Self::OutputExists { path } => format!("`{}` exists already", path.display()),
             Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
-            Self::PictureFormat { path, .. } => {
-                format!("the ending of `{}` names no format of pictures", path.display())
+            Self::FileFormat { path, .. } => {
+                format!("the ending of `{}` names no known format", path.display())
             }
             Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
             Self::NothingToResume { path } => {
@@ -105,6 +109,10 @@ impl Failure {
                 format!("the ending of `{}` does not tell the form of the table", path.display())
             }
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
+            Self::NoLine => {
+                "a plot needs one varied quantity with ascending values, and no samples".to_owned()
+            }
+            Self::NothingToPlot => "the model has nothing of the quantity that is to be plotted".to_owned(),
             Self::Interrupted { done, points, path } => {
                 format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
             }
@@ -150,7 +158,7 @@ impl Failure {
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
-            Self::PictureFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
+            Self::FileFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
             Self::Unfinished { .. } => {
                 Some("go on with it by --resume, or begin anew with --force".to_owned())
@@ -160,6 +168,9 @@ impl Failure {
                 "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
             ),
             Self::UnknownEnding { .. } => Some("use .csv or .npz, or say it with --format".to_owned()),
+            Self::NoLine => {
+                Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
+            }
             Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
             Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
             _ => None,

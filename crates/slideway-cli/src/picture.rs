@@ -16,6 +16,7 @@ pub(crate) enum Picture {
 }
 
 const ENDINGS: [&str; 2] = [".svg", ".png"];
+const ENDINGS_WITH_JSON: [&str; 3] = [".svg", ".png", ".json"];
 /// Pixels for each unit of a picture, unless its width is given.
 pub(crate) const SHARPNESS: f64 = 2.0;
 
@@ -29,8 +30,20 @@ impl Picture {
         match ending.to_ascii_lowercase().as_str() {
             "svg" => Ok(Self::Svg),
             "png" => Ok(Self::Png),
-            _ => Err(Failure::PictureFormat { path: path.to_owned(), known: &ENDINGS }),
+            _ => Err(Failure::FileFormat { path: path.to_owned(), known: &ENDINGS }),
         }
+    }
+
+    /// The format of a file that may also hold numbers; none for these.
+    ///
+    /// # Errors
+    /// If its ending names none.
+    pub(crate) fn unless_json(path: &Path) -> Result<Option<Self>, Failure> {
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+            return Ok(None);
+        }
+        let known = &ENDINGS_WITH_JSON;
+        Self::of(path).map(Some).map_err(|_| Failure::FileFormat { path: path.to_owned(), known })
     }
 
     /// Writes a picture that is given as SVG, with two pixels for each of its units if it is to have pixels.

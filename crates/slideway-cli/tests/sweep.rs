@@ -8,7 +8,7 @@ use command::{command, slideway};
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -94,7 +94,17 @@ fn both_forms_hold_the_same_rows() {
     }
 }
 
-/// NumPy and pandas, where they are installed.
+/// Says so where NumPy is not installed.
+#[allow(clippy::print_stderr, reason = "a test that is skipped is told")]
+fn without_numpy(output: &Output) -> bool {
+    let without = String::from_utf8_lossy(&output.stderr).contains("No module named 'numpy'");
+    if without {
+        eprintln!("SKIPPED: NumPy is not installed on this machine");
+    }
+    without
+}
+
+/// NumPy, where it is installed.
 #[test]
 fn numpy_reads_the_archive() {
     let folder = tempfile::tempdir().unwrap();
@@ -104,10 +114,7 @@ fn numpy_reads_the_archive() {
         print(len(numpy.unique(r['point'])), r['pattern'][0].decode(), str(z['command'])[:14], \
         '[bodies.bar]' in str(z['model']))";
     let output = Command::new("python3").args(["-c", script, &name]).output();
-    let Ok(output) = &output else { return eprintln!("skipped: no Python") };
-    if String::from_utf8_lossy(&output.stderr).contains("No module named 'numpy'") {
-        return eprintln!("skipped: no NumPy");
-    }
+    let Some(output) = output.ok().filter(|output| !without_numpy(output)) else { return };
     let text = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(text.ends_with("slideway sweep True\n"), "{text}{}", String::from_utf8_lossy(&output.stderr));
 }
@@ -203,9 +210,60 @@ fn standard_output_gets_a_table() {
     assert!(run.stderr.contains("3 points"), "{}", run.stderr);
 }
 
+/// The elements of a class, from the name of the element to its `>`.
+fn of_class<'s>(svg: &'s str, class: &str) -> Vec<&'s str> {
+    let wanted = format!("class=\"{class}\"");
+    svg.split('<').filter(|element| element.contains(&wanted)).collect()
+}
+
+fn attribute(element: &str, name: &str) -> f64 {
+    let start = element.find(&format!(" {name}=\"")).unwrap() + name.len() + 3;
+    element[start..].split('"').next().unwrap().parse().unwrap()
+}
+
+/// Klepp (2002), section 7: one solution up to the locking value mu_1 = 0.45265396 (theory, section 9), two beyond it, of
+/// which the second is not attainable (theory, section 7) and thus dashed.
+#[test]
+fn a_plot_shows_branches_and_locking_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let ((path, plot), (_, table)) = (path(&folder, "klepp.svg"), path(&folder, "klepp.csv"));
+    let run = sweep(&["--vary", "mu_1=0..0.8:801", "--output", &table, "--plot", &plot]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let svg = fs::read_to_string(&path).unwrap();
+    let frame = of_class(&svg, "frame")[0];
+    let asymptotes = of_class(&svg, "asymptote");
+    assert_eq!(asymptotes.len(), 1);
+    let place = attribute(frame, "x") + attribute(frame, "width") * 0.452_653_96 / 0.8;
+    assert!((attribute(asymptotes[0], "x1") - place).abs() < 0.01, "{} {place}", asymptotes[0]);
+    let curves = of_class(&svg, "curve");
+    // Three contacts on each of two branches.
+    assert_eq!(curves.len(), 6);
+    assert_eq!(curves.iter().filter(|curve| curve.contains("stroke-dasharray")).count(), 3);
+    assert!(svg.contains("branch 2:") && svg.contains("threshold, not attainable"));
+    assert!(of_class(&svg, "zone").is_empty());
+}
+
+/// The drawer jams from mu = L / (2 a) = 2/3 on (book, chapter Limits): there the plot is hatched, up to its edge.
+#[test]
+fn a_plot_hatches_where_it_jams() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, plot) = path(&folder, "drawer.svg");
+    let run = slideway(&["sweep", DRAWER, "--vary", "mu=0..1:12", "--plot", &plot]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let svg = fs::read_to_string(&path).unwrap();
+    let (frame, zones) = (of_class(&svg, "frame")[0], of_class(&svg, "zone"));
+    let [left, width] = ["x", "width"].map(|name| attribute(frame, name));
+    let edges = |zone: &str| [attribute(zone, "x"), attribute(zone, "x") + attribute(zone, "width")];
+    assert!(!zones.is_empty());
+    for zone in zones {
+        let [from, to] = edges(zone).map(|edge| (edge - left) / width);
+        assert!((from - 2.0 / 3.0).abs() < 1e-4 && (to - 1.0).abs() < 1e-4, "{from} {to}");
+    }
+}
+
 #[test]
 fn bad_arguments_are_told() {
-    let cases: [(&[&str], &str); 7] = [
+    let cases: [(&[&str], &str); 10] = [
         (&["--vary", "mu=0.8..0:11"], "reversed"),
         (&["--vary", "mu=0..0.8"], "how many values"),
         (&["--vary", "mu=0..abc:3"], "unknown name `abc`"),
@@ -213,6 +271,9 @@ fn bad_arguments_are_told() {
         (&["--vary", "mu=0..1:3", "--output", "table.xlsx"], "does not tell the form"),
         (&["--vary", "mu=0..1:3", "--format", "npz"], "only be written to a file"),
         (&["--vary", "mu=normal(0.3, 0.1)"], "no samples"),
+        (&["--vary", "mu=0.5..0.5:11"], "empty"),
+        (&["--vary", "mu=0..1:3", "--vary", "a=0,0.1", "--plot", "plot.svg"], "one varied quantity"),
+        (&["--vary", "mu=0..1:3", "--plot", "plot.gif"], "names no format of pictures"),
     ];
     for (arguments, part) in cases {
         let run = slideway(&[&["sweep", DRAWER], arguments].concat());

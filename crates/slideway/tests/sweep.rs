@@ -63,6 +63,29 @@ fn settings_of(sweep: &Sweep, varied: usize, values: &[f64], model: &Model) -> S
     })
 }
 
+/// Where the search decides less than each mode by itself, rows tell of corners of continua and of what is undecided: behind
+/// the states, with what `solve` says of them.
+fn check_without_state(rows: &Rows, found: &[usize], report: &Report) {
+    let corners = report.continua.iter().flat_map(|continuum| {
+        let corners: Vec<Option<&[f64]>> = match &continuum.vertices[..] {
+            [] => vec![None],
+            corners => corners.iter().map(|corner| Some(&corner[..])).collect(),
+        };
+        corners.into_iter().map(|corner| (RowKind::Continuum, continuum.pattern.as_bytes(), corner))
+    });
+    let undecided = report.undecided_modes.iter();
+    let undecided = undecided.map(|mode| (RowKind::Undecided, mode.pattern.as_bytes(), None));
+    let expected: Vec<_> = corners.chain(undecided).collect();
+    assert_eq!(found.len(), expected.len());
+    for (&row, (kind, pattern, corner)) in found.iter().zip(expected) {
+        assert_eq!((rows.heads[row].kind, rows.pattern(row)), (kind, pattern));
+        let numbers = &rows.numbers(row)[rows.varied..];
+        let known = corner.map_or(0, <[f64]>::len);
+        assert_eq!(&numbers[..known], corner.unwrap_or_default());
+        assert!(numbers[known..].iter().all(|number| number.is_nan()));
+    }
+}
+
 fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report: &Report) {
     let head = &rows.heads[range.start];
     let status = match report.status {
@@ -78,9 +101,12 @@ fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report
     assert_eq!(head.gap_states.to_string(), report.gap_state_count);
     assert_eq!(head.rejected as usize, report.rejected.len());
     let states: Vec<_> = report.solutions.iter().chain(&report.preload_gap_states).collect();
-    let with_state = range.filter(|&row| rows.heads[row].kind != RowKind::Nothing);
-    let found: Vec<usize> = with_state.collect();
+    let of = |kinds: &[RowKind]| {
+        range.clone().filter(|&row| kinds.contains(&rows.heads[row].kind)).collect::<Vec<usize>>()
+    };
+    let found = of(&[RowKind::Solution, RowKind::Boundary, RowKind::PreloadGap]);
     assert_eq!(found.len(), states.len());
+    check_without_state(rows, &of(&[RowKind::Continuum, RowKind::Undecided]), report);
     for (row, state) in found.into_iter().zip(states) {
         assert_eq!(rows.pattern(row), state.pattern.as_bytes());
         let forces = state.contacts.iter().map(|contact| contact.normal_force.abs());

@@ -1,6 +1,7 @@
 //! `slideway sweep`
 
-use super::{Destination, ModelArguments};
+use super::limits::PlottedQuantity;
+use super::{Destination, ModelArguments, PlotArguments};
 use clap::{Args, ValueEnum};
 use slideway::sweep::{Sampling, Spread, SweepOptions};
 
@@ -18,7 +19,7 @@ and with --samples:
 Distributions of friction are cut off at zero.
 
 Examples:
-  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:801 --output klepp.csv
+  slideway sweep klepp-2002.toml --vary mu_1=0..0.8:801 --output klepp.csv --plot klepp.svg
   slideway sweep klepp-2002.toml --vary mu_1=0..0.8:81 --vary mu_2=0..0.4:41 --output klepp.npz
   slideway sweep slider-crank.toml --vary phi=\"-80 deg..80 deg:801\" --output crank.csv
   slideway sweep drawer.toml --vary mu=\"normal(0.6, 0.05)\" --samples 100000 --output drawer.npz
@@ -54,13 +55,8 @@ pub(crate) struct SweepArguments {
     #[arg(long)]
     no_breakpoints: bool,
 
-    /// Tell of each solution whether a mechanism with slightly elastic guides settles on it.
-    #[arg(long)]
-    pub(crate) attainability: bool,
-
-    /// Tell accelerations of bodies and hinge forces, too.
-    #[arg(long)]
-    all_columns: bool,
+    #[command(flatten)]
+    more: MoreColumns,
 
     /// Go on with a sweep that was interrupted.
     #[arg(long, requires = "output")]
@@ -71,7 +67,26 @@ pub(crate) struct SweepArguments {
     pub(crate) format: Option<TableFormat>,
 
     #[command(flatten)]
+    pub(crate) plot: PlotArguments,
+
+    /// What the plot shows.
+    #[arg(long, value_enum, default_value_t, requires = "plot")]
+    pub(crate) quantity: PlottedQuantity,
+
+    #[command(flatten)]
     pub(crate) destination: Destination,
+}
+
+/// Columns that are left out unless they are asked for.
+#[derive(Debug, Args)]
+struct MoreColumns {
+    /// Tell of each solution whether a mechanism with slightly elastic guides settles on it; --plot implies it.
+    #[arg(long)]
+    attainability: bool,
+
+    /// Tell accelerations of bodies and hinge forces, too.
+    #[arg(long)]
+    all_columns: bool,
 }
 
 impl SweepArguments {
@@ -85,8 +100,9 @@ impl SweepArguments {
             vary: self.vary.clone(),
             samples: self.samples.map(|count| Sampling { count, spread, seed: self.seed }),
             without_breakpoints: self.no_breakpoints,
-            attainability: self.attainability,
-            all_columns: self.all_columns,
+            // Strokes of a plot tell of it.
+            attainability: self.more.attainability || self.plot.plot.is_some(),
+            all_columns: self.more.all_columns,
         }
     }
 }

@@ -17,9 +17,8 @@ const QUIET: Duration = Duration::from_secs(1);
 /// Maps the plane of two quantities.
 pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, Failure> {
     let destination = Destination { output: Some(arguments.output.clone()), force: arguments.force };
-    let is_data = arguments.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     arguments.model.spare(&destination)?;
-    let picture = if is_data { None } else { Some(Picture::of(&arguments.output)?) };
+    let picture = Picture::unless_json(&arguments.output)?;
     let output = output.to(&destination)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;

@@ -15,9 +15,16 @@ use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{Figure, Page, to_html};
 use slideway_pictures::plot::{limits_figure, to_svg};
 use slideway_pictures::theme::{DARK, LIGHT};
+use std::ffi::OsStr;
+use std::path::Path;
+
+const ENDINGS: [&str; 2] = [".html", ".htm"];
 
 /// Writes a page with the model, its drawing, its solutions and limits.
 pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Outcome, Failure> {
+    if let Some(path) = &arguments.destination.output {
+        be_a_page(path)?;
+    }
     let output = output.to(&arguments.destination)?;
     arguments.model.spare(&arguments.destination)?;
     let input = Input::read(&arguments.model)?;
@@ -44,6 +51,15 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let html = to_html(&page).map_err(|fault| Failure::Picture { reason: fault.reason })?;
     output.write(&html)?;
     Ok(Outcome::Done)
+}
+
+/// Refuses the ending of another format, such as one that a browser can print; a file may have no ending.
+fn be_a_page(path: &Path) -> Result<(), Failure> {
+    let is_known = |ending: &OsStr| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(&known[1..]));
+    if path.extension().is_none_or(is_known) {
+        return Ok(());
+    }
+    Err(Failure::FileFormat { path: path.to_owned(), known: &ENDINGS })
 }
 
 /// What keeps the kinetic problem from being solved, in words.

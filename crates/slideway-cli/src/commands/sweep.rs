@@ -5,13 +5,16 @@ use crate::arguments::{SweepArguments, TableFormat};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Output, complain};
+use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
 use crate::watch::SweepWatch;
-use slideway::sweep::{Sweep, SweepState, to_text};
+use slideway::sweep::{Rows, Sweep, SweepState, to_text};
+use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
+use slideway_pictures::theme::Theme;
 use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -21,19 +24,25 @@ const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
 /// Computes all solutions at every point of a grid or sample, and writes them to a table.
 pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
     let format = format(arguments)?;
+    let picture = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
     let destination = output.to(&arguments.destination)?;
     arguments.model.spare(&arguments.destination)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = arguments.options();
     let sweep = Sweep::new(&model, &options).map_err(|faults| input.refused(faults))?;
+    let plot = match picture {
+        Some(file) => Some(Plotting::new(&sweep, arguments, file, model.title.as_deref())?),
+        None => None,
+    };
     let metadata = Metadata { command: command(std::env::args_os()), model: input.text() };
     let layout = Layout::of(&sweep, options.vary.len(), options.attainability);
     let encoder = Encoder::new(format, layout, metadata);
     let interrupted = Arc::new(AtomicBool::new(false));
+    let work = Work { sweep: &sweep, encoder, plot };
     match destination.path().filter(|path| !is_special(path)) {
-        Some(path) => to_file(arguments, &sweep, (path, encoder), &interrupted, &destination),
-        None if format == TableFormat::Csv => stream(&sweep, &encoder, &destination),
+        Some(path) => to_file(arguments, work, &path, &interrupted, &destination),
+        None if format == TableFormat::Csv => stream(work, &destination),
         None => Err(Failure::NoStream),
     }
 }
@@ -72,15 +81,100 @@ fn quoted(word: &str) -> String {
     }
 }
 
+/// What is computed, and what becomes of it.
+struct Work<'w> {
+    sweep: &'w Sweep,
+    encoder: Encoder,
+    plot: Option<Plotting>,
+}
+
+/// A plot beside the table.
+struct Plotting {
+    plot: SweepPlot,
+    extractor: Extractor,
+    title: String,
+    theme: &'static Theme,
+    picture: Picture,
+    file: Output,
+}
+
+impl Plotting {
+    fn new(
+        sweep: &Sweep,
+        arguments: &SweepArguments,
+        (picture, file): (Picture, Output),
+        title: Option<&str>,
+    ) -> Result<Self, Failure> {
+        if sweep.line().is_none() {
+            return Err(Failure::NoLine);
+        }
+        let quantity = arguments.quantity.into();
+        let plot = SweepPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
+        let theme = arguments.plot.theme.colours();
+        let title = title.unwrap_or_default().to_owned();
+        Ok(Self { extractor: plot.extractor(), plot, title, theme, picture, file })
+    }
+
+    /// Computes again what an interrupted run has done: the table does not hold all that a plot needs.
+    fn repeat(&mut self, sweep: &Sweep, done: u64) {
+        if done == 0 {
+            return;
+        }
+        let Self { plot, extractor, .. } = self;
+        let mut state = sweep.start();
+        sweep.run(
+            &mut state,
+            &|rows| (rows.heads.first().map(|head| head.point), extractor.rows(rows)),
+            &mut |parts, state| {
+                let wanted = parts.into_iter().filter(|(first, _)| first.is_some_and(|first| first < done));
+                wanted.for_each(|(_, part)| plot.add(part));
+                if state.done < done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+    }
+
+    fn write(mut self, state: &SweepState) -> Result<(), Failure> {
+        self.plot.set_branches(state.branches());
+        self.picture.write(&to_svg(&self.plot.figure(&self.title), self.theme), &self.file)
+    }
+}
+
+/// Takes rows as bytes, with the state behind them, and says whether to go on.
+type Take<'t> = dyn FnMut(Vec<Vec<u8>>, &SweepState) -> ControlFlow<()> + Send + 't;
+
+impl Work<'_> {
+    /// Computes what is not done yet; `take` gets the rows as bytes and says whether to go on.
+    fn run(&mut self, state: &mut SweepState, take: &mut Take<'_>) {
+        let Self { sweep, encoder, plot } = self;
+        let (extractor, mut plot) = match plot {
+            Some(Plotting { extractor, plot, .. }) => (Some(extractor.clone()), Some(plot)),
+            None => (None, None),
+        };
+        let encode = |rows: &Rows| {
+            let part = extractor.as_ref().map(|extractor| extractor.rows(rows));
+            (encoder.rows(rows), part)
+        };
+        sweep.run(state, &encode, &mut |parts, state| {
+            let (rows, parts): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+            if let Some(plot) = &mut plot {
+                parts.into_iter().flatten().for_each(|part| plot.add(part));
+            }
+            take(rows, state)
+        });
+    }
+}
+
 fn to_file(
     arguments: &SweepArguments,
-    sweep: &Sweep,
-    (path, encoder): (PathBuf, Encoder),
+    mut work: Work<'_>,
+    path: &Path,
     interrupted: &Arc<AtomicBool>,
     output: &Output,
 ) -> Result<Outcome, Failure> {
+    let sweep = work.sweep;
+    let overwrite = arguments.destination.force;
     let Continued { mut file, state } =
-        PartialFile::open(&path, encoder.clone(), (arguments.resume, arguments.destination.force))?;
+        PartialFile::open(path, work.encoder.clone(), (arguments.resume, overwrite))?;
     let mut state = state.unwrap_or_else(|| sweep.start());
     let flag = Arc::clone(interrupted);
     // Without a handler an interruption ends the program at once; the last state is still there.
@@ -88,7 +182,10 @@ fn to_file(
     let mut watch = SweepWatch::new(state.done, sweep.points());
     let mut failure = None;
     let mut last: Option<SweepState> = None;
-    sweep.run(&mut state, &|rows| encoder.rows(rows), &mut |rows, state| {
+    if let Some(plot) = &mut work.plot {
+        plot.repeat(sweep, state.done);
+    }
+    work.run(&mut state, &mut |rows, state| {
         watch.look(state.done);
         if let Err(error) = file.add(&rows, state) {
             failure = Some(error);
@@ -109,17 +206,20 @@ fn to_file(
         return Err(Failure::Interrupted { done: state.done, points: sweep.points(), path: file.path() });
     }
     file.complete()?;
+    if let Some(plot) = work.plot {
+        plot.write(&state)?;
+    }
     Output::standard(output.color()).write(&to_text(sweep, &state, output.style_of_text()))?;
     Ok(Outcome::Done)
 }
 
 /// Writes the table to standard output, or to a device or a pipe; what it comes to goes to standard error.
-fn stream(sweep: &Sweep, encoder: &Encoder, output: &Output) -> Result<Outcome, Failure> {
+fn stream(mut work: Work<'_>, output: &Output) -> Result<Outcome, Failure> {
     let mut target = output.stream()?;
-    let mut result = target.write_all(&encoder.head());
-    let mut state = sweep.start();
+    let mut result = target.write_all(&work.encoder.head());
+    let mut state = work.sweep.start();
     if result.is_ok() {
-        sweep.run(&mut state, &|rows| encoder.rows(rows), &mut |rows, _| {
+        work.run(&mut state, &mut |rows, _| {
             result = rows.iter().try_for_each(|rows| target.write_all(rows));
             if result.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
@@ -131,7 +231,10 @@ fn stream(sweep: &Sweep, encoder: &Encoder, output: &Output) -> Result<Outcome, 
         Ok(()) => {}
     }
     if !io::stdout().is_terminal() || output.path().is_some() {
-        complain(to_text(sweep, &state, output.style_of_text()).trim_end(), output.color());
+        complain(to_text(work.sweep, &state, output.style_of_text()).trim_end(), output.color());
+    }
+    if let Some(plot) = work.plot {
+        plot.write(&state)?;
     }
     Ok(Outcome::Done)
 }

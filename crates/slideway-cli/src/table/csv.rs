@@ -8,7 +8,7 @@ pub(super) fn head(layout: &Layout, metadata: &Metadata) -> Vec<u8> {
     let mut text = format!("# {}\n# {}\n", Metadata::program(), metadata.command);
     let units: Vec<String> =
         layout.varied.iter().chain(&layout.numbers).map(|(name, unit)| format!("{name} ({unit})")).collect();
-    text.push_str(&format!("# units: {}\n# model:\n", units.join(", ")));
+    text.extend(["# units: ", &units.join(", "), "\n# model:\n"]);
     for line in metadata.model.lines() {
         text.push_str(if line.is_empty() { "#" } else { "#   " });
         text.push_str(line);

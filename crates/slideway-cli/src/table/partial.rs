@@ -187,6 +187,8 @@ impl PartialFile {
                     .map_err(|error| cannot_write(&path, error))?;
             }
         }
+        // What stands under the final name is on the disk.
+        self.file.sync_all().map_err(|error| cannot_write(&path, error))?;
         if self.target.exists() && !self.overwrite {
             return Err(Failure::OutputExists { path: self.target });
         }

@@ -22,6 +22,7 @@ impl Painter<'_> {
         let is_disc =
             |body: &BodyId| matches!(self.mechanism.bodies[body.index()].shape, Some(Shape::Disc(_)));
         order.sort_by_key(|body| !is_disc(body));
+        self.walls_behind_plates();
         for body in &order {
             let mut parts: Vec<Vec<Point>> = self.plate(*body).into_iter().collect();
             if !parts.is_empty() {

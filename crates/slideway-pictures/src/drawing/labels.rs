@@ -22,6 +22,8 @@ const DISTANCES: [f64; 14] =
     [5.0, 11.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0, 100.0, 125.0, 155.0, 190.0, 235.0, 290.0];
 /// Beyond this distance a line leads to the anchor.
 const LEADER: f64 = 30.0;
+/// What it costs that the line to the anchor runs through another label.
+const CROSSED: f64 = 12.0;
 /// Free space around a label.
 const MARGIN: f64 = 2.0;
 /// Distance of the places of a line that labels keep clear of.
@@ -29,13 +31,13 @@ const STEP: f64 = 3.0;
 
 /// Gives every label its place, in their order; with bounds those that find no place within them are left out.
 pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
-    let obstacles = obstacles(scene);
+    let mut obstacles = obstacles(scene);
     let mut taken: Vec<Bounds> = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
     for label in labels {
         let Some(bounds) = best(&label, &obstacles, &taken, within) else { continue };
-        let nearest = label.anchor.sup(&bounds.least).inf(&bounds.greatest);
-        if (nearest - label.anchor).norm() > LEADER {
-            scene.add(Class::Leader, Shape::Line(vec![nearest, label.anchor]));
+        if let Some(leader) = leader(label.anchor, &bounds) {
+            along(&leader, 1.0, &mut obstacles);
+            scene.add(Class::Leader, Shape::Line(leader.to_vec()));
         }
         let at = Point::new(bounds.middle().x, bounds.greatest.y - DESCENT * label.size);
         scene.write(label.class, Text { text: label.text, at, anchor: Anchor::Middle, size: label.size });
@@ -62,7 +64,9 @@ fn best(
                 continue;
             }
             let turn = 1.0 - direction.dot(&label.towards);
-            let cost = 0.35 * distance + 3.0 * turn + crossed(&bounds, obstacles);
+            let hidden =
+                leader(label.anchor, &bounds).map_or(0.0, |leader| CROSSED * texts_on(&leader, taken));
+            let cost = 0.35 * distance + 3.0 * turn + crossed(&bounds, obstacles) + hidden;
             if best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, bounds));
             }
@@ -72,6 +76,20 @@ fn best(
         }
     }
     best.map(|(_, bounds)| bounds)
+}
+
+/// The line from a label at some distance to its anchor.
+fn leader(anchor: Point, bounds: &Bounds) -> Option<[Point; 2]> {
+    let nearest = anchor.sup(&bounds.least).inf(&bounds.greatest);
+    ((nearest - anchor).norm() > LEADER).then_some([nearest, anchor])
+}
+
+/// The number of labels through which a line runs.
+fn texts_on(line: &[Point; 2], taken: &[Bounds]) -> f64 {
+    let mut places = Vec::new();
+    along(line, 1.0, &mut places);
+    let is_crossed = |text: &&Bounds| places.iter().any(|(place, _)| text.contains(place));
+    taken.iter().filter(is_crossed).count() as f64
 }
 
 fn direction(towards: Point, index: usize) -> Point {

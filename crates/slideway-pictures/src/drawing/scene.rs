@@ -11,6 +11,8 @@ pub type Point = Vector2<f64>;
 pub enum Class {
     /// A wall of a guide that belongs to ground.
     Wall,
+    /// A wall behind a body.
+    HiddenWall,
     /// Hatching of ground.
     Hatch,
     /// What belongs to ground and has an outline.

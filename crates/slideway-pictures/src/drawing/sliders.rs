@@ -199,10 +199,40 @@ impl Painter<'_> {
         }
     }
 
-    /// Walls and rods that belong to ground.
+    /// Whether the walls of ground lie behind a plate that is higher than the space between them, as if on a rail.
+    fn is_behind_plate(&self, slide: &Slide) -> bool {
+        if slide.around || slide.kind == SliderKind::Pin || slide.guide_frame != Frame::Ground {
+            return false;
+        }
+        let plate = slide.block_frame.body().and_then(|body| self.plate(body));
+        plate.is_some_and(|plate| {
+            let across = |corner: &Point| (corner - slide.guide.origin).dot(&slide.guide.across);
+            let beyond =
+                |side: f64| plate.iter().any(|corner| side * across(corner) > slide.half_channel() + 1.0);
+            beyond(1.0) && beyond(-1.0)
+        })
+    }
+
+    /// Walls that plates cover in part.
+    pub(super) fn walls_behind_plates(&mut self) {
+        for slide in self.sliders.clone().into_iter().flatten() {
+            if self.is_behind_plate(&slide) {
+                self.walls(&slide);
+            }
+        }
+    }
+
+    /// Walls and rods that belong to ground; walls behind a plate are dashed where it hides them.
     pub(super) fn ground_of_slides(&mut self) {
         for slide in self.sliders.clone().into_iter().flatten() {
-            if slide.outer().0 == Frame::Ground {
+            if self.is_behind_plate(&slide) {
+                let [from, to] = slide.guide_reach;
+                let half = slide.half_channel();
+                for side in [-half, half] {
+                    let ends = vec![slide.guide.at(from, side), slide.guide.at(to, side)];
+                    self.line(Class::HiddenWall, ends);
+                }
+            } else if slide.outer().0 == Frame::Ground {
                 self.walls(&slide);
             }
             if slide.inner().0 == Frame::Ground && slide.kind != SliderKind::Pin {

@@ -138,6 +138,7 @@ pub(crate) fn short(value: f64) -> String {
 pub fn class_name(class: Class) -> &'static str {
     match class {
         Class::Wall => "s-wall",
+        Class::HiddenWall => "s-hidden-wall",
         Class::Hatch => "s-hatch",
         Class::Fixed => "s-fixed",
         Class::Paper => "s-paper",
@@ -227,6 +228,7 @@ pub fn rules(colour: &Colour) -> String {
     };
     rule(".s-paper", format!("fill: {background};"));
     rule(".s-wall", format!("fill: none; {}", pen(ink, 1.8)));
+    rule(".s-hidden-wall", format!("fill: none; stroke-dasharray: 7 5; {}", pen(ink, 1.2)));
     rule(".s-hatch", format!("fill: none; {}", pen(muted, 1.0)));
     rule(".s-fixed", format!("fill: {background}; {}", pen(ink, 1.6)));
     rule(".s-body-edge", format!("fill: {body}; {}", pen(ink, 3.0)));

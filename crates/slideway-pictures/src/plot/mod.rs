@@ -29,13 +29,16 @@ pub(crate) mod frame;
 mod legend;
 mod limits;
 mod markers;
+mod overlap;
 mod panel;
 mod scale;
 pub(crate) mod svg;
+mod sweep;
 
 pub use figure::{Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
 pub use limits::limits_figure;
 pub use scale::fitting_range;
+pub use sweep::{Extract, Extractor, SweepPlot};
 
 use crate::theme::{DASHES, Theme};
 use legend::Legend;
@@ -55,6 +58,8 @@ const TEXT: f64 = 14.0;
 pub(crate) const SMALL: f64 = 13.0;
 /// Width of curves (px).
 const CURVE: f64 = 2.2;
+/// By how much a curve is wider for each one that hides it (px).
+const BORDER: f64 = 3.0;
 
 /// The dash pattern of a stroke; empty for a solid line.
 fn dashes(stroke: Stroke) -> &'static str {

@@ -1,12 +1,13 @@
 //! One panel of a figure.
 
 use super::clip::{Frame, simplified};
-use super::figure::{Axis, Curve, End, Figure, Panel};
+use super::figure::{Axis, Curve, End, Figure, Panel, Stroke};
 use super::flags::{Flag, flags};
 use super::frame::{FrameAxis, Placed, draw_axes, draw_grid};
+use super::overlap::runs_along;
 use super::scale::{Scale, fitting_range};
 use super::svg::{Svg, coordinate};
-use super::{CURVE, SMALL, TEXT, dashes, hatching_fill, markers};
+use super::{BORDER, CURVE, SMALL, TEXT, dashes, hatching_fill, markers};
 use crate::theme::Theme;
 use std::fmt::Write;
 
@@ -85,14 +86,17 @@ impl<'f> PanelLayout<'f> {
         self.zones(theme, svg);
         draw_grid(&self.placed, theme, svg);
         self.marked(theme, svg);
-        for curve in &self.panel.curves {
-            self.curve(figure, curve, theme, svg);
+        let parts: Vec<Vec<Vec<[f64; 2]>>> =
+            self.panel.curves.iter().map(|curve| self.parts(curve)).collect();
+        for (index, curve) in self.panel.curves.iter().enumerate() {
+            let border = BORDER * self.number_above(figure, index, &parts) as f64;
+            self.curve(figure, curve, (&parts[index], CURVE + border), theme, svg);
         }
         // Markers and ends lie above all curves.
         let several = figure.quantities.len() > 1;
         for (index, curve) in self.panel.curves.iter().enumerate() {
             if several {
-                self.markers(figure, index, theme, svg);
+                self.markers(figure, index, &parts[index], theme, svg);
             }
             self.ends(figure, curve, theme, svg);
         }
@@ -132,7 +136,7 @@ impl<'f> PanelLayout<'f> {
 
     fn marked(&self, theme: &Theme, svg: &mut Svg) {
         for Flag { value, x, text, row } in &self.flags {
-            let baseline = self.frame.top - 6.0 - ROW * *row as f64;
+            let baseline = self.baseline(*row);
             let (class, stroke_width, dash) =
                 if value.asymptote { ("asymptote", "1.5", "10 3 2 3") } else { ("marked", "1", "2 3") };
             let at = format!("{}", value.at);
@@ -146,13 +150,29 @@ impl<'f> PanelLayout<'f> {
                 ("stroke-dasharray", dash),
             ];
             svg.line([*x, self.frame.bottom], [*x, upper], &attributes);
-            let size = coordinate(SMALL);
-            svg.label(
-                [*text, baseline],
-                &[("class", "flag"), ("font-size", &size), ("fill", theme.ink)],
-                &value.label,
-            );
         }
+        self.labels(theme, svg);
+    }
+
+    /// Labels of marked values, above all lines: one that keeps from the edge of the picture may stand across lines of
+    /// others, which its border interrupts.
+    fn labels(&self, theme: &Theme, svg: &mut Svg) {
+        let size = coordinate(SMALL);
+        for Flag { value, text, row, .. } in &self.flags {
+            let attributes = [
+                ("class", "flag"),
+                ("font-size", &*size),
+                ("fill", theme.ink),
+                ("paint-order", "stroke"),
+                ("stroke", theme.background),
+                ("stroke-width", "4"),
+            ];
+            svg.label([*text, self.baseline(*row)], &attributes, &value.label);
+        }
+    }
+
+    fn baseline(&self, row: usize) -> f64 {
+        self.frame.top - 6.0 - ROW * row as f64
     }
 
     /// The visible parts of a curve, in places.
@@ -168,17 +188,38 @@ impl<'f> PanelLayout<'f> {
         theme.series[colour % theme.series.len()]
     }
 
-    fn curve(&self, figure: &Figure, curve: &Curve, theme: &Theme, svg: &mut Svg) {
+    /// How many later solid curves of other branches hide the curve with this index: it is drawn wider, so that it shows on
+    /// both sides of them.
+    fn number_above(&self, figure: &Figure, index: usize, parts: &[Vec<Vec<[f64; 2]>>]) -> usize {
+        let branch = self.panel.curves[index].branch;
+        let later = self.panel.curves.iter().zip(parts).skip(index + 1);
+        let hides = |&(curve, above): &(&Curve, &Vec<Vec<[f64; 2]>>)| {
+            let stroke = figure.branches.get(curve.branch).map(|branch| branch.stroke);
+            let is_solid = stroke.is_none_or(|stroke| stroke == Stroke::Solid);
+            curve.branch != branch && is_solid && runs_along(&parts[index], above, CURVE)
+        };
+        later.filter(hides).count().min(3)
+    }
+
+    /// One curve, by its visible parts and its width.
+    fn curve(
+        &self,
+        figure: &Figure,
+        curve: &Curve,
+        (parts, width): (&[Vec<[f64; 2]>], f64),
+        theme: &Theme,
+        svg: &mut Svg,
+    ) {
         let stroke =
             figure.branches.get(curve.branch).map(|branch| dashes(branch.stroke)).unwrap_or_default();
         let (branch, quantity) = (curve.branch.to_string(), curve.quantity.to_string());
-        for part in self.parts(curve) {
+        for part in parts {
             let mut path = String::new();
             for (index, [x, y]) in part.iter().enumerate() {
                 let letter = if index == 0 { 'M' } else { 'L' };
                 let _ = write!(path, "{letter}{} {}", coordinate(*x), coordinate(*y));
             }
-            let thickness = coordinate(CURVE);
+            let thickness = coordinate(width);
             let mut attributes = vec![
                 ("class", "curve"),
                 ("data-branch", &*branch),
@@ -197,13 +238,13 @@ impl<'f> PanelLayout<'f> {
     }
 
     /// Markers of the curve with this index; those of neighbouring curves are shifted against each other.
-    fn markers(&self, figure: &Figure, index: usize, theme: &Theme, svg: &mut Svg) {
+    fn markers(&self, figure: &Figure, index: usize, parts: &[Vec<[f64; 2]>], theme: &Theme, svg: &mut Svg) {
         let curve = &self.panel.curves[index];
         let colour = Self::colour(figure, curve, theme);
         let shares = figure.quantities.len() as f64;
         let phase = ((curve.quantity as f64 + 0.37 * curve.branch as f64) / shares).fract();
-        for part in self.parts(curve) {
-            for place in markers::places(&part, phase) {
+        for part in parts {
+            for place in markers::places(part, phase) {
                 markers::draw(curve.quantity, place, [colour, theme.background], svg);
             }
         }

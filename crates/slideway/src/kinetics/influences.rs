@@ -136,8 +136,8 @@ impl Elimination {
             let pivot = self.work[pivot_at * width + step];
             least = least.min(pivot.abs());
             greatest = greatest.max(pivot.abs());
-            // Also where it is not a number.
-            if !(least > WELL_CONDITIONED * greatest) {
+            // The least and the greatest one pass over what is not a number.
+            if pivot.is_nan() || least <= WELL_CONDITIONED * greatest {
                 return None;
             }
             if pivot_at != step {

@@ -261,6 +261,53 @@ mod tests {
         assert!(is_exact(&raster(40, 40, 1, dot), dot));
     }
 
+    /// Indices of pixels of one class that touch at a side or a corner, for all such regions.
+    fn regions(grid: Grid, class: impl Fn([usize; 2]) -> u8) -> Vec<Vec<[usize; 2]>> {
+        let mut is_seen = vec![false; grid.width * grid.height];
+        let mut regions = Vec::new();
+        for start in (0..grid.height).flat_map(|j| (0..grid.width).map(move |i| [i, j])) {
+            let mut region = Vec::new();
+            let mut open = vec![start];
+            while let Some(point) = open.pop() {
+                let index = point[1] * grid.width + point[0];
+                if class(point) == class(start) && !is_seen[index] {
+                    is_seen[index] = true;
+                    region.push(point);
+                    open.extend(neighbours(grid, point));
+                }
+            }
+            regions.push(region);
+        }
+        regions
+    }
+
+    /// What the documentation promises: a region that a probe meets is complete, also one that is narrower than a pixel.
+    #[test]
+    fn regions_that_a_probe_meets_are_exact() {
+        let mut missed = 0;
+        for turn in 0_u8..40 {
+            let (sin, cos) = (0.1 + 0.16 * f64::from(turn)).sin_cos();
+            // Rings and a line, from a third of a pixel to three pixels wide.
+            let width = 0.15 + 0.035 * f64::from(turn);
+            let class = |[i, j]: [usize; 2]| {
+                let (x, y) = (i as f64 - 45.0 - 9.0 * cos, j as f64 - 35.0 - 7.0 * sin);
+                let is_on_ring = [6.0, 19.0, 28.5].iter().any(|radius| (x.hypot(y) - radius).abs() < width);
+                u8::from(is_on_ring) + 2 * u8::from((x * sin - y * cos).abs() < width)
+            };
+            let grid = Grid { width: 90, height: 70, probe: 8 };
+            let found = raster(grid.width, grid.height, grid.probe, class);
+            for region in regions(grid, class) {
+                let is_right =
+                    |&[i, j]: &[usize; 2]| found.classes[found.pixels[j * 90 + i] as usize] == class([i, j]);
+                let has_probe = region.iter().any(|[i, j]| i % grid.probe == 0 && j % grid.probe == 0);
+                let wrong = region.iter().filter(|point| !is_right(point)).count();
+                assert!(wrong == 0 || !has_probe, "turn {turn}: {wrong} pixels of a region with a probe");
+                missed += wrong;
+            }
+        }
+        assert!(missed > 0, "no region is too narrow for the probes");
+    }
+
     #[test]
     fn the_callback_ends_the_work() {
         let grid = Grid { width: 100, height: 100, probe: 1 };

@@ -73,7 +73,7 @@ pub struct Thorough;
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
         let Instant { mechanism, configuration, stopped, previous } = *instant;
-        let mut found = decision::successors(mechanism, configuration, stopped, previous)?;
+        let mut found = decision::continuations(mechanism, configuration, stopped, previous)?;
         // A joint that could just as well stick slides only if nothing else is possible: it would not move.
         found.list.sort_by_key(|successor| match &successor.standing {
             Standing::Undecided(limits) => limits.iter().any(|limit| matches!(limit, Limit::Slip(_))),

@@ -11,6 +11,8 @@ use crate::model::Model;
 pub(super) struct Axis {
     pub(super) quantity: Quantity,
     pub(super) values: Values,
+    /// The values as they were written.
+    pub(super) written: String,
 }
 
 /// The values of an axis, in SI units.
@@ -41,9 +43,9 @@ impl Axis {
         }
         let quantity = Quantity::find(model, name)?;
         let reader = Reader { model, quantity: &quantity };
-        let values = if with_samples { reader.drawn(values) } else { reader.grid(values) };
-        let values = values.map_err(fault)?;
-        Ok(Self { quantity, values })
+        let read = if with_samples { reader.drawn(values) } else { reader.grid(values) };
+        let written = values.to_owned();
+        Ok(Self { values: read.map_err(fault)?, quantity, written })
     }
 }
 

@@ -185,7 +185,7 @@ fn cost(known: &Tracked, next: Next<'_>) -> Option<Cost> {
     }
     let in_gap = |pattern: &[u8]| pattern.contains(&b'0');
     let orientation = |pattern: &[u8], negative: bool| {
-        negative ^ (pattern.iter().filter(|side| **side == b'-').count() % 2 == 1)
+        pattern.iter().fold(negative, |negative, side| negative ^ (*side == b'-'))
     };
     let continues = match signs {
         Some((one, other)) if !in_gap(&known.pattern) && !in_gap(next.pattern) => {

@@ -75,7 +75,7 @@ fn radical_inverse(mut number: u64, base: u64) -> f64 {
 
 /// The prime with this number, from 0.
 fn prime(index: usize) -> u64 {
-    let is_prime = |n: &u64| (2..).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
+    let is_prime = |n: &u64| (2..=n.isqrt()).all(|d| !n.is_multiple_of(d));
     (2..).filter(is_prime).nth(index).unwrap_or(2)
 }
 

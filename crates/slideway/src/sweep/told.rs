@@ -100,7 +100,7 @@ impl Telling<'_> {
     }
 
     fn finish(&mut self, pattern: &str, head: RowHead) {
-        let rows = &mut self.rows;
+        let rows = &mut *self.rows;
         rows.heads.push(head);
         rows.numbers.resize(rows.heads.len() * rows.width, f64::NAN);
         rows.patterns.extend_from_slice(pattern.as_bytes());

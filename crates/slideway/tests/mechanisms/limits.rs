@@ -192,7 +192,12 @@ fn names_and_ranges_that_make_no_sense_are_told() {
     assert!(matches!(fault("mu_1=0.3"), FaultKind::MalformedRange { .. }));
     assert!(matches!(fault("friction=0..x"), FaultKind::MalformedRange { .. }));
     assert!(matches!(fault("alpha"), FaultKind::RangeNeeded { .. }));
-    assert!(matches!(fault("l=1 m..2 kg"), FaultKind::Expression(_) | FaultKind::WrongDimension { .. }));
+    let told = |vary: &str, words: &str| {
+        let kind = fault(vary);
+        assert!(matches!(kind, FaultKind::Axis { .. }) && kind.to_string() == words, "{kind}");
+    };
+    told("l=1 m..2 kg", "`l=2 kg`: a mass where a length is expected");
+    told("mu_1=0..abc", "`mu_1=abc`: unknown name `abc`");
 }
 
 #[test]

@@ -15,6 +15,7 @@ use nalgebra::DVector;
 
 const STICKS: &str = "every joint sticks: no friction follows the normal forces";
 const IN_GAP: &str = "a contact is between its faces";
+const OUT_OF_RANGE: &str = "a coefficient is beyond the range of floating point";
 
 /// The attainability of a phase whose sides are known, without what an unattainable phase separates.
 ///
@@ -25,17 +26,33 @@ pub(super) fn attainability(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Attainability {
-    let not_computed = |reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason);
+    examine(instant, configuration, phase, |guides, sides| guides.of(sides))
+        .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
+}
+
+/// The verdict of [`attainability`] alone.
+pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
+    examine(instant, configuration, phase, |guides, sides| guides.verdict_on(sides))
+        .unwrap_or(Verdict::NotComputed)
+}
+
+/// What is asked of a phase with elastic guides, or why there is no answer.
+fn examine<T>(
+    instant: &Instant<'_>,
+    configuration: &Configuration,
+    phase: &Phase,
+    ask: impl Fn(&ElasticGuides<'_>, &[Side]) -> T,
+) -> Result<T, &'static str> {
     let sticks = |joint: usize| phase.joints[joint] == JointPhase::Sticking;
     if !phase.joints.is_empty() && (0..phase.joints.len()).all(sticks) {
-        return not_computed(STICKS);
+        return Err(STICKS);
     }
     let sliding_gap = (0..phase.contacts.len()).any(|k| {
         phase.contacts[k] == ContactPhase::PreloadGap
             && instant.joint_of(k).is_some_and(|joint| !sticks(joint))
     });
     if sliding_gap {
-        return not_computed(IN_GAP);
+        return Err(IN_GAP);
     }
     let stuck = (0..phase.joints.len()).filter(|&joint| sticks(joint));
     let (mechanism, equations) = locked(instant, configuration, stuck);
@@ -45,9 +62,7 @@ pub(super) fn attainability(
             Some(JointPhase::Sliding(sign)) => sign,
             _ => 0.0,
         });
-    let Ok(problem) = mode_problem(&mechanism, &influence, &signs) else {
-        return not_computed("a coefficient is beyond the range of floating point");
-    };
+    let problem = mode_problem(&mechanism, &influence, &signs).map_err(|_| OUT_OF_RANGE)?;
     let sides: Vec<Side> = phase
         .contacts
         .iter()
@@ -56,7 +71,7 @@ pub(super) fn attainability(
             ContactPhase::PreloadGap => Side::Positive,
         })
         .collect();
-    ElasticGuides::new(&mechanism, &equations, &problem).of(&sides)
+    Ok(ask(&ElasticGuides::new(&mechanism, &equations, &problem), &sides))
 }
 
 /// The mechanism with these joints locked, as far as the locks are independent.

@@ -34,6 +34,7 @@ mod growth;
 mod instant;
 mod jam;
 mod program;
+mod sieve;
 mod state;
 mod sticking;
 mod successors;
@@ -42,6 +43,7 @@ mod system;
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
+pub(super) use successors::continuations;
 pub use successors::{Successor, Successors, Tipping, successors};
 
 use crate::ids::{ContactId, JointId};

@@ -1,9 +1,10 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::{Assessment, Decisive, assess, side_options};
-use super::elastic::attainability;
+use super::assessment::{Assessment, Decisive, assess, best_sides, side_options};
+use super::elastic::{attainability, verdict};
 use super::growth::standing;
 use super::instant::Instant;
+use super::sieve::Sieve;
 use super::state::{PhaseState, is_same_phase, state};
 use super::system::{Question, Subject};
 use super::{BOUNDARY, MOST_STATES, Standing};
@@ -17,6 +18,9 @@ use crate::report::{Attainability, Verdict};
 
 /// Accelerations and forces that differ by less than this, in units, are the same.
 const SAME: f64 = 1e-6;
+/// A margin of sticking from which on it does not matter at which sides the contacts are pressed.
+const ENOUGH: f64 = 0.01;
+const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
 #[derive(Debug, Clone, Default)]
@@ -98,13 +102,47 @@ pub fn successors(
     stopped: &[bool],
     previous: Option<&Phase>,
 ) -> Result<Successors, Faults> {
+    at(mechanism, configuration, (stopped, previous), Detail::Everything)
+}
+
+/// The phases of [`successors`], with no more than it takes to put them in their order: patterns of sliding that are
+/// far from any state are not assessed, sides of sticking contacts are those of the first state with a margin, and of
+/// attainability there is the verdict alone. Where a single phase can follow, nothing is said about its attainability, and
+/// of its being continued only whether it is the previous phase.
+///
+/// # Errors
+/// As [`successors`].
+pub(crate) fn continuations(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    stopped: &[bool],
+    previous: Option<&Phase>,
+) -> Result<Successors, Faults> {
+    at(mechanism, configuration, (stopped, previous), Detail::Order)
+}
+
+fn at(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (stopped, previous): (&[bool], Option<&Phase>),
+    detail: Detail,
+) -> Result<Successors, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
     instant.check_joints(stopped.len())?;
     if let Some(previous) = previous {
         instant.check(previous)?;
     }
-    let search = Search { mechanism, configuration, instant: &instant, stopped, previous };
+    let search = Search { mechanism, configuration, instant: &instant, stopped, previous, detail };
     search.run()
+}
+
+/// How much is told of the phases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Detail {
+    /// Everything.
+    Everything,
+    /// What decides their order.
+    Order,
 }
 
 struct Search<'s> {
@@ -113,15 +151,20 @@ struct Search<'s> {
     instant: &'s Instant<'s>,
     stopped: &'s [bool],
     previous: Option<&'s Phase>,
+    detail: Detail,
 }
 
 impl Search<'_> {
     fn run(&self) -> Result<Successors, Faults> {
         let question = self.instant.question(self.stopped);
-        let before = self.previous.and_then(|previous| self.present(&question, previous));
         let mut found = Successors::default();
+        let mut sieve = (self.detail == Detail::Order).then(|| Sieve::new(&question, self.instant));
+        let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
         for phase in self.candidates()? {
-            let Ok(assessment) = assess(self.instant, &question, &phase, BOUNDARY) else {
+            if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&phase)) {
+                continue;
+            }
+            let Ok(assessment) = best_sides(self.instant, &question, &phase, (BOUNDARY, enough)) else {
                 found.unsolved.push(phase);
                 continue;
             };
@@ -132,15 +175,35 @@ impl Search<'_> {
             }
             let at = (self.instant, &question, &assessment);
             let Some(standing) = standing(self.mechanism, self.configuration, at) else { continue };
-            found.list.extend(self.successor(&question, &assessment, standing, before.as_ref()));
+            found.list.extend(self.successor(&question, &assessment, standing));
         }
-        let follows_unattainable = self.previous.is_some_and(|previous| self.is_unattainable(previous));
+        let alone = found.list.len() == 1 && self.detail == Detail::Order;
+        let previous = self.previous.filter(|_| !alone);
+        let before = previous.and_then(|previous| self.present(&question, previous));
+        for successor in &mut found.list {
+            let is_continued = |before| self.is_continued(&successor.state, &successor.phase, before);
+            successor.continues = successor.is_present || before.as_ref().is_some_and(is_continued);
+            successor.attainability = self.attainability(&successor.phase, alone);
+        }
+        let matters = |one: &Successor| {
+            one.continues && !one.is_present && one.attainability.verdict == Verdict::Unattainable
+        };
+        let follows_unattainable = found.list.iter().any(matters)
+            && self.previous.is_some_and(|previous| self.verdict(previous) == Verdict::Unattainable);
         found.list.sort_by_key(|successor| rank(successor, follows_unattainable));
         Ok(found)
     }
 
-    fn is_unattainable(&self, phase: &Phase) -> bool {
-        attainability(self.instant, self.configuration, phase).verdict == Verdict::Unattainable
+    fn verdict(&self, phase: &Phase) -> Verdict {
+        verdict(self.instant, self.configuration, phase)
+    }
+
+    fn attainability(&self, phase: &Phase, alone: bool) -> Attainability {
+        match self.detail {
+            Detail::Everything => attainability(self.instant, self.configuration, phase),
+            Detail::Order if alone => Attainability::without_eigenvalues(Verdict::NotComputed, ALONE),
+            Detail::Order => Attainability::without_eigenvalues(self.verdict(phase), ""),
+        }
     }
 
     /// The previous phase at this instant.
@@ -234,7 +297,6 @@ impl Search<'_> {
         question: &Question<'_>,
         assessment: &Assessment,
         standing: Standing,
-        before: Option<&PhaseState>,
     ) -> Option<Successor> {
         let state = state(self.instant, question, assessment)?;
         let mut phase = assessment.phase.clone();
@@ -246,9 +308,8 @@ impl Search<'_> {
             }
         }
         let is_present = self.previous.is_some_and(|previous| is_same_phase(self.instant, previous, &phase));
-        let continues = is_present || before.is_some_and(|before| self.is_continued(&state, &phase, before));
-        let attainability = attainability(self.instant, self.configuration, &phase);
-        Some(Successor { phase, state, is_present, continues, standing, attainability })
+        let attainability = Attainability::without_eigenvalues(Verdict::NotComputed, "");
+        Some(Successor { phase, state, is_present, continues: is_present, standing, attainability })
     }
 
     fn is_continued(&self, state: &PhaseState, phase: &Phase, before: &PhaseState) -> bool {

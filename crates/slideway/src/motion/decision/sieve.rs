@@ -1,0 +1,143 @@
+//! A fast test of patterns in which everything slides: most of them are far from any state.
+
+use super::instant::Instant;
+use super::system::{Question, face};
+use crate::model::PreloadLine;
+use crate::motion::{ContactPhase, JointPhase, Phase};
+
+/// Patterns are excluded only by slacks below this part of the greatest normal force, far beyond rounding ...
+const CLEAR: f64 = 1e-6;
+/// ... and by equations of which no pivot is below this part of the greatest entry.
+const REGULAR: f64 = 1e-6;
+
+/// The equations `sigma_j p_j - sum_k eta_jk mu_k s_k p_k = N_j(0) + sum_k eta_jk F_k0 s_k` of a pattern without preload
+/// gaps, with `p_k = |N_k|`, solved by elimination in memory that is kept.
+pub(super) struct Sieve<'s> {
+    question: &'s Question<'s>,
+    instant: &'s Instant<'s>,
+    joint: Vec<Option<usize>>,
+    /// Row by row, the right-hand side last.
+    matrix: Vec<f64>,
+    pressure: Vec<f64>,
+}
+
+impl<'s> Sieve<'s> {
+    /// A sieve for a question about accelerations.
+    pub(super) fn new(question: &'s Question<'s>, instant: &'s Instant<'s>) -> Self {
+        let contacts = instant.has_jump.len();
+        Self {
+            question,
+            instant,
+            joint: (0..contacts).map(|k| instant.joint_of(k)).collect(),
+            matrix: vec![0.0; contacts * (contacts + 1)],
+            pressure: vec![0.0; contacts],
+        }
+    }
+
+    /// Whether a pattern is certainly no state: a normal force has the wrong sign, or a joint that begins to slip
+    /// accelerates against its direction. Patterns in which something sticks or is in a preload gap are not judged.
+    pub(super) fn excludes(&mut self, phase: &Phase) -> bool {
+        self.fill(phase).is_some() && self.solve() && (self.is_lifted() || self.is_pushed_back(phase))
+    }
+
+    /// mu_k s_k and F_k0 s_k of a contact that slides and is pressed, in units, and the face.
+    fn friction(&self, phase: &Phase, k: usize) -> Option<(f64, f64, usize)> {
+        let (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) =
+            (phase.joints[self.joint[k]?], phase.contacts[k])
+        else {
+            return None;
+        };
+        let (contact, face) = (self.instant.contact(k), face(side));
+        let preload = self.question.preload.map_or(0.0, |unit| contact.preload[face] / unit);
+        Some((contact.mu[face] * sign, preload * sign, face))
+    }
+
+    /// What a friction adds to an output, by its own force and by the preload, for a unit of pressure.
+    fn effect(&self, row: usize, k: usize, (mu, preload, face): (f64, f64, usize)) -> (f64, f64) {
+        let [plus, minus] = [0, 1].map(|side| self.question.outputs.columns[side][(row, k)]);
+        let own = if face == 0 { plus } else { minus };
+        let at_preload = match self.instant.contact(k).preload_line {
+            PreloadLine::Pressed => own,
+            PreloadLine::Centre => f64::midpoint(plus, minus),
+        };
+        (own * mu, at_preload * preload)
+    }
+
+    fn fill(&mut self, phase: &Phase) -> Option<()> {
+        let contacts = self.pressure.len();
+        let width = contacts + 1;
+        for row in 0..contacts {
+            self.matrix[row * width + contacts] = self.question.outputs.base[row];
+        }
+        for k in 0..contacts {
+            let friction = self.friction(phase, k)?;
+            for row in 0..contacts {
+                let (own, preload) = self.effect(row, k, friction);
+                self.matrix[row * width + k] = -own;
+                self.matrix[row * width + contacts] += preload;
+            }
+            self.matrix[k * width + k] += if friction.2 == 0 { 1.0 } else { -1.0 };
+        }
+        Some(())
+    }
+
+    /// Elimination with partial pivoting; whether the equations are clearly regular.
+    fn solve(&mut self) -> bool {
+        let contacts = self.pressure.len();
+        let width = contacts + 1;
+        let entries = self.matrix.chunks_exact(width).flat_map(|row| &row[..contacts]);
+        let greatest = entries.fold(0.0_f64, |greatest, entry| greatest.max(entry.abs()));
+        for step in 0..contacts {
+            let size = |row: usize| self.matrix[row * width + step].abs();
+            let best =
+                (step..contacts).fold(step, |best, row| if size(row) > size(best) { row } else { best });
+            // Not `<`, so that what is not a number is not regular.
+            if !(size(best) >= REGULAR * greatest && greatest.is_finite()) {
+                return false;
+            }
+            for column in step..width {
+                self.matrix.swap(step * width + column, best * width + column);
+            }
+            for row in step + 1..contacts {
+                let factor = self.matrix[row * width + step] / self.matrix[step * width + step];
+                for column in step..width {
+                    self.matrix[row * width + column] -= factor * self.matrix[step * width + column];
+                }
+            }
+        }
+        for row in (0..contacts).rev() {
+            let known: f64 =
+                (row + 1..contacts).map(|k| self.matrix[row * width + k] * self.pressure[k]).sum();
+            self.pressure[row] =
+                (self.matrix[row * width + contacts] - known) / self.matrix[row * width + row];
+        }
+        true
+    }
+
+    fn clear(&self) -> f64 {
+        CLEAR * self.pressure.iter().fold(1.0, |greatest: f64, pressure| greatest.max(pressure.abs()))
+    }
+
+    fn is_lifted(&self) -> bool {
+        let clear = self.clear();
+        self.pressure.iter().any(|pressure| *pressure < -clear)
+    }
+
+    fn is_pushed_back(&self, phase: &Phase) -> bool {
+        let begins =
+            |joint: &usize| self.question.stopped[*joint] && self.instant.joints[*joint].has_friction;
+        (0..phase.joints.len()).filter(begins).any(|joint| {
+            let JointPhase::Sliding(sign) = phase.joints[joint] else { return false };
+            let row = self.instant.sliding_output(joint);
+            let mut acceleration = self.question.outputs.base[row];
+            let mut greatest = acceleration.abs();
+            for (k, pressure) in self.pressure.iter().enumerate() {
+                let Some(friction) = self.friction(phase, k) else { return false };
+                let (own, preload) = self.effect(row, k, friction);
+                acceleration += own * pressure + preload;
+                greatest = greatest.max((own * pressure).abs()).max(preload.abs());
+            }
+            sign * acceleration < -CLEAR * greatest.max(1.0)
+        })
+    }
+}

@@ -1,0 +1,130 @@
+//! The matrix and the right-hand side, written anew at each evaluation.
+
+use super::{Equations, Failure, Rubbing};
+use crate::configuration::Configuration;
+use crate::ids::{ContactId, DriveId};
+use crate::kinetics::{ConstraintRow, Wrench, effort_forces, friction_forces};
+use crate::mechanism::{CoordinateKind, rot90};
+use crate::model::PreloadLine;
+use crate::motion::linear::LinearSystem;
+
+impl Equations<'_> {
+    /// Writes the matrix, and the right-hand side in place of the unknowns.
+    pub(super) fn assemble(&mut self) -> Result<(), Failure> {
+        self.applied.fill(self.mechanism, &self.configuration).map_err(Failure::Loads)?;
+        self.system.clear();
+        self.unknowns.fill(0.0);
+        for (index, body) in self.mechanism.bodies.iter().enumerate() {
+            for (axis, inertia) in [body.mass, body.mass, body.moment_of_inertia].into_iter().enumerate() {
+                self.system.add(3 * index + axis, 3 * index + axis, inertia);
+            }
+        }
+        for wrench in &self.applied.wrenches {
+            add(&self.configuration, wrench, |row, value| self.unknowns[row] += value);
+        }
+        self.assemble_constraints();
+        self.assemble_friction();
+        self.assemble_drives()
+    }
+
+    /// G and -G^T, and the rows and columns of the sticking joints.
+    fn assemble_constraints(&mut self) {
+        self.rows.clear();
+        self.row_ends.clear();
+        let first = 3 * self.mechanism.bodies.len();
+        for (index, reaction) in self.layout.reactions().iter().enumerate() {
+            self.row.set_constraint(self.mechanism, &self.configuration, &self.contacts, *reaction);
+            put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
+            self.rows.extend_from_slice(&self.row.entries);
+            self.row_ends.push(self.rows.len());
+        }
+        let first = self.layout.len();
+        for (index, stuck) in self.stuck.iter().enumerate() {
+            let kind = CoordinateKind::Slide(stuck.joint);
+            self.row.set_coordinate(self.mechanism, &self.configuration, kind);
+            put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
+            self.rows.extend_from_slice(&self.row.entries);
+            self.row_ends.push(self.rows.len());
+        }
+    }
+
+    fn assemble_friction(&mut self) {
+        for (k, rubbing) in self.rubbing.iter().enumerate() {
+            let column = self.normal[k];
+            let preload_face = |sigma: f64| match self.mechanism.contacts[k].preload_line {
+                PreloadLine::Pressed => sigma,
+                PreloadLine::Centre => 0.0,
+            };
+            let forces = |sigma: f64, friction: f64| {
+                friction_forces(self.mechanism, ContactId(k), &self.contacts[k], sigma, friction)
+            };
+            match *rubbing {
+                Rubbing::Sticking => {}
+                Rubbing::Pressed { sigma, mu, preload, sign } => {
+                    if mu != 0.0 {
+                        for wrench in forces(sigma, mu * sigma * sign) {
+                            add(&self.configuration, &wrench, |row, value| {
+                                self.system.add(row, column, -value);
+                            });
+                        }
+                    }
+                    if preload != 0.0 {
+                        for wrench in forces(preload_face(sigma), preload * sign) {
+                            add(&self.configuration, &wrench, |row, value| self.unknowns[row] += value);
+                        }
+                    }
+                }
+                // d = share d^+ + (1 - share) d^-
+                Rubbing::Gap { preload: [positive, negative], sign } => {
+                    self.system.clear_column(column);
+                    let at_negative = forces(preload_face(-1.0), negative * sign);
+                    for wrench in &at_negative {
+                        add(&self.configuration, wrench, |row, value| self.unknowns[row] += value);
+                        add(&self.configuration, wrench, |row, value| self.system.add(row, column, value));
+                    }
+                    for wrench in &forces(preload_face(1.0), positive * sign) {
+                        add(&self.configuration, wrench, |row, value| self.system.add(row, column, -value));
+                    }
+                }
+            }
+        }
+    }
+
+    fn assemble_drives(&mut self) -> Result<(), Failure> {
+        for (index, drive) in self.mechanism.drives.iter().enumerate() {
+            let effort = self.layout.effort(DriveId(index));
+            let kind = self.mechanism.coordinates[drive.coordinate.index()].kind;
+            self.row.set_coordinate(self.mechanism, &self.configuration, kind);
+            for &(column, value) in &self.row.entries {
+                self.system.add(effort, column, value);
+            }
+            for wrench in effort_forces(self.mechanism, &self.configuration, &drive.effort) {
+                add(&self.configuration, &wrench, |row, value| self.system.add(row, effort, -value));
+            }
+            let Configuration { coordinates, rates, time, .. } = &self.configuration;
+            let prescribed = self.mechanism.quantity(drive.acceleration, coordinates, rates, *time);
+            self.unknowns[effort] =
+                prescribed.map_err(|fault| Failure::Loads(fault.into()))? + self.row.right_hand_side;
+        }
+        Ok(())
+    }
+}
+
+/// Adds a force or couple on a body to the three equations of that body.
+fn add(configuration: &Configuration, wrench: &Wrench, mut add: impl FnMut(usize, f64)) {
+    let Some(body) = wrench.frame.body() else { return };
+    let row = 3 * body.index();
+    let arm = configuration.arm(wrench.frame, wrench.place);
+    add(row, wrench.force.x);
+    add(row + 1, wrench.force.y);
+    add(row + 2, rot90(arm).dot(&wrench.force) + wrench.couple);
+}
+
+/// A row of constraints, its force as a column, and its right-hand side.
+fn put_row(system: &mut LinearSystem, right_hand_side: &mut [f64], row: &ConstraintRow, place: usize) {
+    for &(column, value) in &row.entries {
+        system.add(place, column, value);
+        system.add(column, place, -value);
+    }
+    right_hand_side[place] = row.right_hand_side;
+}

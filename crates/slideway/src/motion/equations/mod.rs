@@ -1,0 +1,286 @@
+//! The equations of motion within a phase, without new memory at each evaluation.
+//!
+//! ```text
+//! M a - G^T lambda - sum_k W_k^side mu_k s_k sigma_k N_k - B u - sum_j T_j t_j = f + sum_k W_k^side F_k0 s_k
+//! G a                                                                          = gamma
+//! C a                                                                          = prescribed
+//! T_j^T a                                                                      = bias
+//! ```
+//!
+//! Coulomb friction of a contact that is pressed against a known side is linear in its normal force (eq. (2)), so it
+//! joins the column of that force: one matrix, not symmetric, is factored for all unknowns. In a preload gap `N_k = 0`,
+//! and the share of the face of positive normal force takes the place of `N_k` among the unknowns (theory, section 3).
+//! A joint that sticks adds the row that its sliding acceleration is zero, and the tangential force `t_j` on its centre
+//! line, block against guide. (At another line of the same joint it would shift normal force between the two ends of
+//! the block, and nothing else.)
+
+mod assembly;
+mod phase;
+mod projection;
+
+use super::linear::{Determinant, LinearSystem};
+use super::phase::Phase;
+use super::stepper::Derivative;
+use crate::configuration::{Configuration, ContactGeometry};
+use crate::fault::Faults;
+use crate::ids::{ContactId, DriveId, JointId};
+use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
+use crate::mechanism::Mechanism;
+use nalgebra::{DMatrix, Vector2};
+
+/// Ratio of pivots from which on the equations count as singular.
+const SINGULAR: f64 = 1e14;
+
+/// Why the equations have no solution in a state.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Failure {
+    /// Loads or drives without a value.
+    Loads(Faults),
+    /// The matrix is singular.
+    Singular,
+}
+
+/// What the friction of a contact is within a phase.
+#[derive(Debug, Clone, Copy)]
+enum Rubbing {
+    /// F = (mu sigma N + preload) sign, at the face of `sigma`.
+    Pressed { sigma: f64, mu: f64, preload: f64, sign: f64 },
+    /// N = 0, F = (share preload[0] + (1 - share) preload[1]) sign.
+    Gap { preload: [f64; 2], sign: f64 },
+    /// The joint sticks: its tangential force stands for all its contacts.
+    Sticking,
+}
+
+/// A joint that sticks by an equation of its own.
+#[derive(Debug, Clone, Copy)]
+struct Stuck {
+    joint: JointId,
+    /// Where it sticks (m).
+    displacement: f64,
+}
+
+/// The greatest violation of the joints, before a projection.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Drift {
+    /// Of positions (in sizes of the mechanism, or rad).
+    pub position: f64,
+    /// Of velocities (in sizes of the mechanism, or rad, per s).
+    pub velocity: f64,
+}
+
+impl Drift {
+    /// The greater of both, each by itself.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { position: self.position.max(other.position), velocity: self.velocity.max(other.velocity) }
+    }
+}
+
+/// The equations of motion of a mechanism in a phase, at a state.
+///
+/// The state is a vector: (x, y, angle) of every body, their rates, then the work done so far by every contact, load
+/// and drive.
+pub(super) struct Equations<'m> {
+    pub(super) mechanism: &'m Mechanism,
+    layout: Layout,
+    /// The joints that slide, in their order.
+    pub(super) sliders: Vec<JointId>,
+    /// Where the normal force of each contact stands among the unknowns.
+    normal: Vec<usize>,
+    /// Whether the work of each load is counted as potential energy.
+    pub(super) conservative: Vec<bool>,
+    rubbing: Vec<Rubbing>,
+    stuck: Vec<Stuck>,
+    /// The state of the last evaluation.
+    pub(super) configuration: Configuration,
+    pub(super) contacts: Vec<ContactGeometry>,
+    pub(super) applied: Applied,
+    /// The rows of all reactions and of the sticking joints, one after the other.
+    rows: Vec<(usize, f64)>,
+    row_ends: Vec<usize>,
+    row: ConstraintRow,
+    system: LinearSystem,
+    /// Accelerations, reactions, efforts, tangential forces.
+    unknowns: Vec<f64>,
+    work: Vec<f64>,
+    condition: f64,
+    /// How often they were evaluated.
+    pub(super) evaluations: u64,
+}
+
+impl<'m> Equations<'m> {
+    /// The equations of a mechanism, not yet in a phase.
+    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
+        let layout = Layout::of(mechanism);
+        let contacts = (0..mechanism.contacts.len()).map(ContactId);
+        let normal = contacts.clone().filter_map(|contact| layout.reaction(Reaction::Normal(contact)));
+        Self {
+            mechanism,
+            sliders: sliding_joints(mechanism),
+            normal: normal.collect(),
+            conservative: mechanism.loads.iter().map(super::energy::is_conservative).collect(),
+            rubbing: vec![Rubbing::Sticking; mechanism.contacts.len()],
+            stuck: Vec::new(),
+            configuration: configuration.clone(),
+            contacts: contacts.map(|contact| configuration.contact(mechanism, contact)).collect(),
+            applied: Applied::new(),
+            rows: Vec::new(),
+            row_ends: Vec::new(),
+            row: ConstraintRow::empty(),
+            system: LinearSystem::new(0),
+            unknowns: Vec::new(),
+            work: Vec::new(),
+            condition: 1.0,
+            evaluations: 0,
+            layout,
+        }
+    }
+
+    /// Components of the state.
+    pub(super) fn state_size(&self) -> usize {
+        let powers = self.contacts.len() + self.mechanism.loads.len() + self.mechanism.drives.len();
+        6 * self.mechanism.bodies.len() + powers
+    }
+
+    /// The state vector of a configuration, without any work so far.
+    pub(super) fn state_of(&self, configuration: &Configuration) -> Vec<f64> {
+        let poses = configuration.poses.iter().flat_map(|p| [p.position.x, p.position.y, p.angle]);
+        let rates = configuration.velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
+        let mut state: Vec<f64> = poses.chain(rates).collect();
+        state.resize(self.state_size(), 0.0);
+        state
+    }
+
+    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations.
+    ///
+    /// # Errors
+    /// Loads without a value there, or a matrix that is singular.
+    pub(super) fn enter(&mut self, phase: &Phase, time: f64, state: &[f64]) -> Result<(), Failure> {
+        self.place(time, state);
+        self.choose_friction(phase);
+        self.choose_stuck(phase);
+        let size = self.layout.len() + self.stuck.len();
+        self.system = LinearSystem::new(size);
+        self.unknowns = vec![0.0; size];
+        self.work = vec![0.0; size];
+        self.assemble()?;
+        let (rows, columns) =
+            equilibration(&DMatrix::from_fn(size, size, |row, column| self.system.entry(row, column)));
+        self.system.set_scales(rows.as_slice(), columns.as_slice());
+        self.evaluate(time, state)
+    }
+
+    /// Takes over a state; cheap, and enough for whatever depends on positions and velocities alone.
+    pub(super) fn place(&mut self, time: f64, state: &[f64]) {
+        let bodies = self.mechanism.bodies.len();
+        let (poses, rates) = state.split_at(3 * bodies);
+        let configuration = &mut self.configuration;
+        for (pose, values) in configuration.poses.iter_mut().zip(poses.chunks_exact(3)) {
+            pose.position = Vector2::new(values[0], values[1]);
+            pose.angle = values[2];
+        }
+        for (velocity, values) in configuration.velocities.iter_mut().zip(rates.chunks_exact(3)) {
+            velocity.linear = Vector2::new(values[0], values[1]);
+            velocity.angular = values[2];
+        }
+        configuration.time = time;
+        configuration.measure(self.mechanism);
+        for (k, contact) in self.contacts.iter_mut().enumerate() {
+            *contact = configuration.contact(self.mechanism, ContactId(k));
+        }
+    }
+
+    /// Solves the equations in a state.
+    ///
+    /// # Errors
+    /// Loads without a value there, or a matrix that is singular.
+    pub(super) fn evaluate(&mut self, time: f64, state: &[f64]) -> Result<(), Failure> {
+        self.evaluations += 1;
+        self.place(time, state);
+        self.assemble()?;
+        self.condition = self.system.factor();
+        if self.condition > SINGULAR {
+            return Err(Failure::Singular);
+        }
+        self.system.solve(&mut self.unknowns);
+        if self.unknowns.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(Failure::Singular) }
+    }
+
+    /// Accelerations of the bodies at the last evaluation: (x, y, angle) of each.
+    pub(super) fn accelerations(&self) -> &[f64] {
+        &self.unknowns[..3 * self.mechanism.bodies.len()]
+    }
+
+    /// A reaction at the last evaluation; of contacts in a preload gap zero.
+    pub(super) fn reaction(&self, reaction: Reaction) -> f64 {
+        match reaction {
+            Reaction::Normal(contact) => self.normal_force(contact.index()),
+            _ => self.layout.reaction(reaction).map_or(0.0, |index| self.unknowns[index]),
+        }
+    }
+
+    /// The normal force of a contact; for the ends of a block that sticks as if friction acted on the centre line.
+    pub(super) fn normal_force(&self, k: usize) -> f64 {
+        if matches!(self.rubbing[k], Rubbing::Gap { .. }) { 0.0 } else { self.unknowns[self.normal[k]] }
+    }
+
+    /// For a contact in a preload gap the share of the face of positive normal force.
+    pub(super) fn share(&self, k: usize) -> Option<f64> {
+        matches!(self.rubbing[k], Rubbing::Gap { .. }).then(|| self.unknowns[self.normal[k]])
+    }
+
+    /// Friction force of a contact whose joint slides, eq. (2).
+    pub(super) fn friction_force(&self, k: usize) -> Option<f64> {
+        let value = self.unknowns[self.normal[k]];
+        match self.rubbing[k] {
+            Rubbing::Pressed { sigma, mu, preload, sign } => Some((mu * sigma * value + preload) * sign),
+            Rubbing::Gap { preload: [positive, negative], sign } => {
+                Some((value * positive + (1.0 - value) * negative) * sign)
+            }
+            Rubbing::Sticking => None,
+        }
+    }
+
+    /// Effort of a drive.
+    pub(super) fn effort(&self, drive: DriveId) -> f64 {
+        self.unknowns[self.layout.effort(drive)]
+    }
+
+    /// The tangential force on the block of a joint that sticks by a row of its own, counted among those (N).
+    #[cfg(test)]
+    pub(super) fn tangential_force(&self, index: usize) -> f64 {
+        self.unknowns[self.layout.len() + index]
+    }
+
+    /// The determinant of the mode at the last evaluation.
+    pub(super) fn determinant(&self) -> Determinant {
+        self.system.determinant()
+    }
+
+    /// The greatest force among loads and normal forces (N), couples divided by the size of the mechanism.
+    pub(super) fn greatest_force(&self) -> f64 {
+        let size = self.mechanism.size;
+        let loads = self.applied.wrenches.iter();
+        let loads = loads.map(|wrench| wrench.force.amax().max(wrench.couple.abs() / size));
+        let normal = (0..self.contacts.len()).map(|k| self.normal_force(k).abs());
+        loads.chain(normal).fold(0.0, f64::max)
+    }
+}
+
+impl Derivative for Equations<'_> {
+    type Failure = Failure;
+
+    fn derivative(&mut self, time: f64, state: &[f64], rate: &mut [f64]) -> Result<(), Failure> {
+        self.evaluate(time, state)?;
+        let bodies = 3 * self.mechanism.bodies.len();
+        rate[..bodies].copy_from_slice(&state[bodies..2 * bodies]);
+        rate[bodies..2 * bodies].copy_from_slice(self.accelerations());
+        super::energy::powers(self, &mut rate[2 * bodies..]);
+        Ok(())
+    }
+}
+
+/// The sliding joints of a mechanism, in their order.
+pub(super) fn sliding_joints(mechanism: &Mechanism) -> Vec<JointId> {
+    let joints = (0..mechanism.joints.len()).map(JointId);
+    joints.filter(|joint| mechanism.slider(*joint).is_some()).collect()
+}

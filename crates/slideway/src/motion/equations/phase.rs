@@ -1,0 +1,87 @@
+//! What a phase makes of the equations: friction of every contact, rows of the joints that stick.
+
+use super::{Equations, Rubbing, Stuck};
+use crate::kinetics::ConstraintRow;
+use crate::mechanism::CoordinateKind;
+use crate::modes::Side;
+use crate::motion::phase::{ContactPhase, JointPhase, Phase};
+
+/// A sticking joint whose row is, but for this part of it, a combination of the others is held by them already.
+const DEPENDENT: f64 = 1e-7;
+
+impl Equations<'_> {
+    pub(super) fn choose_friction(&mut self, phase: &Phase) {
+        for (index, joint) in self.sliders.iter().enumerate() {
+            let slider = self.mechanism.slider(*joint).expect("sliding joints slide");
+            for contact in &slider.contacts {
+                let k = contact.index();
+                let law = &self.mechanism.contacts[k];
+                self.rubbing[k] = match (phase.joints[index], phase.contacts[k]) {
+                    (JointPhase::Sticking, _) => Rubbing::Sticking,
+                    (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) => {
+                        let face = usize::from(side == Side::Negative);
+                        let (mu, preload) = (law.mu[face], law.preload[face]);
+                        Rubbing::Pressed { sigma: side.sign(), mu, preload, sign }
+                    }
+                    (JointPhase::Sliding(sign), ContactPhase::PreloadGap) => {
+                        Rubbing::Gap { preload: law.preload, sign }
+                    }
+                };
+            }
+        }
+    }
+
+    /// The sticking joints whose rows say something that neither the joints nor the drives nor those before say.
+    pub(super) fn choose_stuck(&mut self, phase: &Phase) {
+        self.stuck.clear();
+        let (mechanism, size) = (self.mechanism, self.mechanism.size);
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        let bodies = 3 * mechanism.bodies.len();
+        // What is left of a row, of unit length, beside the rows so far; the angles are counted in sizes.
+        let mut is_new = |row: &ConstraintRow| {
+            let mut left = vec![0.0; bodies];
+            for &(column, value) in &row.entries {
+                left[column] += if column % 3 == 2 { value / size } else { value };
+            }
+            let length = norm(&left);
+            for _ in 0..2 {
+                for known in &basis {
+                    let along: f64 = known.iter().zip(&left).map(|(a, b)| a * b).sum();
+                    left.iter_mut().zip(known).for_each(|(value, known)| *value -= along * known);
+                }
+            }
+            let rest = norm(&left);
+            let new = rest > DEPENDENT * length;
+            if new {
+                for value in &mut left {
+                    *value /= rest;
+                }
+                basis.push(left);
+            }
+            new
+        };
+        for reaction in self.layout.reactions() {
+            self.row.set_constraint(mechanism, &self.configuration, &self.contacts, *reaction);
+            is_new(&self.row);
+        }
+        for drive in &mechanism.drives {
+            let kind = mechanism.coordinates[drive.coordinate.index()].kind;
+            self.row.set_coordinate(mechanism, &self.configuration, kind);
+            is_new(&self.row);
+        }
+        for (joint, state) in self.sliders.iter().zip(&phase.joints) {
+            if *state == JointPhase::Sticking {
+                self.row.set_coordinate(mechanism, &self.configuration, CoordinateKind::Slide(*joint));
+                if is_new(&self.row) {
+                    let slider = mechanism.slider(*joint).expect("sliding joints slide");
+                    let (displacement, _) = self.configuration.sliding(mechanism, slider);
+                    self.stuck.push(Stuck { joint: *joint, displacement });
+                }
+            }
+        }
+    }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|value| value * value).sum::<f64>().sqrt()
+}

@@ -1,0 +1,36 @@
+//! What a sweep over one quantity varies, for plots.
+
+use super::{Sweep, Values};
+use crate::limits::{ShownIn, Varied};
+
+/// The quantity of a sweep over one, and its ascending values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// Its name.
+    pub name: String,
+    /// The least and the greatest value, in SI units.
+    pub range: [f64; 2],
+    /// The unit in which values are to be shown: that of both ends of the range, as written.
+    pub shown_in: ShownIn,
+}
+
+impl Sweep {
+    /// What a sweep over one quantity varies. None with samples, several quantities, a single value, or values in
+    /// another order than the ascending one: what lies between two points is then not the line between them.
+    pub fn line(&self) -> Option<Line> {
+        let ([axis], None) = (&self.axes[..], self.samples) else { return None };
+        let range = match &axis.values {
+            Values::Listed(values) if values.is_sorted() => [*values.first()?, *values.last()?],
+            Values::Listed(_) => return None,
+            values => values.range()?,
+        };
+        let model = &self.plan.model;
+        let shown_in = Varied::new(model, &axis.quantity.name).ok().map(|varied| {
+            let (range, _) = axis.written.split_once(':').unwrap_or((&axis.written, ""));
+            varied.shown_in(range)
+        });
+        let si = || ShownIn { unit: axis.quantity.unit(model).to_owned(), scale: 1.0 };
+        let shown_in = shown_in.unwrap_or_else(si);
+        (range[0] < range[1]).then(|| Line { name: axis.quantity.name.clone(), range, shown_in })
+    }
+}
