@@ -260,7 +260,7 @@ impl AnimationFormat {
         match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
             Some("html" | "htm") => Ok(Self::Html),
             Some("svg") => Ok(Self::Svg),
-            _ => Err(Failure::PictureFormat { path: path.to_owned(), known: &[".html", ".svg"] }),
+            _ => Err(Failure::FileFormat { path: path.to_owned(), known: &[".html", ".svg"] }),
         }
     }
 }
