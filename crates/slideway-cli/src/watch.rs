@@ -34,7 +34,11 @@ impl Watch {
         if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
             self.shown = elapsed;
             let part = (time - start) / (until - start);
-            self.line.show(&format!("t = {time:.4} s of {until} s ({:.0} %), {} s", 100.0 * part, elapsed.as_secs()));
+            self.line.show(&format!(
+                "t = {time:.4} s of {until} s ({:.0} %), {} s",
+                100.0 * part,
+                elapsed.as_secs()
+            ));
         }
         ControlFlow::Continue(())
     }

@@ -117,8 +117,7 @@ fn the_slider_crank_agrees_with_an_independent_integration() {
 #[test]
 fn a_dead_centre_takes_no_energy_at_any_tolerance() {
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9] {
-        let options =
-            SimulateOptions { tolerance, longest_step: Some(2e-3), ..SimulateOptions::new(0.2) };
+        let options = SimulateOptions { tolerance, longest_step: Some(2e-3), ..SimulateOptions::new(0.2) };
         let history = history("slider-crank", &[("gas", "0 N"), ("T", "0 N m")], &options);
         assert_eq!(history.end, End::Finished);
         let error = history.energy_error / history.energy_scale;

@@ -71,7 +71,8 @@ pub(super) fn finish(
         let content = text_array(&texts, single);
         let mut crc = Hasher::new();
         crc.update(&content);
-        let member = Member { name: name.to_owned(), crc: crc.finalize(), size: content.len() as u64, offset };
+        let member =
+            Member { name: name.to_owned(), crc: crc.finalize(), size: content.len() as u64, offset };
         file.write_all(&local_header(&member))?;
         file.write_all(&content)?;
         offset += local_header_size(name) as u64 + member.size;

@@ -188,7 +188,12 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         stop: history.stop(),
         initial: state(history, &history.initial),
         last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
-        events: history.events.iter().filter(|event| is_told(event)).map(|event| event_report(history, event)).collect(),
+        events: history
+            .events
+            .iter()
+            .filter(|event| is_told(event))
+            .map(|event| event_report(history, event))
+            .collect(),
         phases: phases(history),
         end: end_report(history, options),
         energy: energy(history),

@@ -26,14 +26,15 @@ pub(super) fn attainability(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Attainability {
-    examine(instant, configuration, phase, |guides, sides| guides.of(sides))
+    let ask = |guides: &ElasticGuides<'_>, sides: &[Side]| guides.of(sides);
+    examine(instant, configuration, phase, ask)
         .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
 }
 
 /// The verdict of [`attainability`] alone.
 pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
-    examine(instant, configuration, phase, |guides, sides| guides.verdict_on(sides))
-        .unwrap_or(Verdict::NotComputed)
+    let ask = |guides: &ElasticGuides<'_>, sides: &[Side]| guides.verdict_on(sides);
+    examine(instant, configuration, phase, ask).unwrap_or(Verdict::NotComputed)
 }
 
 /// What is asked of a phase with elastic guides, or why there is no answer.
