@@ -47,7 +47,7 @@ pub use event::{Cause, Event};
 pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
 pub use options::{Crossing, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
-pub use rules::{Decisions, Instant, Jam, Successor, Thorough};
+pub use rules::{Decisions, Hold, Instant, Jam, Successor, Thorough};
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
