@@ -13,15 +13,28 @@ fn text(name: &str) -> &'static str {
     gallery::find(name).expect("in the gallery").text
 }
 
-/// 10 s of the paper's example with spring, damper and a sinusoidal force: more than 200 reversals, at each of which both sliders
-/// stop and the lower one changes side.
+/// The paper's example with spring and damper, with a force of 30 N that swings.
+fn example(mu_1: &str, angular_frequency: &str) -> Model {
+    let force = format!("[\"30 N * sin({angular_frequency} * t)\", 0]");
+    let forced = text("klepp-2002").replace("[\"P\", 0]", &force);
+    let settings = Settings::default().parameter("F_20", "0").parameter("mu_1", mu_1);
+    let settings = settings.parameter("k", "20 N/m").parameter("c", "0.5 N s/m");
+    Model::parse(&forced).expect("a sound model").with(&settings).expect("sound settings")
+}
+
+/// 10 s at 11 Hz, with more than 200 stops and changes of mode.
 #[divan::bench]
 fn example_with_spring_and_damper(bencher: Bencher<'_, '_>) {
-    let settings = Settings::default().parameter("P", "200 N").parameter("f", "12 Hz");
-    let model = Model::parse(text("klepp-2002-spring")).expect("a sound model");
-    let model = model.with(&settings).expect("sound settings");
-    let events = simulate(&model, &SimulateOptions::new(10.0)).expect("a motion").events.len();
-    assert!(events > 200, "{events} events");
+    let model = example("0.1", "69.1 rad/s");
+    let options = SimulateOptions::new(10.0);
+    assert!(simulate(&model, &options).expect("it begins").events.len() > 200);
+    bencher.bench_local(|| simulate(&model, &options));
+}
+
+/// 10 s at 5 Hz, with phases in which it sticks.
+#[divan::bench]
+fn example_that_sticks(bencher: Bencher<'_, '_>) {
+    let model = example("0.3", "31.4 rad/s");
     bencher.bench_local(|| simulate(&model, &SimulateOptions::new(10.0)));
 }
 

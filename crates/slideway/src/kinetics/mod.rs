@@ -135,6 +135,27 @@ impl KineticEquations {
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
     }
 
+    /// Takes over the loads at another time, where neither positions nor velocities have changed, and the drives keep
+    /// what they prescribe.
+    ///
+    /// # Errors
+    /// Loads without a value or direction.
+    pub(crate) fn change_loads(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+    ) -> Result<(), Faults> {
+        let mut applied = Applied::new();
+        applied.fill(mechanism, configuration)?;
+        self.applied = applied.wrenches;
+        let builder = Builder { mechanism, configuration, layout: &self.layout };
+        self.load.rows_mut(0, 3 * mechanism.bodies.len()).fill(0.0);
+        for wrench in &self.applied {
+            builder.add(wrench, |row, value| self.load[row] += value);
+        }
+        Ok(())
+    }
+
     /// The unknowns without friction.
     pub fn frictionless(&self) -> DVector<f64> {
         self.factorization.solve(&self.load)

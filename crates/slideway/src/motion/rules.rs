@@ -64,6 +64,35 @@ pub trait Decisions {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults>;
+
+    /// What computes [`sticking_margin`](Self::sticking_margin) faster for a mechanism without drives that stands still;
+    /// nothing if nothing does.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces at the instant from being computed.
+    fn hold<'m>(
+        &mut self,
+        _mechanism: &'m Mechanism,
+        _configuration: &Configuration,
+        _phase: &Phase,
+    ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
+        Ok(None)
+    }
+}
+
+/// A mechanism that stands still while its loads change.
+pub trait Hold {
+    /// What [`Decisions::sticking_margin`] is at the time of a configuration.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces from being computed.
+    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults>;
+}
+
+impl Hold for decision::Holding<'_> {
+    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
+        self.margin(configuration)
+    }
 }
 
 /// The decisions of [`decision`]: every state of joints and contacts is tried.
@@ -103,5 +132,14 @@ impl Decisions for Thorough {
         phase: &Phase,
     ) -> Result<f64, Faults> {
         decision::sticking_margin(mechanism, configuration, phase)
+    }
+
+    fn hold<'m>(
+        &mut self,
+        mechanism: &'m Mechanism,
+        configuration: &Configuration,
+        phase: &Phase,
+    ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
+        Ok(Some(Box::new(decision::Holding::new(mechanism, configuration, phase)?)))
     }
 }

@@ -6,7 +6,7 @@ use super::history::{End, History};
 use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
 use super::root::falling_root;
-use super::rules::Decisions;
+use super::rules::{Decisions, Hold};
 use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
@@ -25,6 +25,8 @@ const LITTLE_VELOCITY: f64 = 1e-2;
 const SETTLED: f64 = 100.0;
 /// ... which counts as at least this.
 const LEAST_TOLERANCE: f64 = 1e-10;
+/// Bodies that are slower than this part of the greatest velocity stand still.
+const REST: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
 
@@ -57,6 +59,8 @@ pub(super) struct Smooth<'o, 'm> {
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
+    /// What computes the margin of sticking while the whole mechanism stands still.
+    hold: Option<Box<dyn Hold + 'm>>,
 }
 
 impl<'o, 'm> Smooth<'o, 'm> {
@@ -83,6 +87,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             options,
             values: Default::default(),
             inside: vec![0.0; size],
+            hold: None,
             state,
             equations,
         };
@@ -109,6 +114,12 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.watch.begin(phase, &self.equations);
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
+        self.hold = None;
+        if self.equations.stands_still(REST * self.greatest_velocity()) {
+            let configuration = &self.equations.configuration;
+            let hold = decisions.hold(self.equations.mechanism, configuration, phase);
+            self.hold = hold.map_err(Failure::Loads)?;
+        }
         let mut values = std::mem::take(&mut self.values);
         self.watch_all(phase, decisions, &mut values[0])?;
         self.values = values;
@@ -301,10 +312,19 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     /// The value of one watched function at the last evaluation.
-    fn value(&self, watched: Watched, phase: &Phase, decisions: &mut dyn Decisions) -> Result<f64, Failure> {
+    fn value(
+        &mut self,
+        watched: Watched,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<f64, Failure> {
         let equations = &self.equations;
         if watched == Watched::Sticking {
-            let margin = decisions.sticking_margin(equations.mechanism, &equations.configuration, phase);
+            let configuration = &equations.configuration;
+            let margin = match &mut self.hold {
+                Some(hold) => hold.margin(configuration),
+                None => decisions.sticking_margin(equations.mechanism, configuration, phase),
+            };
             return margin.map_err(Failure::Loads);
         }
         self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))

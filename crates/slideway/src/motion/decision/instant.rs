@@ -100,6 +100,18 @@ impl<'m> Instant<'m> {
         Ok(Self { mechanism, equations, influence, joints, units, outputs, has_jump })
     }
 
+    /// Takes over the loads at another time, where nothing has moved.
+    ///
+    /// # Errors
+    /// Loads without a value.
+    pub(super) fn change_loads(&mut self, configuration: &Configuration) -> Result<(), Faults> {
+        self.equations.change_loads(self.mechanism, configuration)?;
+        self.influence.frictionless = self.equations.without_noise(&self.equations.frictionless());
+        self.units = units(self.mechanism, &self.influence, &self.equations);
+        self.outputs = outputs(self.mechanism, &self.influence, &self.joints, self.units);
+        Ok(())
+    }
+
     /// The question for accelerations, with joints whose velocity is zero.
     pub(super) fn question<'q>(&'q self, stopped: &'q [bool]) -> Question<'q> {
         Question {

@@ -31,6 +31,7 @@
 mod assessment;
 mod elastic;
 mod growth;
+mod holding;
 mod instant;
 mod jam;
 mod program;
@@ -40,6 +41,7 @@ mod sticking;
 mod successors;
 mod system;
 
+pub(super) use holding::Holding;
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};

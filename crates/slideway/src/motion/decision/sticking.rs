@@ -10,9 +10,9 @@ use crate::mechanism::Mechanism;
 use crate::motion::Phase;
 
 /// The margin where no distribution of forces is admissible whatever the friction, or none was found.
-const NONE: f64 = -1.0;
+pub(super) const NONE: f64 = -1.0;
 /// A margin from which on other sides of the contacts that stick are not tried.
-const ENOUGH: f64 = 0.01;
+pub(super) const ENOUGH: f64 = 0.01;
 
 /// A phase with joints that stick.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,6 +6,7 @@ use super::growth::standing;
 use super::instant::Instant;
 use super::sieve::Sieve;
 use super::state::{PhaseState, is_same_phase, state};
+use super::sticking::ENOUGH;
 use super::system::{Question, Subject};
 use super::{BOUNDARY, MOST_STATES, Standing};
 use crate::configuration::Configuration;
@@ -18,8 +19,6 @@ use crate::report::{Attainability, Verdict};
 
 /// Accelerations and forces that differ by less than this, in units, are the same.
 const SAME: f64 = 1e-6;
-/// A margin of sticking from which on it does not matter at which sides the contacts are pressed.
-const ENOUGH: f64 = 0.01;
 const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.

@@ -3,9 +3,11 @@
 
 mod agreement;
 mod closed_forms;
+mod continuations;
 mod limits;
 mod mechanisms;
 mod simple;
+mod stops;
 
 use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
 use crate::configuration::Configuration;
