@@ -24,7 +24,7 @@ enum Source {
     /// The corners of the plane: (0, 0), (1, 0), (0, 1), (1, 1).
     Bilinear(Box<[Parts; 4]>),
     /// The model, at every point.
-    Anew(Model),
+    Anew(Box<Model>),
 }
 
 impl<'a> Evaluator<'a> {
@@ -73,7 +73,7 @@ impl Source {
                 return Ok(Self::Bilinear(corners));
             }
         }
-        Ok(Self::Anew(model))
+        Ok(Self::Anew(Box::new(model)))
     }
 
     fn parts(&self, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, Faults> {

@@ -153,7 +153,7 @@ pub fn map_with(
     let class = |[i, j]: [usize; 2]| evaluator.class(axes[0].value(i, width), axes[1].value(j, height));
     let grid = Grid { width, height, probe: options.probe.max(1) };
     let Some(raster) = Raster::<ClassKey>::new(grid, &class, progress) else { return Ok(None) };
-    report::report(model, options, &axes, &evaluator, raster).map(Some)
+    Ok(Some(report::report(model, options, &axes, &evaluator, &raster)))
 }
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {

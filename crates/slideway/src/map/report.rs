@@ -4,7 +4,6 @@ use super::class::{ClassKey, ClassMeaning};
 use super::evaluate::Evaluator;
 use super::refine::Raster;
 use super::{Axis, ColourBy, MapOptions};
-use crate::fault::Faults;
 use crate::limits::Naming;
 use crate::model::Model;
 use crate::report::{indented_json, precise, spaced};
@@ -102,8 +101,8 @@ pub(super) fn report(
     options: &MapOptions,
     axes: &[Axis; 2],
     evaluator: &Evaluator<'_>,
-    raster: Raster<ClassKey>,
-) -> Result<MapReport, Faults> {
+    raster: &Raster<ClassKey>,
+) -> MapReport {
     let names = Naming::new(model).ok();
     let mut order: Vec<usize> = (0..raster.classes.len()).collect();
     let meaning = |index: usize| &raster.classes[index].0;
@@ -134,7 +133,7 @@ pub(super) fn report(
         unit: axis.shown_in.unit.clone(),
         scale: axis.shown_in.scale,
     };
-    Ok(MapReport {
+    MapReport {
         schema: SCHEMA,
         title: model.title.clone(),
         colour_by: match options.colour_by {
@@ -147,9 +146,9 @@ pub(super) fn report(
         y: axis(&axes[1], raster.grid.height),
         classes,
         points: raster.solved,
-        guarantee: guarantee(&raster, evaluator.is_bilinear()),
+        guarantee: guarantee(raster, evaluator.is_bilinear()),
         rows: pixels.chunks(raster.grid.width).map(runs).collect(),
-    })
+    }
 }
 
 fn guarantee(raster: &Raster<ClassKey>, is_bilinear: bool) -> String {
