@@ -24,6 +24,11 @@ impl FrameAxis {
     /// Ticks of an axis of this length (px), and their texts.
     fn ticks(&self, length: f64, between: f64) -> (Vec<f64>, Vec<String>) {
         // At least three, however short the axis is.
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "lengths are not negative"
+        )]
         let wanted = ((length / between) as usize).max(3);
         let step =
             if self.unit == "deg" { angle_step(self.range, wanted) } else { tick_step(self.range, wanted) };

@@ -15,6 +15,7 @@ fn spaced(part: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let segments = part.windows(2).flat_map(|pair| {
         let [from, to] = [pair[0], pair[1]];
         let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / STEP).ceil().clamp(1.0, 1000.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 1000")]
         let count = steps as usize;
         (0..count).map(move |step| {
             let share = (step as f64 + 0.5) / steps;

@@ -90,7 +90,7 @@ impl<'f> PanelLayout<'f> {
             self.panel.curves.iter().map(|curve| self.parts(curve)).collect();
         for (index, curve) in self.panel.curves.iter().enumerate() {
             let border = BORDER * self.number_above(figure, index, &parts) as f64;
-            self.curve(figure, curve, (&parts[index], CURVE + border), theme, svg);
+            Self::curve(figure, curve, (&parts[index], CURVE + border), theme, svg);
         }
         // Markers and ends lie above all curves.
         let several = figure.quantities.len() > 1;
@@ -203,7 +203,6 @@ impl<'f> PanelLayout<'f> {
 
     /// One curve, by its visible parts and its width.
     fn curve(
-        &self,
         figure: &Figure,
         curve: &Curve,
         (parts, width): (&[Vec<[f64; 2]>], f64),
