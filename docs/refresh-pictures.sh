@@ -38,6 +38,7 @@ plot() {
 plot klepp-figure-4.svg models/klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0
 plot klepp-figures-4-and-5.svg models/klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions
 plot klepp-preload.svg models/klepp-2002.toml --vary mu_1=0..0.8 --both-directions
+"$slideway" sweep models/klepp-2002.toml --vary mu_1=0..0.8:801 --plot "$pictures/sweep-klepp.svg" --force >/dev/null 2>&1
 plot drawer-push.svg models/drawer.toml --vary mu=0..1 --quantity effort
 plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --quantity acceleration
 

@@ -9,7 +9,7 @@ use slideway::sweep::{Breakpoint, Line, PointStatus, RowKind, RowVerdict, Rows, 
 const POINTS: u64 = 3000;
 /// The most branches that are drawn: nobody could tell more apart.
 const MOST_BRANCHES: u32 = 24;
-/// Intervals narrower than this share of the range are not hatched.
+/// Intervals narrower than this share of the range are not hatched, and values as close to each other share a label.
 const NARROW: f64 = 1e-6;
 /// The most hatched intervals; more of them are the noise of a sweep along a boundary.
 const MOST_ZONES: usize = 1000;
@@ -321,7 +321,7 @@ impl SweepPlot {
             },
             y: Axis { name, unit: unit.to_owned(), range: None },
             zones: self.runs.iter().filter_map(|run| self.zone(run)).collect(),
-            marked: self.marks.iter().map(|mark| self.marked(mark)).collect(),
+            marked: self.marked(),
             bands: Vec::new(),
             curves: drawn.flat_map(|(colour, branch)| self.curves(colour, branch, unit, legend)).collect(),
         }
@@ -388,19 +388,32 @@ impl SweepPlot {
         })
     }
 
-    fn marked(&self, mark: &Mark) -> MarkedValue {
-        let at = mark.at / self.line.shown_in.scale;
+    /// The exact ends of modes; those that cannot be told apart in a plot share a label.
+    fn marked(&self) -> Vec<MarkedValue> {
+        let near = NARROW * (self.line.range[1] - self.line.range[0]);
+        let together = self.marks.chunk_by(|one, other| other.at - one.at <= near);
+        together.map(|marks| self.label(marks, near)).collect()
+    }
+
+    fn label(&self, marks: &[Mark], near: f64) -> MarkedValue {
+        let mut words: Vec<&str> = marks.iter().map(|mark| in_words(mark.breakpoint)).collect();
+        words.dedup();
+        let first = marks.first().map_or(0.0, |mark| mark.at);
+        let at = if first.abs() <= near { 0.0 } else { first / self.line.shown_in.scale };
         let number = precise(at).replace('-', "\u{2212}");
-        let what = match mark.breakpoint {
-            Breakpoint::No => "",
-            Breakpoint::Locking => ": locking",
-            Breakpoint::SideChange => ": side change",
-            Breakpoint::GapCloses => ": gap closes",
-            Breakpoint::Tipping => ": tipping",
-            Breakpoint::NoPosition => ": cannot be solved",
-        };
-        let asymptote = mark.breakpoint == Breakpoint::Locking;
-        MarkedValue { at, label: format!("{number}{what}"), asymptote }
+        let asymptote = marks.iter().any(|mark| mark.breakpoint == Breakpoint::Locking);
+        MarkedValue { at, label: format!("{number}: {}", words.join("; ")), asymptote }
+    }
+}
+
+fn in_words(breakpoint: Breakpoint) -> &'static str {
+    match breakpoint {
+        Breakpoint::No => "",
+        Breakpoint::Locking => "locking",
+        Breakpoint::SideChange => "side change",
+        Breakpoint::GapCloses => "gap closes",
+        Breakpoint::Tipping => "tipping",
+        Breakpoint::NoPosition => "cannot be solved",
     }
 }
 
