@@ -56,11 +56,13 @@ fn samples(curve: &Curve) -> impl Iterator<Item = &slideway::limits::CurvePoint>
     [5, 3, 2].into_iter().map(move |part| &curve.points[count / part])
 }
 
+/// A quantity of a solution, in the order of its curves.
+type Values = fn(&Solution) -> Vec<f64>;
+
 #[test]
 fn points_are_the_solutions_of_their_states() {
     let klepp = model("klepp-2002", &[]);
     let options = LimitsOptions { both_directions: true, ..LimitsOptions::of("mu_1=0..0.8") };
-    type Values = fn(&Solution) -> Vec<f64>;
     let quantities: [(Quantity, Values); 3] = [
         (Quantity::NormalForce, |solution| {
             solution.contacts.iter().map(|contact| contact.normal_force).collect()
