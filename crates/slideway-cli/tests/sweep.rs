@@ -273,7 +273,7 @@ fn bad_arguments_are_told() {
         (&["--vary", "mu=normal(0.3, 0.1)"], "no samples"),
         (&["--vary", "mu=0.5..0.5:11"], "empty"),
         (&["--vary", "mu=0..1:3", "--vary", "a=0,0.1", "--plot", "plot.svg"], "one varied quantity"),
-        (&["--vary", "mu=0..1:3", "--plot", "plot.gif"], "names no format of pictures"),
+        (&["--vary", "mu=0..1:3", "--plot", "plot.gif"], "names no known format"),
     ];
     for (arguments, part) in cases {
         let run = slideway(&[&["sweep", DRAWER], arguments].concat());
