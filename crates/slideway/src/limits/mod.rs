@@ -28,6 +28,7 @@ pub(crate) use report::guarantee;
 pub use report::{
     CountLimits, Direction, EndReaction, LimitsReport, ModeLimits, SCHEMA, VariedQuantity, to_json,
 };
+pub(crate) use scan::bisect;
 pub use text::to_text;
 pub(crate) use varied::Varied;
 pub use varied::{FRICTION, ShownIn};

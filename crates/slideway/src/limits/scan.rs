@@ -12,7 +12,7 @@ use crate::solve::Parts;
 /// Steps of the evenly spaced points.
 pub(super) const STEPS: usize = 500;
 /// Halvings between two points: down to neighbouring numbers.
-const HALVINGS: usize = 60;
+const HALVINGS: usize = 100;
 
 /// The mode problem at a place, alone.
 struct Place {
@@ -148,7 +148,7 @@ impl Scanner<'_> {
 }
 
 /// Neighbouring places, of which only the first is inside.
-fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) -> bool) -> (f64, f64) {
+pub(crate) fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) -> bool) -> (f64, f64) {
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(inside, outside);
         if middle == inside || middle == outside {

@@ -2,9 +2,8 @@
 
 use super::margin::{Margin, Question};
 use crate::fault::Faults;
+use crate::limits::bisect;
 
-/// Halvings between two values: down to neighbouring numbers.
-const HALVINGS: usize = 100;
 /// Steps towards the extremum of a dip or hump.
 const GOLDEN_STEPS: usize = 40;
 /// (sqrt(5) - 1) / 2
@@ -186,16 +185,4 @@ impl Search<'_> {
         }
         gaps
     }
-}
-
-/// Neighbouring values, of which only the first is inside.
-fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) -> bool) -> (f64, f64) {
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(inside, outside);
-        if middle == inside || middle == outside {
-            break;
-        }
-        if is_inside(middle) { inside = middle } else { outside = middle }
-    }
-    (inside, outside)
 }
