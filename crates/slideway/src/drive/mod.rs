@@ -35,12 +35,12 @@ mod text;
 
 pub use report::{
     BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution,
-    DrivenQuantity, Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
+    Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
 };
 pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, backwards, given_range};
+use crate::limits::{Varied, VariedQuantity, backwards, given_range};
 use crate::model::{Effort, Model};
 use crate::size::usual_range;
 
@@ -110,13 +110,7 @@ fn course(model: &Model, reversed: &Model, vary: &str, rows: usize) -> Result<Co
     let (guarantee, forwards) = course::direction(&varied, range, steps, "model")?;
     let (_, backwards) = course::direction(&opposite, range, steps, "reversed")?;
     Ok(Course {
-        vary: DrivenQuantity {
-            name: varied.name.clone(),
-            unit: varied.unit(),
-            from: range[0],
-            to: range[1],
-            value: varied.present()?,
-        },
+        vary: VariedQuantity::new(&varied, range, varied.present()?),
         directions: vec![forwards, backwards],
         guarantee,
     })

@@ -1,5 +1,6 @@
 //! What is told of driven motion: plain data, which are the JSON output.
 
+use crate::limits::VariedQuantity;
 use crate::report::{CoordinateState, JointMode, Status, Verdict, indented_json};
 use serde::Serialize;
 
@@ -126,26 +127,11 @@ pub struct BlowUp {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Course {
     /// What is varied.
-    pub vary: DrivenQuantity,
+    pub vary: VariedQuantity,
     /// Motion as in the model, and with all rates reversed.
     pub directions: Vec<CourseDirection>,
     /// What can be missed, in words.
     pub guarantee: String,
-}
-
-/// What is varied, in SI units.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DrivenQuantity {
-    /// Its name.
-    pub name: String,
-    /// Its unit; empty where there is none, or none is known.
-    pub unit: String,
-    /// Where the range begins.
-    pub from: f64,
-    /// Where it ends.
-    pub to: f64,
-    /// Its value in the model.
-    pub value: f64,
 }
 
 /// The efforts over what is varied in one direction of motion.

@@ -48,14 +48,20 @@ pub struct LimitsReport {
 pub struct VariedQuantity {
     /// Its name.
     pub name: String,
+    /// Its unit; empty where there is none, or none is known.
+    pub unit: String,
     /// Where the range begins.
     pub from: f64,
     /// Where it ends.
     pub to: f64,
     /// Its value in the model.
     pub value: f64,
-    /// Its SI unit; empty for pure numbers and angles.
-    pub unit: String,
+}
+
+impl VariedQuantity {
+    pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
+        Self { name: varied.name.clone(), unit: varied.unit(), from, to, value }
+    }
 }
 
 /// The modes of the opposite direction of motion.
@@ -250,13 +256,7 @@ pub(super) fn report(
     LimitsReport {
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
-        vary: VariedQuantity {
-            name: varied.name.clone(),
-            from: range[0],
-            to: range[1],
-            value,
-            unit: varied.unit(),
-        },
+        vary: VariedQuantity::new(varied, range, value),
         method: if found.is_linear { "closed form" } else { "bracketing" },
         guarantee,
         modes: forwards.modes,

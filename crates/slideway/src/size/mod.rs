@@ -24,8 +24,7 @@ mod text;
 mod words;
 
 pub use report::{
-    MarginKind, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, SizedQuantity,
-    to_json,
+    MarginKind, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, to_json,
 };
 pub use text::to_text;
 

@@ -4,6 +4,7 @@ use super::margin::{Margin, Question};
 use super::search::{Cause, End, Found, Place};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
+use crate::limits::VariedQuantity;
 use crate::model::Model;
 use crate::report::indented_json;
 use serde::Serialize;
@@ -34,7 +35,7 @@ pub struct SizeReport {
     /// The title of the model.
     pub title: Option<String>,
     /// What is varied.
-    pub vary: SizedQuantity,
+    pub vary: VariedQuantity,
     /// Which margin is meant.
     pub against: MarginKind,
     /// The load that it concerns; absent against locking.
@@ -56,21 +57,6 @@ pub struct SizeReport {
     pub guarantee: String,
     /// What it comes to, in words.
     pub conclusion: Vec<String>,
-}
-
-/// What is varied, in SI units.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SizedQuantity {
-    /// Its name.
-    pub name: String,
-    /// Its unit; empty where there is none, or none is known.
-    pub unit: String,
-    /// Where the range begins.
-    pub from: f64,
-    /// Where it ends.
-    pub to: f64,
-    /// Its value in the model.
-    pub value: f64,
 }
 
 /// An interval in which the wanted margin is met.
@@ -147,13 +133,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
         Against::Hold { load } => (MarginKind::Hold, Some(load.clone())),
     };
-    let vary = SizedQuantity {
-        name: question.varied.name.clone(),
-        unit: question.varied.unit(),
-        from: range[0],
-        to: range[1],
-        value: *value,
-    };
+    let vary = VariedQuantity::new(question.varied, *range, *value);
     let mut report = SizeReport {
         schema: SCHEMA,
         title: model.title.clone(),
