@@ -12,7 +12,7 @@ pub(crate) const MOST_CONTACTS: usize = 8;
 /// A pivot below this fraction of its column's largest entry leaves the patterns below in doubt.
 const SUSPECT_PIVOT: f64 = 1e-7;
 /// Unknowns within this fraction of their terms' size are in doubt.
-const SLACK: f64 = 1e-9;
+pub(crate) const SLACK: f64 = 1e-9;
 /// The right-hand side, and three columns for each contact.
 const WIDTH: usize = 1 + 3 * MOST_CONTACTS;
 

@@ -35,7 +35,9 @@ mod words;
 pub(crate) use careful::careful_report;
 pub(crate) use friction::friction;
 pub use mode_problem::mode_problem;
-pub(crate) use mode_problem::{check_size, preload_columns, sides, sliding_signs, velocity_signs};
+pub(crate) use mode_problem::{
+    check_size, influence_coefficients, preload_columns, sides, sliding_signs, velocity_signs,
+};
 pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};
 pub use words::mode_in_words;

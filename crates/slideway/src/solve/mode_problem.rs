@@ -59,21 +59,30 @@ pub fn mode_problem(
     influence: &Influence,
     velocity_signs: &DVector<f64>,
 ) -> Result<ModeProblem, Faults> {
+    let coefficients = influence_coefficients(mechanism, influence, velocity_signs);
+    ModeProblem::from_influence(&coefficients).map_err(|_| overflow())
+}
+
+/// What the mode problem is made of.
+pub(crate) fn influence_coefficients(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    velocity_signs: &DVector<f64>,
+) -> InfluenceCoefficients {
     let eta = sides(mechanism, influence);
     let contacts = &mechanism.contacts;
     let by_side = |value: &dyn Fn(usize, usize) -> f64| BySide {
         positive: DVector::from_fn(contacts.len(), |k, _| value(k, 0)),
         negative: DVector::from_fn(contacts.len(), |k, _| value(k, 1)),
     };
-    let coefficients = InfluenceCoefficients {
+    InfluenceCoefficients {
         eta_preload: preload_columns(mechanism, &eta),
         mu: by_side(&|k, side| contacts[k].mu[side]),
         preload: by_side(&|k, side| contacts[k].preload[side]),
         velocity_signs: velocity_signs.clone(),
         frictionless: influence.normal_forces(),
         eta,
-    };
-    ModeProblem::from_influence(&coefficients).map_err(|_| overflow())
+    }
 }
 
 /// Both versions of eta, without the rounding that would stand where friction has no influence; equal where the theory says so, which rounding would hide: for guided sliders, whose

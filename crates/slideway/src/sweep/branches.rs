@@ -6,6 +6,7 @@
 
 use super::rows::{RowKind, Rows};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// States of neighbours differ by less than this part of their forces, unless their patterns are the same.
 const NEAR: f64 = 0.5;
@@ -52,9 +53,38 @@ impl Branches {
         self.last
     }
 
+    /// Numbers the states of all rows of points that follow one another along a single axis. Only where something else than
+    /// the numbers changes from one point to the next is it looked at what continues what.
+    pub(super) fn number_line(&mut self, rows: &mut Rows) {
+        let mut before: Option<Range<usize>> = None;
+        let mut first = 0;
+        while first < rows.len() {
+            let range = first..first + rows.states_from(first);
+            match &before {
+                Some(before) if is_same(rows, before, &range) => {
+                    for (row, known) in range.clone().zip(before.clone()) {
+                        rows.heads[row].branch = rows.heads[known].branch;
+                    }
+                }
+                _ => {
+                    if let Some(before) = before {
+                        remember(&mut self.neighbours[0], rows, before);
+                    }
+                    let place = rows.heads[first].point;
+                    self.number(rows, range.clone(), &[place]);
+                }
+            }
+            first = range.end;
+            before = Some(range);
+        }
+        if let Some(before) = before {
+            remember(&mut self.neighbours[0], rows, before);
+        }
+    }
+
     /// Numbers the states of a point: `rows` are its rows, `varied` numbers stand before the normal forces. `place` is that of
     /// the point on each axis.
-    pub(super) fn number(&mut self, rows: &mut Rows, range: std::ops::Range<usize>, place: &[u64]) {
+    pub(super) fn number(&mut self, rows: &mut Rows, range: Range<usize>, place: &[u64]) {
         // The neighbour on the last axis on which the point is not the first.
         let moved = place.iter().rposition(|&index| index > 0);
         let mut taken: Vec<bool> = Vec::new();
@@ -74,13 +104,7 @@ impl Branches {
         }
     }
 
-    fn continue_states(
-        &self,
-        rows: &mut Rows,
-        range: std::ops::Range<usize>,
-        axis: usize,
-        taken: &mut [bool],
-    ) {
+    fn continue_states(&self, rows: &mut Rows, range: Range<usize>, axis: usize, taken: &mut [bool]) {
         let known = &self.neighbours[axis];
         // Nearly always nothing has changed but the numbers.
         let same = known.len() == range.len()
@@ -120,6 +144,18 @@ impl Branches {
     }
 }
 
+/// Whether the rows of a point have the kinds, patterns and signs of another one's, all of them states.
+fn is_same(rows: &Rows, known: &Range<usize>, range: &Range<usize>) -> bool {
+    known.len() == range.len()
+        && known.clone().zip(range.clone()).all(|(known, row)| {
+            let (one, other) = (&rows.heads[known], &rows.heads[row]);
+            is_state(other.kind)
+                && one.kind == other.kind
+                && one.negative_determinant == other.negative_determinant
+                && rows.pattern(known) == rows.pattern(row)
+        })
+}
+
 fn is_state(kind: RowKind) -> bool {
     matches!(kind, RowKind::Solution | RowKind::Boundary | RowKind::PreloadGap)
 }
@@ -135,7 +171,7 @@ fn next(rows: &Rows, row: usize) -> Next<'_> {
     }
 }
 
-fn remember(list: &mut Vec<Tracked>, rows: &Rows, range: std::ops::Range<usize>) {
+fn remember(list: &mut Vec<Tracked>, rows: &Rows, range: Range<usize>) {
     let states = range.filter(|&row| is_state(rows.heads[row].kind));
     let mut count = 0;
     for row in states {

@@ -32,7 +32,7 @@ pub(super) struct FrictionFormulas {
     /// Coefficients and preloads that follow from them.
     contacts: Vec<ContactFormulas>,
     /// All parameters in the model's own state.
-    parameters: Vec<f64>,
+    pub(super) parameters: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -41,6 +41,7 @@ struct ContactFormulas {
     name: Arc<str>,
     mu: [FormulaId; 2],
     mu_static: [FormulaId; 2],
+    /// Where the preload varies.
     preload: [Option<FormulaId>; 2],
 }
 
@@ -73,7 +74,7 @@ impl FrictionFormulas {
                     name: contact.name.clone(),
                     mu: contact.mu,
                     mu_static: contact.mu_static,
-                    preload: contact.preload,
+                    preload: contact.preload.map(|id| id.filter(|id| uses(*id))),
                 });
             }
             friction.extend(ids);
@@ -90,7 +91,16 @@ impl FrictionFormulas {
         Ok(Some(Self { given, following, contacts, parameters }))
     }
 
-    /// Puts the friction of a point into that of all contacts; `parameters` is memory.
+    /// The contacts whose coefficient varies; none if some coefficient differs between the faces, or a preload varies.
+    pub(super) fn contacts_with_one_coefficient(&self) -> Option<Vec<usize>> {
+        let one = |formulas: &ContactFormulas| {
+            let is_one = formulas.mu[0] == formulas.mu[1] && formulas.preload == [None; 2];
+            is_one.then_some(formulas.contact)
+        };
+        self.contacts.iter().map(one).collect()
+    }
+
+    /// Puts the friction of a point into that of all contacts; `parameters` are those of another point.
     ///
     /// # Errors
     /// Values that are not allowed.
@@ -98,11 +108,9 @@ impl FrictionFormulas {
         &self,
         model: &Model,
         values: &[f64],
-        parameters: &mut Vec<f64>,
+        parameters: &mut [f64],
         friction: &mut [Friction],
     ) -> Result<(), Faults> {
-        parameters.clear();
-        parameters.extend_from_slice(&self.parameters);
         for (index, place) in &self.given {
             parameters[*index] = values[*place];
         }
@@ -115,24 +123,30 @@ impl FrictionFormulas {
             let contact = &mut friction[formulas.contact];
             let value = |id: FormulaId| model.formula(id).constant(parameters);
             for side in 0..2 {
-                let mu = value(formulas.mu[side])?;
-                contact.mu[side] = mu;
+                let is_same = side == 1 && formulas.mu[1] == formulas.mu[0];
+                contact.mu[side] = if is_same { contact.mu[0] } else { value(formulas.mu[side])? };
                 if let Some(preload) = formulas.preload[side] {
                     contact.preload[side] = value(preload)?;
                 }
-                if formulas.mu_static[side] == formulas.mu[side] {
-                    continue;
-                }
-                let mu_static = value(formulas.mu_static[side])?;
-                if mu_static < mu {
-                    let kind =
-                        FaultKind::StaticBelowKinetic { contact: formulas.name.to_string(), mu, mu_static };
-                    let place = model.formula(formulas.mu_static[side]).origin.place();
-                    return Err(Fault::new(kind, place).into());
+                if formulas.mu_static[side] != formulas.mu[side] {
+                    formulas.check_static(side, model, parameters, contact.mu[side])?;
                 }
             }
         }
         Ok(())
+    }
+}
+
+impl ContactFormulas {
+    /// Refuses a static coefficient below the kinetic one.
+    fn check_static(&self, side: usize, model: &Model, parameters: &[f64], mu: f64) -> Result<(), Faults> {
+        let formula = model.formula(self.mu_static[side]);
+        let mu_static = formula.constant(parameters)?;
+        if mu_static >= mu {
+            return Ok(());
+        }
+        let kind = FaultKind::StaticBelowKinetic { contact: self.name.to_string(), mu, mu_static };
+        Err(Fault::new(kind, formula.origin.place()).into())
     }
 }
 

@@ -39,7 +39,9 @@ mod rows;
 mod stages;
 mod summary;
 mod text;
+mod together;
 mod told;
+mod writer;
 
 pub use branches::Branches;
 pub use columns::Column;
@@ -56,7 +58,7 @@ use crate::solve::check_size;
 use axis::{Axis, Values};
 use breakpoints::Inserted;
 use columns::Columns;
-use evaluator::{Evaluator, Plan, Point};
+use evaluator::{Evaluator, Plan, Points};
 use friction::FrictionFormulas;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -137,7 +139,17 @@ impl Sweep {
         let friction = FrictionFormulas::new(model, &varied)?;
         let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
         let attainability = options.attainability;
-        let plan = Plan { model: model.clone(), mechanism, varied, columns, friction, attainability };
+        let mut plan = Plan {
+            model: model.clone(),
+            mechanism,
+            varied,
+            columns,
+            friction,
+            attainability,
+            stages: None,
+            together: None,
+        };
+        plan.prepare();
         let own = options
             .samples
             .map_or_else(|| axes.iter().map(|axis| axis.values.len()).product(), |samples| samples.count);
@@ -239,12 +251,13 @@ impl Sweep {
     fn chunk(&self, start: u64) -> Rows {
         let columns = &self.plan.columns;
         let mut rows = Rows::new(columns.contacts, columns.varied, columns.width());
-        let mut evaluator = Evaluator::new(&self.plan);
-        let mut values = vec![0.0; self.axes.len()];
-        for number in start..(start + CHUNK).min(self.points) {
-            let (breakpoint, inserted) = self.values(number, &mut values);
-            evaluator.evaluate(Point { number, breakpoint, inserted, values: &values }, &mut rows);
+        let numbers = start..(start + CHUNK).min(self.points);
+        let mut points = Points::new(self.axes.len());
+        for number in numbers {
+            points.push(number, |values| self.values(number, values));
         }
+        rows.reserve(points.len());
+        Evaluator::new(&self.plan).evaluate_all(&points, &mut rows);
         rows
     }
 
@@ -283,12 +296,15 @@ impl Sweep {
         if !self.has_branches() {
             return;
         }
+        if self.axes.len() == 1 {
+            branches.number_line(rows);
+            return;
+        }
         let mut place = vec![0; self.axes.len()];
         let mut first = 0;
         while first < rows.len() {
-            let point = rows.heads[first].point;
-            let states = rows.heads[first..].iter().take_while(|head| head.point == point).count();
-            self.place(point, &mut place);
+            let states = rows.states_from(first);
+            self.place(rows.heads[first].point, &mut place);
             branches.number(rows, first..first + states, &place);
             first += states;
         }
@@ -296,10 +312,6 @@ impl Sweep {
 
     /// The place of a point on each axis.
     fn place(&self, number: u64, place: &mut [u64]) {
-        if let [only] = place {
-            *only = number;
-            return;
-        }
         let mut rest = number;
         for (axis, place) in self.axes.iter().zip(place).rev() {
             *place = rest % axis.values.len();

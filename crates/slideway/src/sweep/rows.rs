@@ -232,6 +232,27 @@ impl Rows {
         &self.patterns[row * self.contacts..][..self.contacts]
     }
 
+    /// Makes room for the rows of so many points.
+    pub(super) fn reserve(&mut self, points: usize) {
+        let rows = points + points / 2;
+        self.heads.reserve(rows);
+        self.numbers.reserve(rows * self.width);
+        self.patterns.reserve(rows * self.contacts);
+    }
+
+    /// Number of rows of the point whose first row this is.
+    pub(super) fn states_from(&self, first: usize) -> usize {
+        let point = self.heads[first].point;
+        self.heads[first..].iter().take_while(|head| head.point == point).count()
+    }
+
+    /// Forgets all rows but the first ones.
+    pub(super) fn truncate(&mut self, rows: usize) {
+        self.heads.truncate(rows);
+        self.numbers.truncate(rows * self.width);
+        self.patterns.truncate(rows * self.contacts);
+    }
+
     /// Adds a row without a state: its varied quantities are known alone.
     pub(super) fn push_empty(&mut self, head: RowHead, varied: &[f64]) {
         self.heads.push(head);

@@ -40,6 +40,9 @@ impl Tally {
     pub fn add(&mut self, rows: &Rows) {
         self.rows += rows.len() as u64;
         let mut last = None;
+        // Points that follow one another and came to the same are counted together.
+        let mut alike: Option<(PointStatus, u32)> = None;
+        let mut count = 0;
         for head in &rows.heads {
             self.boundary_rows += u64::from(head.kind == RowKind::Boundary);
             if last == Some(head.point) {
@@ -51,13 +54,25 @@ impl Tally {
                 self.breakpoints += 1;
                 continue;
             }
-            *self.statuses.entry(head.status).or_default() += 1;
-            if head.status.is_solved() {
-                *self.solutions.entry(head.solutions).or_default() += 1;
+            let outcome = Some((head.status, head.solutions));
+            if outcome != alike {
+                self.count(alike, count);
+                (alike, count) = (outcome, 0);
             }
+            count += 1;
         }
+        self.count(alike, count);
         for (point, status, reason) in &rows.refusals {
             self.refusals.entry(*status).or_insert_with(|| (*point, reason.clone()));
+        }
+    }
+
+    /// Counts points that came to the same: status and number of solutions.
+    fn count(&mut self, outcome: Option<(PointStatus, u32)>, count: u64) {
+        let Some((status, solutions)) = outcome else { return };
+        *self.statuses.entry(status).or_default() += count;
+        if status.is_solved() {
+            *self.solutions.entry(solutions).or_default() += count;
         }
     }
 

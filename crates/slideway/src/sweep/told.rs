@@ -1,7 +1,8 @@
 //! Rows of a point from the report of a careful search.
 
-use super::evaluator::{Plan, Point, head, verdict};
+use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
+use super::writer::{head, verdict};
 use crate::report::{CertificateKind, Report, Solution, Status};
 
 /// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.

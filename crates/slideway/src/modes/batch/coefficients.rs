@@ -174,7 +174,7 @@ impl CoefficientBatch {
         solutions: &mut BatchSolutions,
         mut visit: impl FnMut(usize, usize, &[f64]),
     ) -> Result<(), BatchError> {
-        self.run(points, solutions, Some(&mut visit))
+        self.run(points, solutions, Some(&mut |state| visit(state.point, state.pattern, state.y)))
     }
 
     fn run(
@@ -331,6 +331,7 @@ impl AllPoints<'_> {
             scratch: (0..=contacts).map(|columns| vec![Lanes::ZERO; minors(columns)]).collect(),
             column_sizes: [Lanes::ZERO; MOST_CONTACTS],
             load_size: Lanes::ZERO,
+            relative_error: kernel::rounding(contacts),
         }
     }
 

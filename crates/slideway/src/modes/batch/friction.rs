@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::super::problem::{BySide, InfluenceCoefficients, ModeProblem, Side};
 use super::contraction::{Step, contract_first, contract_next};
-use super::kernel::{self, Points, Visitor, Workspace, numerator_index};
+use super::kernel::{self, BatchState, Points, Visitor, Workspace, numerator_index};
 use super::lanes::{LANES, Lanes, product_plus};
 use super::{BatchError, BatchSolutions, MOST_CONTACTS};
 
@@ -21,6 +21,8 @@ pub struct FrictionBatch {
     column_sizes: Vec<(f64, f64)>,
     load_size: f64,
     load_unit: f64,
+    /// Error of a determinant as a part of the product of its columns' 1-norms.
+    relative_error: f64,
 }
 
 /// A determinant for all patterns as a multi-affine form in the varied coefficients of friction.
@@ -100,8 +102,23 @@ impl FrictionBatch {
             column_sizes: (0..contacts).map(|contact| scaled.column_size(contact)).collect(),
             load_size: scaled.load_size(),
             load_unit: scaled.load_unit,
+            relative_error: kernel::rounding(contacts),
             influence,
         })
+    }
+
+    /// The same for a structure whose numbers are known to `accuracy` as a part of the 1-norm of their column: then more
+    /// points are in doubt. A determinant of `r` columns changes by `r` such parts of the product of their norms for each of
+    /// the `r` numbers of a column.
+    #[must_use]
+    pub(crate) fn known_to(mut self, accuracy: f64) -> Self {
+        self.relative_error += (self.contacts * self.contacts) as f64 * accuracy;
+        self
+    }
+
+    /// Whether the friction of preload depends on the side at some contact: then there may be gap states, too.
+    pub(crate) fn has_jump(&self) -> bool {
+        self.both_sides
     }
 
     /// Finds the patterns that have a solution at every point. `friction` holds, for each varied
@@ -125,6 +142,19 @@ impl FrictionBatch {
         friction: &[&[f64]],
         solutions: &mut BatchSolutions,
         mut visit: impl FnMut(usize, usize, &[f64]),
+    ) -> Result<(), BatchError> {
+        self.run(friction, solutions, Some(&mut |state| visit(state.point, state.pattern, state.y)))
+    }
+
+    /// The same, with the sign of each determinant.
+    ///
+    /// # Errors
+    /// As for [`solve`](Self::solve).
+    pub(crate) fn solve_states(
+        &self,
+        friction: &[&[f64]],
+        solutions: &mut BatchSolutions,
+        mut visit: impl FnMut(BatchState<'_>),
     ) -> Result<(), BatchError> {
         self.run(friction, solutions, Some(&mut visit))
     }
@@ -414,6 +444,7 @@ impl FrictionPoints<'_> {
             scratch: vec![vec![Lanes::ZERO; between]; 2],
             column_sizes,
             load_size: Lanes::splat(batch.load_size),
+            relative_error: batch.relative_error,
         }
     }
 

@@ -80,10 +80,23 @@ pub(super) struct Workspace {
     pub(super) column_sizes: [Lanes; MOST_CONTACTS],
     /// At least the 1-norm of every right-hand side.
     pub(super) load_size: Lanes,
+    /// Relative error of every determinant, as a part of the product of its columns' 1-norms.
+    pub(super) relative_error: f64,
 }
 
-/// What is told of a solution: point, pattern, `y`.
-pub(super) type Visitor<'a> = &'a mut dyn FnMut(usize, usize, &[f64]);
+/// A solution of a point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BatchState<'y> {
+    pub(crate) point: usize,
+    pub(crate) pattern: usize,
+    /// `y_k = |N_k|`.
+    pub(crate) y: &'y [f64],
+    /// Whether the determinant of the pattern's equations is negative.
+    pub(crate) negative_determinant: bool,
+}
+
+/// What is told of each solution.
+pub(super) type Visitor<'a> = &'a mut dyn FnMut(BatchState<'_>);
 
 /// Number of the numerator `D_k` of a pattern, counted from the first one.
 #[inline(always)]
@@ -101,7 +114,7 @@ pub(super) fn numerator_index(contacts: usize, both_sides: bool, contact: usize,
 /// Expansion by columns makes `j` roundings at column `j`; the right-hand side is a sum of `r + 1` vectors, and
 /// columns and their combinations are rounded a few times: `r (r + 1) / 2 + 6 r` at most. The bound has twice as
 /// much.
-fn rounding(contacts: usize) -> f64 {
+pub(super) fn rounding(contacts: usize) -> f64 {
     ((contacts * (contacts + 1)) / 2 + 6 * contacts) as f64 * f64::EPSILON
 }
 
@@ -217,7 +230,7 @@ fn bounds<const CONTACTS: usize>(
     for lane in 0..LANES {
         let load = work.load_size.0[lane];
         let mut outside = u64::from(!(load > LOAD_RANGE.0 && load < LOAD_RANGE.1));
-        let mut before = rounding(CONTACTS);
+        let mut before = work.relative_error;
         for contact in 0..CONTACTS {
             let size = work.column_sizes[contact].0[lane];
             outside |= u64::from(!(size > COLUMN_RANGE.0 && size < COLUMN_RANGE.1));
@@ -281,7 +294,7 @@ struct Told {
 
 /// Hands the solutions of a block to the visitor.
 #[inline(never)]
-fn tell(told: &Told, work: &Workspace, block: &Block, visitor: &mut dyn FnMut(usize, usize, &[f64])) {
+fn tell(told: &Told, work: &Workspace, block: &Block, visitor: Visitor<'_>) {
     let mut y = [0.0; MOST_CONTACTS];
     let y = &mut y[..told.contacts];
     for lane in 0..told.used {
@@ -295,7 +308,8 @@ fn tell(told: &Told, work: &Workspace, block: &Block, visitor: &mut dyn FnMut(us
                     let numerator = work.values[(1 << told.contacts) + at].0[lane];
                     *y = numerator / work.values[pattern].0[lane] * told.load_unit;
                 }
-                visitor(told.first + lane, pattern, y);
+                let negative_determinant = work.values[pattern].0[lane] < 0.0;
+                visitor(BatchState { point: told.first + lane, pattern, y, negative_determinant });
             }
         }
     }

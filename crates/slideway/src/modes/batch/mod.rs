@@ -40,6 +40,7 @@ mod lanes;
 
 pub use coefficients::{CoefficientBatch, PointCoefficients};
 pub use friction::FrictionBatch;
+pub(crate) use kernel::BatchState;
 
 use super::problem::{ModeProblemError, Side};
 

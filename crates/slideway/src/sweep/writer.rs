@@ -1,0 +1,193 @@
+//! Writes the states of a point that elimination has found.
+
+use super::evaluator::{Plan, Point};
+use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
+use super::stages::Stages;
+use crate::attainability::ElasticGuides;
+use crate::mechanism::{JointKind, Mechanism};
+use crate::model::PreloadLine;
+use crate::modes::screen::SmallState;
+use crate::modes::{ContactState, Side};
+use crate::report::Verdict;
+
+/// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping, as in `solve`.
+const COUPLE_TOLERANCE: f64 = 1e-9;
+
+/// What the rows of a point are made of.
+pub(super) struct Writer<'w> {
+    pub(super) plan: &'w Plan,
+    /// With the friction of the point.
+    pub(super) mechanism: &'w Mechanism,
+    pub(super) stages: &'w Stages,
+    /// If attainability is asked for.
+    pub(super) guides: Option<ElasticGuides<'w>>,
+}
+
+/// States of a point, by kind.
+#[derive(Debug, Clone, Copy, Default)]
+struct Counts {
+    solutions: u32,
+    gap_states: u32,
+    rejected: u32,
+}
+
+impl Counts {
+    fn status(self) -> PointStatus {
+        match (self.solutions, self.gap_states) {
+            (0, 0) => PointStatus::None,
+            (0, _) => PointStatus::PreloadGap,
+            (1, _) => PointStatus::One,
+            _ => PointStatus::Several,
+        }
+    }
+}
+
+impl Writer<'_> {
+    /// Adds the rows of a point, solutions before gap states; nothing, and `false`, if a guided slider is about to tip.
+    pub(super) fn write(&self, states: &[SmallState], point: Point<'_>, rows: &mut Rows) -> bool {
+        let first = rows.len();
+        let contacts = self.plan.columns.contacts;
+        let mut counts = Counts::default();
+        for with_gap in [false, true] {
+            for state in states {
+                let in_gap = state.pattern[..contacts].contains(&ContactState::Gap);
+                if in_gap == with_gap && self.row(state, point, rows, &mut counts).is_none() {
+                    rows.truncate(first);
+                    return false;
+                }
+            }
+        }
+        if rows.len() == first {
+            rows.push_empty(head(point, counts.status()), point.values);
+        }
+        for head in &mut rows.heads[first..] {
+            head.status = counts.status();
+            head.solutions = counts.solutions;
+            head.gap_states = counts.gap_states;
+            head.rejected = counts.rejected;
+        }
+        true
+    }
+
+    /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told.
+    fn row(&self, state: &SmallState, point: Point<'_>, rows: &mut Rows, counts: &mut Counts) -> Option<()> {
+        let columns = &self.plan.columns;
+        let contacts = columns.contacts;
+        let pattern = &state.pattern[..contacts];
+        let start = rows.numbers.len();
+        rows.numbers.resize(start + rows.width, f64::NAN);
+        let (varied, numbers) = rows.numbers[start..].split_at_mut(point.values.len());
+        varied.copy_from_slice(point.values);
+        let (forces, numbers) = numbers.split_at_mut(2 * contacts);
+        let (shares, outputs) = numbers.split_at_mut(columns.shares.len());
+        for (share, &k) in shares.iter_mut().zip(&columns.shares) {
+            if pattern[k] == ContactState::Gap {
+                *share = state.unknowns[k];
+            }
+        }
+        outputs.copy_from_slice(&self.stages.frictionless);
+        for k in 0..contacts {
+            let faces = self.friction(state, k);
+            forces[k] = state.normal_force(k);
+            // Adding zero turns -0 into 0.
+            forces[contacts + k] = faces[0] + faces[1] + 0.0;
+            for (force, influence) in faces.iter().zip(&self.stages.influences[k]) {
+                if *force != 0.0 {
+                    let sums = outputs.iter_mut().zip(influence);
+                    sums.for_each(|(sum, per_force)| *sum += force * per_force);
+                }
+            }
+        }
+        if !self.keeps(state, outputs)? {
+            rows.numbers.truncate(start);
+            counts.rejected += 1;
+            return Some(());
+        }
+        rows.patterns.extend(pattern.iter().map(|state| match state {
+            ContactState::Positive => b'+',
+            ContactState::Negative => b'-',
+            ContactState::Gap => b'0',
+        }));
+        let in_gap = pattern.contains(&ContactState::Gap);
+        let kind = if in_gap { RowKind::PreloadGap } else { RowKind::Solution };
+        let negative_determinant = Some(state.negative_determinant);
+        let verdict = self.verdict(pattern);
+        rows.heads.push(RowHead { kind, verdict, negative_determinant, ..head(point, PointStatus::None) });
+        *if in_gap { &mut counts.gap_states } else { &mut counts.solutions } += 1;
+        Some(())
+    }
+
+    /// Friction at both faces of a contact, eq. (2) with F_k = (mu_k |N_k| + F_k0) s_k.
+    fn friction(&self, state: &SmallState, k: usize) -> [f64; 2] {
+        let contact = &self.mechanism.contacts[k];
+        let sign = self.stages.signs[k];
+        // Share of the positive face.
+        let (share, pressure) = match state.pattern[k] {
+            ContactState::Positive => (1.0, contact.mu[0] * state.unknowns[k] * sign),
+            ContactState::Negative => (0.0, contact.mu[1] * state.unknowns[k] * sign),
+            ContactState::Gap => (state.unknowns[k], 0.0),
+        };
+        let preload = [share * contact.preload[0] * sign, (1.0 - share) * contact.preload[1] * sign];
+        let preload = match contact.preload_line {
+            PreloadLine::Pressed => preload,
+            PreloadLine::Centre => [f64::midpoint(preload[0], preload[1]); 2],
+        };
+        [share * pressure + preload[0], (1.0 - share) * pressure + preload[1]]
+    }
+
+    /// Whether all guided sliders stay flat: |C| <= |N| L / 2 (theory, section 1); none if one is about to tip.
+    fn keeps(&self, state: &SmallState, outputs: &[f64]) -> Option<bool> {
+        let columns = &self.plan.columns;
+        if columns.couples.is_empty() {
+            return Some(true);
+        }
+        let forces = (0..columns.contacts).map(|k| state.normal_force(k).abs());
+        let greatest = forces.fold(self.stages.greatest_load, f64::max);
+        let mut keeps = true;
+        for &(joint, contact, output) in &columns.couples {
+            let JointKind::Slider(slider) = &self.mechanism.joints[joint.index()].kind else { continue };
+            let limit = state.normal_force(contact).abs() * slider.length / 2.0;
+            let excess = outputs[output].abs() - limit;
+            let tolerance = COUPLE_TOLERANCE * greatest * slider.length;
+            if excess.abs() <= 4.0 * tolerance {
+                return None;
+            }
+            keeps &= excess < 0.0;
+        }
+        Some(keeps)
+    }
+
+    /// The verdict on a solution, if it was asked for; states with gaps have none.
+    fn verdict(&self, pattern: &[ContactState]) -> RowVerdict {
+        let Some(guides) = &self.guides else { return RowVerdict::NotComputed };
+        let sides: Option<Vec<Side>> = pattern.iter().map(|state| state.side()).collect();
+        sides.map_or(RowVerdict::NotComputed, |sides| verdict(guides.verdict_on(&sides)))
+    }
+}
+
+/// The row of a point of which nothing else is known.
+pub(super) fn head(point: Point<'_>, status: PointStatus) -> RowHead {
+    RowHead {
+        point: point.number,
+        breakpoint: point.breakpoint,
+        inserted: point.inserted,
+        status,
+        solutions: 0,
+        gap_states: 0,
+        rejected: 0,
+        kind: RowKind::Nothing,
+        branch: 0,
+        verdict: RowVerdict::NotComputed,
+        negative_determinant: None,
+    }
+}
+
+pub(super) fn verdict(verdict: Verdict) -> RowVerdict {
+    match verdict {
+        Verdict::Attainable => RowVerdict::Attainable,
+        Verdict::Unattainable => RowVerdict::Unattainable,
+        Verdict::Flutter => RowVerdict::Flutter,
+        Verdict::Undecided => RowVerdict::Undecided,
+        Verdict::NotComputed => RowVerdict::NotComputed,
+    }
+}
