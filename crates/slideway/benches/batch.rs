@@ -84,6 +84,25 @@ fn bench_friction(
     });
 }
 
+/// What `reference/comparison/sweep_numpy.py` computes: the solutions of the paper's sweep, mu_1 from 0 to 0.8, with point,
+/// pattern and normal forces.
+#[divan::bench]
+fn paper_normal_forces(bencher: Bencher<'_, '_>) {
+    const POINTS: usize = 1_000_000;
+    let mu_1: Vec<f64> = (0..POINTS).map(|point| 0.8 * point as f64 / (POINTS - 1) as f64).collect();
+    let batch = FrictionBatch::new(&paper(0.0), &[0]).expect("few contacts");
+    let mut solutions = BatchSolutions::default();
+    let (mut places, mut forces) = (Vec::new(), Vec::new());
+    bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
+        (places.clear(), forces.clear());
+        batch.solve_each(&[&mu_1], &mut solutions, |point, pattern, y| {
+            places.push((point, pattern));
+            let sides = (0..3).map(|contact| Side::BOTH[pattern >> contact & 1].sign());
+            forces.extend(sides.zip(y).map(|(side, y)| side * y));
+        })
+    });
+}
+
 /// The first coefficients of friction change, as many as the argument says.
 #[divan::bench(args = [1, 3])]
 fn paper_friction(bencher: Bencher<'_, '_>, varied: usize) {

@@ -131,7 +131,7 @@ fn in_order_of_enumeration(states: &mut [SmallState]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Rows, Sweep, SweepOptions};
+    use super::super::{RowKind, Rows, Sweep, SweepOptions};
     use crate::gallery;
     use crate::model::{Model, Settings};
     use std::ops::ControlFlow;
@@ -161,9 +161,10 @@ mod tests {
             ("klepp-2002", ("F_20", "0"), &["mu_1=0..0.8:1501"][..], 1000),
             ("klepp-2002", ("F_20", "0"), &["mu_1=0..0.8:31", "mu_2=0..0.5:23"], 700),
             ("klepp-2002", ("F_20", "0"), &["friction=0..9:901"], 600),
-            ("klepp-2002", ("F_10", "0.5*m*g"), &["F_20=0,0", "mu_3=0..0.5:5"], 0),
+            // Preload at the pressed face: there may be gap states.
+            ("klepp-2002", ("F_20", "m*g"), &["mu_1=0..0.8:101"], 0),
             ("drawer", ("mu", "0.3"), &["friction=0..4:801"], 400),
-            ("drawer", ("F", "5 N"), &["mu=0..1:801"], 400),
+            ("drawer", ("Q", "5 N"), &["mu=0..1:801"], 400),
             ("painleve-klein", ("mu", "1"), &["mu=0..5:1001"], 600),
         ] {
             let (mut sweep, together) = sweep(name, parameter, axes);
@@ -182,10 +183,10 @@ mod tests {
                         let is_close = (one - other).abs() <= 1e-9 * scale || one.is_nan() && other.is_nan();
                         assert!(is_close, "{name} {axes:?}: {one} {other}");
                     }
-                    states += usize::from(found.numbers(row).iter().all(|number| number.is_finite()));
+                    states += usize::from(found.heads[row].kind == RowKind::Solution);
                 }
             }
-            assert!(states >= least, "{name} {axes:?}: {states} states");
+            assert!(states > least, "{name} {axes:?}: {states} states");
         }
     }
 }

@@ -7,6 +7,7 @@ use super::coefficients::AllPoints;
 use super::friction::FrictionPoints;
 use super::lanes::{LANES, Lanes};
 use super::{BatchSolutions, MOST_CONTACTS, words_per_point};
+use std::ops::Range;
 
 /// Column sums outside of this range (and loads outside of its fifth power) may lose more to
 /// underflow than the bound of rounding errors tells.
@@ -158,6 +159,7 @@ fn run_any<const FUSED: bool>(
     let (contacts, both_sides, count) = (points.contacts(), points.both_sides(), points.count());
     let words = words_per_point(contacts);
     let mut work = points.workspace();
+    let told = Told::new(contacts, both_sides, points.load_unit());
     for first in (0..count).step_by(LANES) {
         // The last block repeats the last point.
         let mut block_points = [0; LANES];
@@ -182,8 +184,7 @@ fn run_any<const FUSED: bool>(
             *in_doubt = bits >> SIGN_BIT == 1;
         }
         if let Some(visitor) = &mut visitor {
-            let told = Told { contacts, both_sides, load_unit: points.load_unit(), first, used };
-            tell(&told, &work, &block, visitor);
+            told.tell(first..first + used, &work, &block, visitor);
         }
     }
 }
@@ -283,33 +284,44 @@ fn judge<const CONTACTS: usize, const BOTH_SIDES: bool>(work: &Workspace) -> Blo
     block
 }
 
-/// Which solutions are told.
+/// How solutions are told.
 struct Told {
     contacts: usize,
-    both_sides: bool,
+    /// For each pattern, where the numerators of the contacts are.
+    numerators: Vec<[usize; MOST_CONTACTS]>,
     load_unit: f64,
-    first: usize,
-    used: usize,
 }
 
-/// Hands the solutions of a block to the visitor.
-#[inline(never)]
-fn tell(told: &Told, work: &Workspace, block: &Block, visitor: Visitor<'_>) {
-    let mut y = [0.0; MOST_CONTACTS];
-    let y = &mut y[..told.contacts];
-    for lane in 0..told.used {
-        for (word, masks) in block.masks.iter().enumerate() {
-            let mut rest = masks[lane];
-            while rest != 0 {
-                let pattern = word * 64 + rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                for (contact, y) in y.iter_mut().enumerate() {
-                    let at = numerator_index(told.contacts, told.both_sides, contact, pattern);
-                    let numerator = work.values[(1 << told.contacts) + at].0[lane];
-                    *y = numerator / work.values[pattern].0[lane] * told.load_unit;
+impl Told {
+    fn new(contacts: usize, both_sides: bool, load_unit: f64) -> Self {
+        let patterns = 1 << contacts;
+        let of = |pattern: usize| {
+            let mut places = [0; MOST_CONTACTS];
+            for (contact, place) in places[..contacts].iter_mut().enumerate() {
+                *place = patterns + numerator_index(contacts, both_sides, contact, pattern);
+            }
+            places
+        };
+        Self { contacts, numerators: (0..patterns).map(of).collect(), load_unit }
+    }
+
+    /// Hands the solutions of a block to the visitor.
+    #[inline(never)]
+    fn tell(&self, points: Range<usize>, work: &Workspace, block: &Block, visitor: Visitor<'_>) {
+        let mut y = [0.0; MOST_CONTACTS];
+        let y = &mut y[..self.contacts];
+        for (lane, point) in points.enumerate() {
+            for (word, masks) in block.masks.iter().enumerate().take(words_per_point(self.contacts)) {
+                let mut rest = masks[lane];
+                while rest != 0 {
+                    let pattern = word * 64 + rest.trailing_zeros() as usize;
+                    rest &= rest - 1;
+                    let determinant = work.values[pattern].0[lane];
+                    for (y, at) in y.iter_mut().zip(&self.numerators[pattern]) {
+                        *y = work.values[*at].0[lane] / determinant * self.load_unit;
+                    }
+                    visitor(BatchState { point, pattern, y, negative_determinant: determinant < 0.0 });
                 }
-                let negative_determinant = work.values[pattern].0[lane] < 0.0;
-                visitor(BatchState { point: told.first + lane, pattern, y, negative_determinant });
             }
         }
     }
