@@ -4,7 +4,7 @@
 
 mod command;
 
-use command::{Run, slideway, slideway_reading};
+use command::{Run, command, slideway, slideway_reading};
 
 const OSCILLATOR: &str = "models/frictional-oscillator.toml";
 const KLEPP: &str = "models/klepp-2002-spring.toml";
@@ -121,6 +121,52 @@ fn the_step_limit_is_told_with_the_state() {
 }
 
 #[test]
+fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("motion.csv");
+    let path = file.to_str().unwrap();
+    let run = slideway(&["simulate", KLEPP, "--until", "1e6 s", "--time-limit", "300ms", "--output", path]);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    assert_tells(&run.stdout, &["It was interrupted at ", "In the end: q = "]);
+    assert!(std::fs::read_to_string(&file).unwrap().lines().count() > 1);
+}
+
+#[test]
+fn a_normal_force_beyond_its_limit_ends_the_motion() {
+    let run = slideway(&["simulate", KLEPP, "--until", "1s", "--max-reaction", "10"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert_tells(&run.stdout, &["beyond", "In the end: q = "]);
+}
+
+/// What is refused, in full: exit code, message, place and help.
+#[test]
+fn refusals_in_words() {
+    let refusals: [&[&str]; 5] = [
+        &["simulate", OSCILLATOR, "--until", "0s"],
+        &["simulate", OSCILLATOR, "--until=-1s"],
+        &["simulate", KLEPP, "--until", "1s", "--mode", "- - -"],
+        &["simulate", KLEPP, "--until", "1s", "--mode", "+ +"],
+        &["simulate", "models/slider-crank.toml", "--until", "1s", "--set", "l=45 mm", "--at", "phi=90 deg"],
+    ];
+    let told =
+        refusals.map(|arguments| format!("$ slideway {}\n{}", arguments.join(" "), refused(arguments)));
+    insta::assert_snapshot!(told.join("\n"));
+}
+
+/// What ends early, up to the balance of energy, whose errors are rounding.
+#[test]
+fn early_ends_in_words() {
+    let model = pushed("1 N * sqrt(1.3 - t/(1 s))");
+    let no_value = slideway_reading(&["simulate", "-", "--until", "2s"], model.as_bytes());
+    let steps = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--max-steps", "20"]);
+    let told = [no_value, steps].map(|run| {
+        let (story, _) = run.stdout.split_once("\nEnergy").unwrap();
+        format!("exit code {}\n{story}{}", run.code, run.stderr)
+    });
+    insta::assert_snapshot!(told.join("\n"));
+}
+
+#[test]
 fn a_branch_that_does_not_exist_is_told() {
     let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--branch", "7"]);
     assert_eq!(run.code, 2);
@@ -150,8 +196,40 @@ fn json_has_its_schema_and_the_table_its_step() {
     assert!(times.iter().enumerate().all(|(index, time)| (time - 0.1 * index as f64).abs() < 1e-15));
 }
 
+/// Twice, and with any number of threads: one motion, and all branches in their order.
 #[test]
 fn the_same_command_gives_the_same_bytes() {
-    let arguments = ["simulate", KLEPP, "--until", "0.5s", "--format", "json"];
-    assert_eq!(slideway(&arguments).stdout, slideway(&arguments).stdout);
+    let single = ["simulate", KLEPP, "--until", "0.5s", "--format", "json"];
+    let branches = [
+        "simulate",
+        KLEPP,
+        "--until",
+        "0.4s",
+        "--set",
+        "mu_1=0.35",
+        "--all-branches",
+        "--max-motions",
+        "6",
+        "--format",
+        "json",
+    ];
+    for arguments in [&single[..], &branches] {
+        let first = slideway(arguments).stdout;
+        assert!(first.len() > 1000);
+        for threads in ["1", "2", "7"] {
+            let output = command(arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
+            assert!(first.as_bytes() == output.stdout, "{threads}");
+        }
+    }
+    let told: serde_json::Value = serde_json::from_str(&slideway(&branches).stdout).unwrap();
+    let histories = told["histories"].as_array().unwrap();
+    let taken: Vec<Vec<u64>> = histories
+        .iter()
+        .map(|one| {
+            one["branches"].as_array().unwrap().iter().map(|branch| branch.as_u64().unwrap()).collect()
+        })
+        .collect();
+    // At each of three stops the bar wedges itself for good or slides back.
+    let expected: [&[u64]; 4] = [&[1], &[2, 1], &[2, 2, 1], &[2, 2, 2]];
+    assert_eq!(taken, expected);
 }

@@ -176,98 +176,272 @@ fn the_example_jams_dynamically_when_it_is_sent_to_the_left() {
     assert!(!slides_to_the_left(&history), "{:#?}", words(&history));
 }
 
-/// The example with springs in place of its guides, written from scratch: A, the angles of bar and block, and their rates.
-struct SpringGuides {
+/// A motion of reference/elastic_guides.py: the example with springs and dampers in place of its guides.
+struct Elastic {
     stiffness: f64,
-    mu: [f64; 3],
-    force: f64,
-    frequency: f64,
+    /// When the lower block begins to slide to the right (1), to the left (-1) or to stick (0).
+    lower: Vec<(f64, i64)>,
+    /// When contacts change side.
+    zeros: Vec<f64>,
+    samples: Vec<ElasticSample>,
 }
 
-impl SpringGuides {
-    /// Of the block; the model has none, but springs turn the block.
-    const INERTIA: f64 = 2e-4;
-    const STEP: f64 = 4e-6;
-
-    /// Damping relative to the stiffness (s): what moves on the guides comes to rest within about 1/sqrt(stiffness).
-    fn delay(&self) -> f64 {
-        1.0 / self.stiffness.sqrt()
-    }
-
-    /// The displacement of A after this time, from 1 m/s to the right with the springs in equilibrium at these forces.
-    fn displacement(&self, duration: f64, start: [f64; 3]) -> f64 {
-        let (sin, _) = 80_f64.to_radians().sin_cos();
-        let gaps = start.map(|force| -force / self.stiffness);
-        let (y, tilt) = (f64::midpoint(gaps[1], gaps[2]), (gaps[1] - gaps[2]) / 0.2);
-        let mut state = [0.0, y, (sin + gaps[0] - y).asin(), tilt, 1.0, 0.0, 0.0, 0.0];
-        let mut time = 0.0;
-        while time < duration - 0.5 * Self::STEP {
-            let moved =
-                |rate: &[f64; 8], by: f64| -> [f64; 8] { std::array::from_fn(|i| state[i] + by * rate[i]) };
-            let half = Self::STEP / 2.0;
-            let one = self.rates(time, &state);
-            let two = self.rates(time + half, &moved(&one, half));
-            let three = self.rates(time + half, &moved(&two, half));
-            let four = self.rates(time + Self::STEP, &moved(&three, Self::STEP));
-            state = std::array::from_fn(|i| {
-                state[i] + Self::STEP / 6.0 * (one[i] + 2.0 * (two[i] + three[i]) + four[i])
-            });
-            time += Self::STEP;
-        }
-        state[0]
-    }
-
-    fn rates(&self, time: f64, state: &[f64; 8]) -> [f64; 8] {
-        let [x, y, angle, tilt, x_rate, y_rate, turning, tilting] = *state;
-        let (sin, cos) = angle.sin_cos();
-        let spring = |gap: f64, rate: f64| -self.stiffness * (gap + self.delay() * rate);
-        let end = |half: f64| spring(y + half * tilt.sin(), y_rate + half * tilt.cos() * tilting);
-        let normal =
-            [spring(y + sin - 80_f64.to_radians().sin(), y_rate + cos * turning), end(0.1), end(-0.1)];
-        let slides = [x_rate - sin * turning, x_rate, x_rate];
-        let friction: [f64; 3] = std::array::from_fn(|k| -self.mu[k] * normal[k].abs() * slides[k].signum());
-        // Spring and damper between S and the wall 2 m to its left, and the force at S.
-        let (s0, c0) = 80_f64.to_radians().sin_cos();
-        let to_s = [x + cos / 2.0 - (c0 / 2.0 - 2.0), y + sin / 2.0 - s0 / 2.0];
-        let length = to_s[0].hypot(to_s[1]);
-        let velocity = [x_rate - sin / 2.0 * turning, y_rate + cos / 2.0 * turning];
-        let stretching = (to_s[0] * velocity[0] + to_s[1] * velocity[1]) / length;
-        let tension = 100.0 * (length - 2.0) + stretching;
-        let push = self.force * (2.0 * PI * self.frequency * time).sin();
-        let at_s = [push - tension * to_s[0] / length, -G - tension * to_s[1] / length];
-        // m x'' - m l/2 sin a'' = X, m y'' + m l/2 cos a'' = Y, m l/2 (cos y'' - sin x'') + m l^2/3 a'' = moment about A
-        let force_x = friction.iter().sum::<f64>() + at_s[0] + cos / 2.0 * turning * turning;
-        let force_y = normal.iter().sum::<f64>() + at_s[1] + sin / 2.0 * turning * turning;
-        let on_bar = cos * normal[0] - sin * friction[0] + (cos * at_s[1] - sin * at_s[0]) / 2.0;
-        let on_block: f64 = [(1, 0.1), (2, -0.1)]
-            .iter()
-            .map(|&(k, x): &(usize, f64)| x * normal[k] + normal[k].signum() * 0.05 * friction[k])
-            .sum();
-        let turn = (on_bar - (cos * force_y - sin * force_x) / 2.0) / (1.0 / 3.0 - 0.25);
-        let x = force_x + sin / 2.0 * turn;
-        let y = force_y - cos / 2.0 * turn;
-        [x_rate, y_rate, turning, tilting, x, y, turn, on_block / Self::INERTIA]
-    }
+struct ElasticSample {
+    time: f64,
+    x: f64,
+    normal: Vec<f64>,
 }
 
-/// Guides that are springs come nearer to the rigid ones as they get stiffer, over a reversal with a change of side: what is
-/// lost there lasts as long as the springs take, in proportion to 1/sqrt(stiffness) at most.
-#[test]
-fn stiff_guides_converge_to_the_rigid_mechanism() {
-    let settings = [("mu_1", "0.2"), ("P", "40 N"), ("f", "5 Hz")];
-    let history = history("klepp-2002-spring", &settings, &SLIDING(0.3));
-    let mut reader = history.reader();
-    let start: Vec<f64> =
-        reader.at(0.0).unwrap().contacts.iter().map(|contact| contact.normal_force).collect();
-    let rigid = reader.configuration(0.3).unwrap().coordinates[0];
-    assert!(rigid < reader.configuration(0.15).unwrap().coordinates[0], "it is on its way back");
-    let difference = |stiffness: f64| {
-        let guides = SpringGuides { stiffness, mu: [0.2, 0.1, 0.1], force: 40.0, frequency: 5.0 };
-        (guides.displacement(0.3, [start[0], start[1], start[2]]) - rigid).abs()
+/// The motions of a scenario, for guides of 1e5, 1e6, 1e7 and 1e8 N/m.
+fn elastic(scenario: &str) -> Vec<Elastic> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/elastic-guides.toml");
+    let reference: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
+    let float = |value: &toml::Value| value.as_float().unwrap();
+    let list = |value: &toml::Value| value.as_array().unwrap().clone();
+    let sample = |sample: &toml::Value| ElasticSample {
+        time: float(&sample["time"]),
+        x: float(&sample["x"]),
+        normal: list(&sample["normal"]).iter().map(float).collect(),
     };
-    let differences = [1e4, 1e5, 1e6, 1e7].map(difference);
-    for pair in differences.windows(2) {
-        assert!(pair[1] < 0.4 * pair[0], "{differences:?}");
+    let motion = |run: &toml::Value| Elastic {
+        stiffness: float(&run["stiffness"]),
+        lower: list(&run["lower"])
+            .iter()
+            .map(|pair| (float(&pair[0]), pair[1].as_integer().unwrap()))
+            .collect(),
+        zeros: run
+            .get("zeros")
+            .map_or(Vec::new(), |zeros| list(zeros).iter().map(|pair| float(&pair[0])).collect()),
+        samples: list(&run["sample"]).iter().map(sample).collect(),
+    };
+    let runs = list(&reference["run"]);
+    let of_scenario = runs.iter().filter(|run| run["scenario"].as_str() == Some(scenario));
+    let motions: Vec<Elastic> = of_scenario.map(motion).collect();
+    let stiffness: Vec<f64> = motions.iter().map(|motion| motion.stiffness).collect();
+    assert_eq!(stiffness, [1e5, 1e6, 1e7, 1e8]);
+    motions
+}
+
+/// By which power of the stiffness a difference falls, from each stiffness to the next.
+fn orders(differences: &[f64]) -> Vec<f64> {
+    differences.windows(2).map(|pair| (pair[0] / pair[1]).abs().log10()).collect()
+}
+
+/// The differences of a number from that of rigid guides, for each stiffness.
+fn differences(motions: &[Elastic], rigid: f64, number: impl Fn(&Elastic) -> f64) -> Vec<f64> {
+    motions.iter().map(|motion| number(motion) - rigid).collect()
+}
+
+/// All orders lie within these bounds.
+#[track_caller]
+fn assert_orders(what: &str, differences: &[f64], from: f64, to: f64) {
+    let orders = orders(differences);
+    assert!(orders.iter().all(|order| (from..to).contains(order)), "{what}: {orders:?} {differences:?}");
+}
+
+/// The example of the elastic guides, moving with this velocity.
+fn rigid(settings: &[(&str, &str)], rate: &str, options: SimulateOptions) -> History {
+    let all = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    let model = Model::parse(gallery::find("klepp-2002-spring").unwrap().text).unwrap();
+    simulate(&model.with(&all.rate("q", rate)).unwrap(), &SimulateOptions { tolerance: 1e-11, ..options })
+        .unwrap()
+}
+
+/// At a reversal the normal forces jump and change side. On elastic guides that takes a time in proportion to 1/sqrt(stiffness),
+/// in which the normal impulse is the rigid one up to 1/stiffness, as the velocities across the guides are; but friction has the
+/// integral of |N|, which is another one while N changes its sign. So motions agree to order 1 in 1/stiffness up to the first
+/// reversal and to order 1/2 behind it. Normal forces hang on position and velocity hardly at all: of order 1 once the
+/// transient is over.
+#[test]
+fn elastic_guides_converge_over_reversals() {
+    let motions = elastic("to and fro");
+    let history = rigid(&[("mu_1", "0.2"), ("P", "40 N")], "1 m/s", SLIDING(0.6));
+    let stops = times(&history, |cause| matches!(cause, Cause::Stops(_)));
+    assert_eq!(stops.len(), 3);
+    for motion in &motions {
+        let directions: Vec<i64> = motion.lower.iter().map(|change| change.1).collect();
+        assert_eq!(directions, [1, -1, 1, -1]);
     }
-    assert!(differences[3] < 1e-4, "{differences:?}");
+    let stop = |index: usize| differences(&motions, stops[index], |motion| motion.lower[index + 1].0);
+    assert_orders("first stop", &stop(0), 0.98, 1.02);
+    assert_orders("second stop", &stop(1)[1..], 0.48, 0.55);
+    assert_orders("third stop", &stop(2)[2..], 0.45, 0.6);
+    let mut reader = history.reader();
+    for (index, ElasticSample { time, .. }) in motions[0].samples.iter().enumerate() {
+        let sample = reader.at(*time).unwrap();
+        let place = sample.configuration.coordinates[0];
+        let place = differences(&motions, place, |motion| motion.samples[index].x);
+        let before = *time < stops[0];
+        if before {
+            assert_orders(&format!("place at {time} s"), &place, 0.98, 1.02);
+        } else {
+            assert_orders(&format!("place at {time} s"), &place[2..], 0.4, 0.65);
+        }
+        for k in 0..3 {
+            let force = sample.contacts[k].normal_force;
+            let force = differences(&motions, force, |motion| motion.samples[index].normal[k]);
+            let what = format!("force {k} at {time} s");
+            assert_orders(&what, if before { &force } else { &force[2..] }, 0.9, 1.1);
+            assert!(force[3].abs() < 1e-4, "{what}: {force:?}");
+        }
+    }
+}
+
+/// With the force at the lower end contacts change side while they slide on: all of it smooth, so of order 1. (At 1e5 N/m the motion
+/// is not yet near the rigid one. At the first change the guides still swing from the start, and normal forces swing for a while after
+/// each change: those at 0.05 s and 0.09 s are not near one.)
+#[test]
+fn elastic_guides_converge_over_changes_of_side() {
+    let motions = elastic("force below");
+    let text = gallery::find("klepp-2002-spring").unwrap().text;
+    let text = text.replacen("at = \"bar.S\"\ncomponents", "at = \"bar.A\"\ncomponents", 1);
+    let model = Model::parse(&text).unwrap().with(&Settings::default().parameter("P", "20 N")).unwrap();
+    let options = SimulateOptions { tolerance: 1e-11, ..SimulateOptions::new(0.12) };
+    let history = simulate(&model, &options).unwrap();
+    let changes = times(&history, |cause| matches!(cause, Cause::NormalForceZero(_)));
+    assert_eq!(changes.len(), 3, "{:#?}", words(&history));
+    // The ends of the lower block change side together.
+    assert!(motions[1..].iter().all(|motion| motion.zeros.len() == 4 && motion.lower.len() == 1));
+    let change = |index: usize| differences(&motions, changes[index], |motion| motion.zeros[index]);
+    assert!(change(0).windows(2).all(|pair| pair[1].abs() < 0.2 * pair[0].abs()), "{:?}", change(0));
+    for index in [1, 2] {
+        assert_orders(&format!("change of side {index}"), &change(index)[1..], 0.9, 1.25);
+    }
+    let mut reader = history.reader();
+    for (index, ElasticSample { time, .. }) in motions[0].samples.iter().enumerate() {
+        let sample = reader.at(*time).unwrap();
+        let place = sample.configuration.coordinates[0];
+        let place = differences(&motions, place, |motion| motion.samples[index].x);
+        assert_orders(&format!("place at {time} s"), &place[1..], 0.95, 1.06);
+        for k in (0..3).filter(|_| [0.05, 0.09].contains(time)) {
+            let force = sample.contacts[k].normal_force;
+            let force = differences(&motions, force, |motion| motion.samples[index].normal[k]);
+            assert_orders(&format!("force {k} at {time} s"), &force[1..], 0.9, 1.1);
+        }
+    }
+}
+
+/// Stops, sticking and starting again. The force to the left is greater than what the normal forces of the stop let friction hold,
+/// but less than what friction can hold: the elastic guides creep until the normal forces have grown, by a way in proportion to
+/// 1/stiffness.
+#[test]
+fn elastic_guides_converge_over_sticking() {
+    let motions = elastic("stick and slip");
+    let history = rigid(&[("mu_1", "0.2"), ("P", "1.8 N")], "0.03 m/s", SimulateOptions::new(0.5));
+    let stops = times(&history, |cause| matches!(cause, Cause::Stops(_)));
+    let slips = times(&history, |cause| matches!(cause, Cause::Slips));
+    assert_eq!((stops.len(), slips.len()), (3, 2), "{:#?}", words(&history));
+    let first = differences(&motions, stops[0], |motion| motion.lower[1].0);
+    assert_orders("first stop", &first, 0.9, 1.1);
+    let mut reader = history.reader();
+    for (index, ElasticSample { time, .. }) in motions[0].samples.iter().enumerate() {
+        let place = reader.configuration(*time).unwrap().coordinates[0];
+        let place = differences(&motions, place, |motion| motion.samples[index].x);
+        assert_orders(&format!("place at {time} s"), &place, 0.9, 1.1);
+    }
+}
+
+/// mu_1 = 0.5: two solutions to the right, of which the elastic guides keep the attainable one until the bar stops. As long as the
+/// force then pushes it to the left, up to 0.2 s, they wedge it.
+#[test]
+fn elastic_guides_keep_the_attainable_solution() {
+    let motions = elastic("several solutions");
+    let history = rigid(&[("mu_1", "0.5"), ("P", "40 N")], "1 m/s", SimulateOptions::new(0.4));
+    let start = &history.events[0];
+    assert_eq!((start.successors.len(), start.taken), (2, Some(0)));
+    assert_eq!(start.successors[0].verdict, slideway::report::Verdict::Attainable);
+    assert_eq!(start.successors[1].verdict, slideway::report::Verdict::Unattainable);
+    let stops = times(&history, |cause| matches!(cause, Cause::Stops(_)));
+    assert_eq!(stops.len(), 1);
+    assert_orders("stop", &differences(&motions, stops[0], |motion| motion.lower[1].0), 0.98, 1.02);
+    let mut reader = history.reader();
+    let samples = motions[0].samples.iter().enumerate();
+    for (index, ElasticSample { time, .. }) in samples.filter(|(_, sample)| sample.time < 0.2) {
+        let sample = reader.at(*time).unwrap();
+        let place = sample.configuration.coordinates[0];
+        let place = differences(&motions, place, |motion| motion.samples[index].x);
+        if *time > stops[0] {
+            assert_eq!(sample.configuration.rates[0], 0.0);
+            assert_orders(&format!("place at {time} s"), &place[1..], 0.9, 1.1);
+            continue;
+        }
+        assert_orders(&format!("place at {time} s"), &place, 0.98, 1.02);
+        for k in 0..3 {
+            let force = sample.contacts[k].normal_force;
+            let force = differences(&motions, force, |motion| motion.samples[index].normal[k]);
+            assert_orders(&format!("force {k} at {time} s"), &force, 0.9, 1.1);
+        }
+    }
+}
+
+/// When the force turns back to the right, slideway's bar stays: some distribution of the normal forces can hold it. That of the
+/// elastic guides has been relieved by then, and they let it slide to the right, the stiffer ones too. This is what the book says of
+/// joints that stick.
+#[test]
+fn elastic_guides_let_go_where_static_friction_could_hold() {
+    let motions = elastic("several solutions");
+    let history = rigid(&[("mu_1", "0.5"), ("P", "40 N")], "1 m/s", SimulateOptions::new(0.4));
+    let place = history.reader().configuration(0.3).unwrap().coordinates[0];
+    let index = motions[0].samples.iter().position(|sample| sample.time == 0.3).unwrap();
+    let moved = differences(&motions, place, |motion| motion.samples[index].x);
+    assert!(moved[1..].iter().all(|moved| *moved > 0.015), "{moved:?}");
+}
+
+/// Started with a fifth of the way from the unattainable solution to the attainable one, stiff guides settle on the latter; started
+/// as far on the other side they stop the bar as if it were stuck, the sooner the stiffer they are.
+#[test]
+fn the_unattainable_solution_is_the_threshold_of_jamming() {
+    let history = rigid(&[("mu_1", "0.5"), ("P", "0 N")], "1 m/s", SimulateOptions::new(0.05));
+    let sample = history.reader().at(0.05).unwrap();
+    let (inside, outside) =
+        (elastic("beside the threshold, inside"), elastic("beside the threshold, outside"));
+    for motion in &inside[1..] {
+        assert_eq!(motion.lower.len(), 1, "it slides on");
+        let last = motion.samples.last().unwrap();
+        for (found, contact) in last.normal.iter().zip(&sample.contacts) {
+            assert!((found - contact.normal_force).abs() < 1e-4, "{found} {}", contact.normal_force);
+        }
+    }
+    let stops: Vec<f64> = outside.iter().map(|motion| motion.lower[1].0).collect();
+    // Forces grow exponentially on the scale 1/sqrt(stiffness): order 1/2, less for a logarithm.
+    assert_orders("time of the jam", &stops, 0.1, 0.5);
+}
+
+/// Sent to the left with mu_1 = 0.5 there is no solution: the elastic guides stop the bar within a time and a distance that fall
+/// with the stiffness, where slideway has an impulse, and keep it.
+#[test]
+fn elastic_guides_jam_dynamically() {
+    let motions = elastic("sent to the left");
+    let settings = [("mu_1", "0.5"), ("P", "40 N")];
+    let history = rigid(&settings, "-1 m/s", SimulateOptions::new(0.05));
+    assert!(matches!(history.events[0].causes.last(), Some(Cause::Jams { .. })), "{:#?}", words(&history));
+    assert_eq!(history.reader().configuration(0.05).unwrap().coordinates[0], 0.0);
+    let stops: Vec<f64> = motions.iter().map(|motion| motion.lower[1].0).collect();
+    // Forces grow exponentially on the scale 1/sqrt(stiffness): order 1/2, less for a logarithm.
+    assert_orders("stop", &stops, 0.25, 0.5);
+    let places: Vec<f64> = motions.iter().map(|motion| motion.samples[0].x).collect();
+    assert_orders("place", &places[1..], 0.2, 0.5);
+}
+
+/// mu_1 = 0.35: when the bar stops it can wedge itself or slide back. Elastic guides, which come from sliding with the forces of
+/// sliding, slide back, as `--prefer sliding` does.
+#[test]
+fn elastic_guides_slide_back_where_the_bar_could_wedge_itself() {
+    let motions = elastic("wedge or slide");
+    let settings = [("mu_1", "0.35"), ("P", "40 N")];
+    let sliding = rigid(&settings, "1 m/s", SLIDING(0.3));
+    let sticking = rigid(&settings, "1 m/s", SimulateOptions::new(0.3));
+    let stop = sticking.events[1].time;
+    assert_eq!(sticking.events[1].successors.len(), 2);
+    for motion in &motions {
+        assert_eq!(motion.lower[1].1, -1);
+    }
+    assert_orders("stop", &differences(&motions, stop, |motion| motion.lower[1].0), 0.9, 1.1);
+    let mut reader = sliding.reader();
+    for index in [1, 2] {
+        let time = motions[0].samples[index].time;
+        let place = reader.configuration(time).unwrap().coordinates[0];
+        let place = differences(&motions, place, |motion| motion.samples[index].x);
+        assert_orders(&format!("place at {time} s"), &place[1..], 0.4, 1.0);
+    }
 }

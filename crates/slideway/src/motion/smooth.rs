@@ -13,6 +13,8 @@ use crate::configuration::Velocity;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
+/// Where the equations have no solution at one of them, it is this part of the way nearer to the one before.
+const BESIDE: f64 = 0.1;
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
 /// Accuracy of a zero, as part of a step.
@@ -340,8 +342,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
     ) -> Result<Option<(f64, Vec<Cause>)>, Failure> {
         let mut left = 0.0;
         for (part, right) in INSIDE.into_iter().chain([1.0]).enumerate() {
+            let mut right = right;
             if part < INSIDE.len() {
-                self.evaluate_within(dense, right, step, Needs::Forces)?;
+                match self.evaluate_within(dense, right, step, Needs::Forces) {
+                    // Exactly where the equations have no solution; a little before they have one.
+                    Err(Failure::Singular) => {
+                        right -= BESIDE * (right - left);
+                        self.evaluate_within(dense, right, step, Needs::Forces)?;
+                    }
+                    evaluated => evaluated?,
+                }
                 let mut values = std::mem::take(&mut self.values);
                 let watched = self.watch_all(phase, decisions, &mut values[part + 1]);
                 self.values = values;
@@ -382,10 +392,12 @@ impl<'o, 'm> Smooth<'o, 'm> {
         for &index in fallen {
             let watched = self.watch.list[index];
             let values = [self.values[part][index], self.values[part + 1][index]];
-            let mut function = |fraction: f64| {
-                self.evaluate_within(dense, fraction, step, watched.needs())?;
-                self.value(watched, phase, decisions)
-            };
+            let mut function =
+                |fraction: f64| match self.evaluate_within(dense, fraction, step, watched.needs()) {
+                    // Where the equations have no solution forces are beyond all bounds: not before the zero.
+                    Err(Failure::Singular) => Ok(0.0),
+                    evaluated => evaluated.and_then(|()| self.value(watched, phase, decisions)),
+                };
             let bracket = if values[0] > 0.0 {
                 Some((ends, values))
             } else {

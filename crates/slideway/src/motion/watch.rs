@@ -18,6 +18,9 @@ const VELOCITY_TOLERANCE: f64 = 1e-10;
 const LENGTH_TOLERANCE: f64 = 1e-12;
 /// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as locked.
 const LOCKED: f64 = 1e-7;
+/// A block leaves its guide when so little of its length is supported: normal forces grow like the inverse of the overlap, and the
+/// equations can still be solved there.
+const LEAVES: f64 = 1e-6;
 
 /// A function that is watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +31,7 @@ pub(super) enum Watched {
     Share(ContactId, Side),
     /// The sliding velocity of a joint, counted in its direction; the joint's number among the sliding ones.
     Velocity(usize, f64),
-    /// The determinant of the mode, relative to the start of the phase.
+    /// The determinant of the mode, relative to the start of the phase, without what overlaps alone change.
     Determinant,
     /// How much the normal force of a contact may still grow.
     ReactionLimit(ContactId),
@@ -83,8 +86,8 @@ pub(super) struct Watch<'o> {
     pub(super) list: Vec<Watched>,
     user: &'o [UserEvent],
     reaction_limit: Option<f64>,
-    /// The determinant at the start of the phase.
-    reference: Determinant,
+    /// The determinant at the start of the phase, and the product of the overlaps.
+    reference: (Determinant, f64),
     /// The greatest so far.
     pub(super) magnitudes: Magnitudes,
 }
@@ -96,7 +99,7 @@ impl<'o> Watch<'o> {
             list: Vec::new(),
             user,
             reaction_limit,
-            reference: Determinant::default(),
+            reference: (Determinant::default(), 1.0),
             magnitudes: Magnitudes::default(),
         }
     }
@@ -104,7 +107,7 @@ impl<'o> Watch<'o> {
     /// Chooses what is watched in a phase that the equations have just entered.
     pub(super) fn begin(&mut self, phase: &Phase, equations: &Equations<'_>) {
         self.list.clear();
-        self.reference = equations.determinant();
+        self.reference = (equations.determinant(), overlaps(equations));
         let mechanism = equations.mechanism;
         for (index, joint) in equations.sliders.iter().enumerate() {
             let slider = mechanism.slider(*joint).expect("sliding joints slide");
@@ -181,7 +184,13 @@ impl<'o> Watch<'o> {
                 let contact = slider(equations.sliders[index]).contacts[0];
                 sign * equations.contacts[contact.index()].sliding_velocity
             }
-            Watched::Determinant => equations.determinant().relative_to(self.reference) - LOCKED,
+            Watched::Determinant => {
+                // Normal forces of both ends of a block become parallel as its overlap vanishes: the determinant falls with
+                // the square, as a row and a column of each pair do.
+                let (determinant, before) = self.reference;
+                let overlaps = before / overlaps(equations);
+                equations.determinant().relative_to(determinant) * overlaps * overlaps - LOCKED
+            }
             Watched::ReactionLimit(contact) => {
                 self.reaction_limit.unwrap_or(f64::INFINITY) - equations.normal_force(contact.index()).abs()
             }
@@ -193,8 +202,7 @@ impl<'o> Watch<'o> {
             Watched::Sticking => 0.0,
             Watched::Overlap(joint) => {
                 let slider = slider(joint);
-                // The state of a mechanism is refused from here on.
-                configuration.overlap(mechanism, slider).unwrap_or(slider.length) - 1e-9 * slider.length
+                configuration.overlap(mechanism, slider).unwrap_or(0.0) - LEAVES * slider.length
             }
             Watched::Travel(joint, end) => {
                 let slider = slider(joint);
@@ -220,4 +228,17 @@ impl<'o> Watch<'o> {
             Watched::Sticking | Watched::Determinant | Watched::User(..) => 0.0,
         }
     }
+}
+
+/// The product of the overlaps of all block sliders, relative to their lengths.
+fn overlaps(equations: &Equations<'_>) -> f64 {
+    let mechanism = equations.mechanism;
+    let sliders = equations.sliders.iter().filter_map(|joint| mechanism.slider(*joint));
+    let blocks = sliders.filter(|slider| slider.kind == SliderKind::Block);
+    blocks
+        .map(|slider| {
+            let overlap = equations.configuration.overlap(mechanism, slider).unwrap_or(0.0) / slider.length;
+            overlap.abs().max(LEAVES)
+        })
+        .product()
 }

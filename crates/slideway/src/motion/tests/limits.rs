@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::expression::{Names, parse};
 use crate::fault::{FaultKind, Faults};
 use crate::mechanism::Mechanism;
-use crate::model::Model;
+use crate::model::{Model, Settings};
 use crate::modes::Side;
 use crate::motion::{
     ContactPhase, Crossing, Decisions, End, EventFunction, Instant, Jam, JointPhase, Phase, SimulateOptions,
@@ -58,6 +58,36 @@ fn travel_ends_it() {
     assert!(matches!(history.end, End::TravelLimit(_)));
     assert!((history.stop() - (2.0 - 1.5_f64.sqrt()) / 2.5).abs() < 1e-11, "{}", history.stop());
     assert!(history.events[1].words.ends_with("guide reaches the greatest displacement of its travel"));
+}
+
+/// A drawer whose supported length of 0.4 m is that from its rear end to the mouth: pulled out at 0.1 m/s it leaves its guide after 4 s,
+/// with and without friction. (Normal forces and the determinant of the equations have no bounds there.)
+#[test]
+fn a_block_that_leaves_its_guide_ends_it() {
+    for mu in ["0", "0.3"] {
+        let settings = Settings::default().parameter("v", "-0.1 m/s").parameter("mu", mu);
+        let drawer = super::model_of("drawer").with(&settings).unwrap();
+        for longest_step in [6e-3, 0.5] {
+            let options = SimulateOptions { longest_step: Some(longest_step), ..SimulateOptions::new(6.0) };
+            let history = simulate(&drawer, &options).unwrap();
+            assert!(matches!(history.end, End::OverlapVanished(_)), "{mu}: {:?}", history.end);
+            // A millionth of the length is the end.
+            assert!((history.stop() - 4.0 * (1.0 - 1e-6)).abs() < 1e-9, "{mu}: {}", history.stop());
+            assert_eq!(history.events.len(), 2, "{mu}");
+        }
+    }
+}
+
+/// Without friction the cylinder of the third stage pushes it out of the boom: F = 400 N on 20 kg and W = 300 N with its component along
+/// the boom, against the stage before.
+#[test]
+fn a_boom_without_friction_comes_apart() {
+    let boom = super::model_of("telescopic-boom").with(&Settings::default().parameter("mu", "0")).unwrap();
+    let history = simulate(&boom, &SimulateOptions::new(1.0)).unwrap();
+    assert!(matches!(history.end, End::OverlapVanished(_)), "{:?}", history.end);
+    let third = history.reader().configuration(history.stop()).unwrap().coordinates[2];
+    assert!((third - 0.6 * (1.0 - 1e-6)).abs() < 1e-8, "{third}");
+    assert!(history.energy_error < 1e-8 * history.energy_scale, "{:e}", history.energy_error);
 }
 
 #[test]
