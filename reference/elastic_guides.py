@@ -21,8 +21,7 @@ block has no mass, so b' follows from its balance of moments: with the lever w_k
 
     sum w_k N_k = 0,     N_k = n_k - C x_k b',     n_k = -K (y + x_k b) - C y'.
 
-Small angles a and b are exact in the sense that the difference is of order 1/K, as elastic guides are. Integrated with Radau's
-method of order 5 from event to event.
+The tilt b of the block is taken as small. Integrated with Radau's method of order 5 from event to event.
 """
 import itertools
 import math
@@ -46,8 +45,8 @@ RTOL = 1e-10
 class Guides:
     """The mechanism with one stiffness (N/m), one friction coefficient of the upper slot and one force."""
 
-    def __init__(self, stiffness, mu, force, at_lower_end, frequency=FREQUENCY):
-        self.k, self.mu, self.force, self.frequency = stiffness, mu, force, frequency
+    def __init__(self, stiffness, mu, force, at_lower_end):
+        self.k, self.mu, self.force = stiffness, mu, force
         self.lever = 0.0 if at_lower_end else L / 2
         self.c = math.sqrt(stiffness * M)
 
@@ -112,7 +111,7 @@ class Guides:
         length = math.hypot(*to_s)
         unit = to_s / length
         tension = K_SPRING * (length - FREE) + DAMPER * unit @ velocity
-        push = self.force * math.sin(2 * math.pi * self.frequency * t)
+        push = self.force * math.sin(2 * math.pi * FREQUENCY * t)
         n_1 = self.upper_force(state)
         # accelerations of S; moments about S with B at +l/2 and A at -l/2 along the bar
         sx = (upper + lower + push - tension * unit[0]) / M
