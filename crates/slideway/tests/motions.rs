@@ -288,8 +288,8 @@ fn elastic_guides_converge_over_reversals() {
 }
 
 /// With the force at the lower end contacts change side while they slide on: all of it smooth, so of order 1. (At 1e5 N/m the motion
-/// is not yet near the rigid one. At the first change the guides still swing from the start, and normal forces swing for a while after
-/// each change: those at 0.05 s and 0.09 s are not near one.)
+/// is not yet near the rigid one. At the first change the guides still swing from the start, at the third, 10 ms behind the second, from
+/// that one: their times come nearer, but with no order that would be theirs. Normal forces at 0.05 s and 0.09 s are not near a change.)
 #[test]
 fn elastic_guides_converge_over_changes_of_side() {
     let motions = elastic("force below");
@@ -303,9 +303,10 @@ fn elastic_guides_converge_over_changes_of_side() {
     // The ends of the lower block change side together.
     assert!(motions[1..].iter().all(|motion| motion.zeros.len() == 4 && motion.lower.len() == 1));
     let change = |index: usize| differences(&motions, changes[index], |motion| motion.zeros[index]);
-    assert!(change(0).windows(2).all(|pair| pair[1].abs() < 0.2 * pair[0].abs()), "{:?}", change(0));
-    for index in [1, 2] {
-        assert_orders(&format!("change of side {index}"), &change(index)[1..], 0.9, 1.25);
+    assert_orders("change of side 1", &change(1)[1..], 0.9, 1.1);
+    for index in [0, 2] {
+        let difference = change(index);
+        assert!(difference.windows(2).all(|pair| pair[1].abs() < 0.2 * pair[0].abs()), "{difference:?}");
     }
     let mut reader = history.reader();
     for (index, ElasticSample { time, .. }) in motions[0].samples.iter().enumerate() {
@@ -361,7 +362,7 @@ fn elastic_guides_keep_the_attainable_solution() {
         let place = sample.configuration.coordinates[0];
         let place = differences(&motions, place, |motion| motion.samples[index].x);
         if *time > stops[0] {
-            assert_eq!(sample.configuration.rates[0], 0.0);
+            assert!(sample.configuration.rates[0].abs() < 1e-12);
             assert_orders(&format!("place at {time} s"), &place[1..], 0.9, 1.1);
             continue;
         }
