@@ -5,7 +5,7 @@ use super::event::Cause;
 use super::history::{End, History};
 use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
-use super::root::falling_root;
+use super::root::{dip, falling_root};
 use super::rules::{Decisions, Hold};
 use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::watch::{Needs, Watch, Watched};
@@ -13,6 +13,8 @@ use crate::configuration::Velocity;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
+/// Both together.
+const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
 /// Accuracy of a zero, as part of a step.
@@ -338,50 +340,71 @@ impl<'o, 'm> Smooth<'o, 'm> {
         dense: &[f64],
         step: f64,
     ) -> Result<Option<(f64, Vec<Cause>)>, Failure> {
-        let mut left = 0.0;
-        for (part, right) in INSIDE.into_iter().chain([1.0]).enumerate() {
-            if part < INSIDE.len() {
-                self.evaluate_within(dense, right, step, Needs::Forces)?;
-                let mut values = std::mem::take(&mut self.values);
-                let watched = self.watch_all(phase, decisions, &mut values[part + 1]);
-                self.values = values;
-                watched?;
-            }
-            let fallen: Vec<usize> =
-                (0..self.watch.list.len()).filter(|index| self.has_fallen(part, *index)).collect();
-            if !fallen.is_empty() {
-                return self
-                    .locate(phase, decisions, (dense, step), ([left, right], part, &fallen))
-                    .map(Some);
-            }
-            left = right;
+        for (part, fraction) in INSIDE.into_iter().enumerate() {
+            self.evaluate_within(dense, fraction, step, Needs::Forces)?;
+            let mut values = std::mem::take(&mut self.values);
+            let watched = self.watch_all(phase, decisions, &mut values[part + 1]);
+            self.values = values;
+            watched?;
         }
-        Ok(None)
+        let mut falls = self.falls_between_samples();
+        let until = falls.first().map_or(1.0, |fall| fall.ends[0]);
+        for index in 0..self.watch.list.len() {
+            let samples = std::array::from_fn(|sample| self.values[sample][index]);
+            let Some(place) = dip(samples).filter(|place| *place < until) else { continue };
+            let watched = self.watch.list[index];
+            self.evaluate_within(dense, place, step, watched.needs())?;
+            let value = self.value(watched, phase, decisions)?;
+            let before = SAMPLES.iter().rposition(|fraction| *fraction < place).unwrap_or(0);
+            let fall =
+                Fall { index, ends: [SAMPLES[before], place], values: [self.values[before][index], value] };
+            falls.extend(self.is_below(&fall).then_some(fall));
+        }
+        if falls.is_empty() {
+            return Ok(None);
+        }
+        self.locate(phase, decisions, (dense, step), &falls).map(Some)
     }
 
-    /// Whether a function is below zero behind a part of the step, beyond rounding where it was not above zero before.
-    fn has_fallen(&self, part: usize, index: usize) -> bool {
-        let (before, after) = (self.values[part][index], self.values[part + 1][index]);
-        if let Watched::User(..) = self.watch.list[index] {
+    /// What has fallen from one sample of the step to the next, where something does for the first time.
+    fn falls_between_samples(&self) -> Vec<Fall> {
+        let mut falls = Vec::new();
+        for part in 0..SAMPLES.len() - 1 {
+            let ends = [SAMPLES[part], SAMPLES[part + 1]];
+            let one = |index: usize| {
+                let values = [self.values[part][index], self.values[part + 1][index]];
+                Fall { index, ends, values }
+            };
+            falls.extend((0..self.watch.list.len()).map(one).filter(|fall| self.is_below(fall)));
+            if !falls.is_empty() {
+                break;
+            }
+        }
+        falls
+    }
+
+    /// Whether a function is below zero at the end, beyond rounding where it was not above zero before.
+    fn is_below(&self, fall: &Fall) -> bool {
+        let [before, after] = fall.values;
+        if let Watched::User(..) = self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
             return after <= 0.0 && before > USER_ZERO * after.abs();
         }
-        let tolerance = self.watch.tolerance(self.watch.list[index], &self.equations);
+        let tolerance = self.watch.tolerance(self.watch.list[fall.index], &self.equations);
         if before > tolerance { after <= 0.0 } else { after < -tolerance && after < before }
     }
 
-    /// The least of the zeros between two fractions, and everything that vanishes there.
+    /// The least of the zeros of what falls, and everything that vanishes there.
     fn locate(
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
         (dense, step): (&[f64], f64),
-        (ends, part, fallen): ([f64; 2], usize, &[usize]),
+        falls: &[Fall],
     ) -> Result<(f64, Vec<Cause>), Failure> {
-        let mut zeros = Vec::with_capacity(fallen.len());
-        for &index in fallen {
+        let mut zeros = Vec::with_capacity(falls.len());
+        for &Fall { index, ends, values } in falls {
             let watched = self.watch.list[index];
-            let values = [self.values[part][index], self.values[part + 1][index]];
             let mut function = |fraction: f64| {
                 self.evaluate_within(dense, fraction, step, watched.needs())?;
                 self.value(watched, phase, decisions)
@@ -456,7 +479,19 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let bodies = 3 * velocities.len();
         let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
+        self.equations.place(self.time, &self.state);
     }
+}
+
+/// A watched function that is below zero at the end of a part of a step.
+#[derive(Debug, Clone, Copy)]
+struct Fall {
+    /// Its number in the list.
+    index: usize,
+    /// Where the part begins and ends, as fractions of the step.
+    ends: [f64; 2],
+    /// Its values there.
+    values: [f64; 2],
 }
 
 /// Two places, and the values of a function there.
