@@ -17,6 +17,11 @@ const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
 const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
+/// What would fall through zero at the very start of a step, though it has been decided that it rises there, is looked at again
+/// in a step that is shorter by this factor: what happens is smaller than the errors of the longer one. ...
+const SHORTER: f64 = 0.1;
+/// ... Not in steps below this part of the longest.
+const SHORTEST: f64 = 1e-12;
 /// Accuracy of a zero, as part of a step.
 const ROOT_TOLERANCE: f64 = 1e-13;
 /// A function of the user that is below this multiple of its next value has just passed zero.
@@ -202,6 +207,12 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 self.next = step * self.control.accepted(error);
                 self.advance(step);
                 self.values.swap(0, 3);
+                None
+            }
+            Ok(Some((fraction, _))) if fraction <= 0.0 && step > SHORTEST * self.longest => {
+                history.dense.truncate(first);
+                history.statistics.rejected += 1;
+                self.next = SHORTER * step;
                 None
             }
             Ok(Some((fraction, causes))) => {

@@ -1,7 +1,7 @@
 //! Jams in mid-motion, and stops just before a place where friction locks.
 //!
 //! The drawer of the gallery in closed form. With c = 2 mu e, the spring's push P = k (x_s - x), the friction F = 2 mu |N| and
-//! N = N_rear = -N_front, moments about the mass centre give N (L - x) = e (P - F): while it opens
+//! N = N_rear = -N_front, moments about the mass centre give N (L - x) = e (P - F). While it opens
 //!
 //! ```text
 //! P > 0   N > 0    N (L - x + c) = e P     m x'' = W + P (L - x)/(L - x + c)
@@ -92,7 +92,7 @@ fn the_drawer_jams_where_its_spring_is_slack() {
     assert!(event.words.contains("it jams: an impulse stops it and takes 2.9"), "{}", event.words);
     assert!(event.words.ends_with("guide stops and sticks"), "{}", event.words);
     let last = history.reader().at(1.0).unwrap().configuration;
-    assert_eq!(last.rates, [0.0]);
+    assert!(last.rates[0].abs() < 1e-15, "{:?}", last.rates);
     assert!((last.coordinates[0] - 0.3).abs() < 1e-9, "{:?}", last.coordinates);
     assert!(history.energy_error < 1e-7 * energy, "{:e}", history.energy_error);
 }
@@ -108,8 +108,8 @@ fn the_impulse_on_the_drawer_is_that_of_its_derivation() {
         let friction: f64 = impulse.friction_impulses.iter().map(|friction| friction.total()).sum();
         let normal = OFFSET * MASS * 1.5 / (LENGTH - 0.3);
         assert!((friction - MASS * 1.5).abs() < 1e-10, "{impulse:?}");
-        assert!((impulse.normal_impulses[0] + normal).abs() < 1e-10, "{impulse:?}");
-        assert!((impulse.normal_impulses[1] - normal).abs() < 1e-10, "{impulse:?}");
+        assert!((impulse.normal_impulses[0] - normal).abs() < 1e-10, "{impulse:?}");
+        assert!((impulse.normal_impulses[1] + normal).abs() < 1e-10, "{impulse:?}");
         assert!((impulse.energy_lost - MASS * 1.5 * 1.5 / 2.0).abs() < 1e-10);
     }
 }
@@ -200,13 +200,13 @@ mass = "4 kg"
 centre_of_mass = "load"
 moment_of_inertia = "0.1 kg m^2"
 [joints.castors]
-type = "guided_slider"
+type = "block_slider"
 block = "carcass"
 at = "middle"
 along = "0 deg"
 length = "2 m"
 mu = 0
-preload = "2 N"
+preload = "1 N"
 [joints.guide]
 type = "block_slider"
 block = "drawer"
@@ -236,9 +236,13 @@ rate = "0.2 m/s"
 #[test]
 fn a_jam_in_a_rolling_carcass_stops_the_drawer_alone() {
     let history = simulate(&Model::parse(ROLLING).unwrap(), &SimulateOptions::new(30.0)).unwrap();
-    assert_eq!(history.end, End::Finished);
-    assert_eq!(joints(&history), [[SLIDES, SLIDES], [SLIDES, STICKS], [STICKS, STICKS]]);
-    let [_, jams, stops] = &history.events[..] else { panic!("{:#?}", history.events) };
+    assert_eq!(history.end, End::Finished, "{:#?}", history.events);
+    // With the reactions of the drawer those of the castors change sides, at the very instant.
+    let mut joints = joints(&history);
+    joints.dedup();
+    assert_eq!(joints, [[SLIDES, SLIDES], [SLIDES, STICKS], [STICKS, STICKS]]);
+    let jams = history.events.iter().find(|event| energy_lost(event).is_some()).unwrap();
+    let stops = history.events.last().unwrap();
     let (carcass, resistance) = (10.0, 2.0);
     let total = MASS + carcass;
     let reduced = MASS * carcass / total;
