@@ -17,11 +17,8 @@ const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
 const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
-/// What would fall through zero at the very start of a step, though it has been decided that it rises there, is looked at again
-/// in a step that is shorter by this factor: what happens is smaller than the errors of the longer one. ...
-const SHORTER: f64 = 0.1;
-/// ... Not in steps below this part of the longest.
-const SHORTEST: f64 = 1e-12;
+/// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors of steps.
+const STOPPED: f64 = 0.01;
 /// Accuracy of a zero, as part of a step.
 const ROOT_TOLERANCE: f64 = 1e-13;
 /// A function of the user that is below this multiple of its next value has just passed zero.
@@ -209,16 +206,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 self.values.swap(0, 3);
                 None
             }
-            Ok(Some((fraction, _))) if fraction <= 0.0 && step > SHORTEST * self.longest => {
-                history.dense.truncate(first);
-                history.statistics.rejected += 1;
-                self.next = SHORTER * step;
-                None
-            }
             Ok(Some((fraction, causes))) => {
                 history.dense.truncate(first);
                 self.next = step;
                 match self.stop_at(fraction * step, history) {
+                    Ok(()) if fraction > 0.0 && self.still_slides(phase, &causes) => {
+                        self.go_on(fraction * step, phase, decisions)
+                    }
                     Ok(()) => Some(Ended::Event(causes)),
                     Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
                     Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
@@ -301,6 +295,35 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.stepper.describe(step, &self.state, &mut history.dense);
         self.advance(step);
         Ok(())
+    }
+
+    /// Whether a joint that should have stopped at the end of the step slides on, much faster than errors of steps are: its
+    /// stop was found on a solution within a longer step that did not resolve it.
+    fn still_slides(&self, phase: &Phase, causes: &[Cause]) -> bool {
+        let little = self.tolerance * self.watch.magnitudes.velocity;
+        let only_stops = causes.iter().all(|cause| matches!(cause, Cause::Stops(_)));
+        only_stops
+            && self.watch.list.iter().enumerate().any(|(index, watched)| {
+                let Watched::Velocity(joint, _) = *watched else { return false };
+                let samples = self.values.iter().filter_map(|values| values.get(index));
+                let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
+                let stops = causes.contains(&Cause::Stops(self.equations.sliders[joint]));
+                let velocity = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0);
+                stops && velocity > little && velocity > STOPPED * greatest
+            })
+    }
+
+    /// Goes on in the same phase from where a shortened step has ended, in steps of half its length.
+    fn go_on(&mut self, step: f64, phase: &Phase, decisions: &mut dyn Decisions) -> Option<Ended> {
+        self.next = step / 2.0;
+        let mut values = std::mem::take(&mut self.values);
+        let watched = self.watch_all(phase, decisions, &mut values[0]);
+        self.values = values;
+        match watched {
+            Ok(()) => None,
+            Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
+            Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
+        }
     }
 
     fn advance(&mut self, step: f64) {
