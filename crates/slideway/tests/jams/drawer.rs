@@ -162,7 +162,7 @@ fn the_drawer_stops_regularly_before_it_locks() {
     }
 }
 
-/// Slack 1 mm before L - c: to take its energy the reactions would need to come within e^-260 of that millimetre. It counts as
+/// Slack 1 mm before L - c: to take its energy the reactions would need to come within e^-265 of that millimetre. It counts as
 /// locked at a billionth; until there friction and spring have taken what the integral says, the impulse takes the rest.
 #[test]
 fn the_drawer_reaches_the_place_where_it_locks() {
