@@ -13,7 +13,7 @@ use crate::configuration::Velocity;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
-/// Both together.
+/// These and the ends of the step.
 const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
