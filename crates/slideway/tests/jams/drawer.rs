@@ -254,7 +254,7 @@ fn a_jam_in_a_rolling_carcass_stops_the_drawer_alone() {
     let mut reader = history.reader();
     let together = reader.configuration(jams.time + 1e-9).unwrap().clone();
     assert!((together.rates[0] - momentum / total).abs() < 1e-6, "{:?}", together.rates);
-    assert!((together.coordinates[1] - 0.3).abs() < 1e-8 && together.rates[1] == 0.0, "{together:?}");
+    assert!((together.coordinates[1] - 0.3).abs() < 1e-8 && together.rates[1].abs() < 1e-14);
     assert!((stops.time - jams.time - momentum / resistance).abs() < 1e-5, "{}", stops.time);
     assert!((reader.configuration(30.0).unwrap().coordinates[1] - 0.3).abs() < 1e-8);
     assert!(jams.words.contains("guide stops and sticks"), "{}", jams.words);
