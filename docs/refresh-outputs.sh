@@ -85,6 +85,7 @@ show telescopic-boom.txt 0 solve models/telescopic-boom.toml
 show klepp-2002-spring.txt 0 solve models/klepp-2002-spring.toml
 show frictional-oscillator.txt 0 solve models/frictional-oscillator.toml
 show stick-slip.txt 0 solve models/stick-slip.toml
+show thrown-drawer.txt 0 solve models/thrown-drawer.toml
 
 # The command line.
 show help.txt 0 --help
@@ -119,6 +120,10 @@ show hold-cam.txt 1 hold models/cam-follower.toml --load cam
 show help-simulate.txt 0 simulate --help
 show simulate-oscillator.txt 0 simulate models/frictional-oscillator.toml --until 3s
 show simulate-stick-slip.txt 0 simulate models/stick-slip.toml --until 2s
+show simulate-drawer-jam.txt 0 simulate models/thrown-drawer.toml --until 0.6s
+show simulate-drawer-stop.txt 0 simulate models/thrown-drawer.toml --until 0.6s --set "x_s=0.2 m"
+show simulate-drawer-locks.txt 0 simulate models/thrown-drawer.toml --until 0.6s --set "x_s=0.255 m"
+show limits-drawer-thrown.txt 0 limits models/thrown-drawer.toml --vary "x=0 m..0.39 m"
 show simulate-klepp.txt 0 simulate models/klepp-2002-spring.toml --until 1s
 show simulate-klepp-locked.txt 0 simulate models/klepp-2002-spring.toml --until 10s --set mu_1=0.6 --prefer sliding
 show simulate-klepp-jam.txt 0 simulate models/klepp-2002-spring.toml --until 10s --set mu_1=0.6 --set direction=-1

@@ -61,8 +61,12 @@ motion() {
 
 motion motion-oscillator.svg --plot models/frictional-oscillator.toml --until 2s
 motion motion-stick-slip.svg --plot models/stick-slip.toml --until 4s
+motion motion-drawer-jam.svg --plot models/thrown-drawer.toml --until 0.6s
+motion motion-drawer-stop.svg --plot models/thrown-drawer.toml --until 0.6s --set "x_s=0.2 m"
 motion motion-klepp.svg --plot models/klepp-2002-spring.toml --until 2s
 motion animation-oscillator.svg --animate models/frictional-oscillator.toml --until 1.6s --slow-motion 5
 motion animation-stick-slip.svg --animate models/stick-slip.toml --until 2s --slow-motion 4
 motion animation-klepp.svg --animate models/klepp-2002-spring.toml --until 1s --slow-motion 8
+motion animation-drawer.svg --animate models/thrown-drawer.toml --until 0.5s --slow-motion 10
+draw drawer-before-the-jam.svg models/thrown-drawer.toml --at x=0.29 --rate x=1.2 --solution 2
 draw motion-near-the-jam.svg models/klepp-2002-spring.toml --set mu_1=0.44 --set direction=-1

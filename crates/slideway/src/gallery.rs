@@ -35,6 +35,7 @@ pub const MODELS: &[GalleryModel] = gallery![
     "telescopic-boom",
     "frictional-oscillator",
     "stick-slip",
+    "thrown-drawer",
 ];
 
 impl GalleryModel {

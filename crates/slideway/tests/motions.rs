@@ -140,10 +140,12 @@ const SLIDING: fn(f64) -> SimulateOptions =
 
 /// Klepp (2002), section 7, without preload: moving to the left the example has a solution up to mu_1* = 2 cot(80 deg) + 0.1 =
 /// 0.45265396. Below it moves to and fro if the force is great enough, and as long as sliding is preferred to wedging. (Friction
-/// to the left grows with 1/(mu_1* - mu_1), whatever the force: 114 N at 0.44.)
+/// to the left grows with 1/(mu_1* - mu_1), whatever the force: 114 N at 0.44, 15 kN at mu_1* - 0.0001.)
 #[test]
 fn the_example_moves_to_and_fro_below_its_locking_value() {
-    for (mu, force) in [("0.2", "40 N"), ("0.3", "40 N"), ("0.4", "80 N"), ("0.44", "400 N")] {
+    let below =
+        [("0.2", "40 N"), ("0.3", "40 N"), ("0.4", "80 N"), ("0.44", "400 N"), ("0.45255396", "20 kN")];
+    for (mu, force) in below {
         let history = history("klepp-2002-spring", &[("mu_1", mu), ("P", force)], &SLIDING(2.0));
         assert_eq!(history.end, End::Finished, "{mu}");
         assert!(slides_to_the_left(&history), "{mu} {:#?}", words(&history));
@@ -151,11 +153,11 @@ fn the_example_moves_to_and_fro_below_its_locking_value() {
     }
 }
 
-/// Above mu_1* it stops regularly, and no force brings it back to the left.
+/// Above mu_1* it stops regularly, and no force brings it back to the left, not even one that does 0.0002 below.
 #[test]
 fn the_example_cannot_start_its_return_stroke_above_its_locking_value() {
-    for mu in ["0.4527", "0.5", "0.6"] {
-        let history = history("klepp-2002-spring", &[("mu_1", mu), ("P", "400 N")], &SLIDING(2.0));
+    for (mu, force) in [("0.45275396", "20 kN"), ("0.5", "400 N"), ("0.6", "400 N")] {
+        let history = history("klepp-2002-spring", &[("mu_1", mu), ("P", force)], &SLIDING(2.0));
         assert_eq!(history.end, End::Finished, "{mu}");
         assert!(!slides_to_the_left(&history), "{mu} {:#?}", words(&history));
         assert!(!times(&history, |cause| matches!(cause, Cause::Stops(_))).is_empty(), "{mu}");

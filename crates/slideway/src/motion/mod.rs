@@ -8,9 +8,9 @@
 //! # What is watched
 //! Within a phase: normal forces, shares in preload gaps, sliding velocities, the determinant of the mode, couples of
 //! guided sliders, how much friction is left to joints that stick, overlaps, travel limits, functions of the user. They
-//! are evaluated at both ends of each step and at its thirds; where one has fallen below zero its zero is found on the
-//! solution within the step. So a function that falls below zero and rises again between two of these places can be
-//! missed: [`SimulateOptions::longest_step`] bounds that.
+//! are evaluated at both ends of each step and at its thirds, and where the cubic through these values has a minimum near
+//! zero; where one has fallen below zero its zero is found on the solution within the step. A function that swings faster than
+//! that, so that no cubic shows it, can be missed: [`SimulateOptions::longest_step`] bounds that.
 //!
 //! ```
 //! use slideway::model::{Model, Settings};

@@ -13,8 +13,8 @@ pub struct SimulateOptions {
     pub duration: f64,
     /// Relative error of each step: of positions against the size of the mechanism, of velocities against the greatest.
     pub tolerance: f64,
-    /// The longest step (s); a thousandth of the duration if nothing is given. What happens and is undone within a third
-    /// of a step can be missed.
+    /// The longest step (s); a thousandth of the duration if nothing is given. What passes zero and returns within a third
+    /// of a step is found where the cubic through four values in the step shows it; what swings faster can be missed.
     pub longest_step: Option<f64>,
     /// Steps after which the simulation ends.
     pub most_steps: usize,

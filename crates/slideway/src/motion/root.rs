@@ -1,4 +1,4 @@
-//! Where a continuous function falls through zero.
+//! Where a continuous function falls through zero, and where it might between values above zero.
 
 /// The least place at which a function that is positive at `left` and not at `right` is found not to be positive any
 /// more, to within `tolerance`; the function is not positive at the place that is returned.
@@ -39,6 +39,34 @@ pub(super) fn falling_root<E>(
     Ok(right)
 }
 
+/// A dip to less than this part of the range of the values is looked at.
+const NEAR: f64 = 0.1;
+
+/// Where the cubic through four values at the fractions 0, 1/3, 2/3 and 1 has its least value between them, if it comes near
+/// zero or below it there.
+///
+/// In Bernstein form the cubic lies within the hull of its four coefficients, so that most functions take no more than two
+/// of these.
+pub(super) fn dip([first, second, third, last]: [f64; 4]) -> Option<f64> {
+    // p(1/3) and p(2/3) of p(f) = (1-f)^3 first + 3 (1-f)^2 f one + 3 (1-f) f^2 two + f^3 last, solved for `one` and `two`.
+    let one = (18.0 * second - 9.0 * third + 2.0 * last - 5.0 * first) / 6.0;
+    let two = (18.0 * third - 9.0 * second + 2.0 * first - 5.0 * last) / 6.0;
+    let values = [first, second, third, last];
+    let least = values.into_iter().fold(f64::INFINITY, f64::min);
+    let near = NEAR * (values.into_iter().fold(f64::NEG_INFINITY, f64::max) - least);
+    if one > near && two > near {
+        return None;
+    }
+    // p(f) = first + linear f + square f^2 + cube f^3; of the zeros of p' the minimum is the one with p'' > 0.
+    let linear = 3.0 * (one - first);
+    let square = 3.0 * (first - 2.0 * one + two);
+    let cube = last - first + 3.0 * (one - two);
+    let root = (square * square - 3.0 * cube * linear).sqrt();
+    let place = -linear / (square + root);
+    let value = first + place * (linear + place * (square + place * cube));
+    (place > 0.0 && place < 1.0 && value <= near).then_some(place)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,5 +103,24 @@ mod tests {
         // A jump: log2(1 / 2e-12) = 39 bisections.
         let (found, jump) = root([0.0, 1.0], |x| if x < 0.3 { 1.0 } else { -1e-9 });
         assert!((found - 0.3).abs() < 3e-12 && jump <= 42, "{found} {jump}");
+    }
+
+    #[test]
+    fn dips_of_cubics_are_found_where_they_are() {
+        let samples = |p: fn(f64) -> f64| dip([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(p));
+        // Least values by hand: below zero between two values above it, just above zero, far above, at an end.
+        for (place, p) in [
+            (0.5, (|f| (f - 0.5).powi(2) - 0.01) as fn(f64) -> f64),
+            (0.2, |f| (f - 0.2).powi(2) * (f + 1.0)),
+            (0.85, |f| (f - 0.85).powi(2) + 0.001),
+        ] {
+            let found = samples(p);
+            assert!(found.is_some_and(|found| (found - place).abs() < 1e-14), "{found:?} {place}");
+        }
+        for p in
+            [(|f| (f - 0.5).powi(2) + 0.1) as fn(f64) -> f64, |f| f, |f| 1.0 - f, |_| 1.0, |_| 0.0, |f| f * f]
+        {
+            assert_eq!(samples(p), None);
+        }
     }
 }

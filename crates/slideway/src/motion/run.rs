@@ -196,7 +196,8 @@ impl<'a, 'm> Run<'a, 'm> {
                 previous: previous.as_ref(),
             };
             let successors = self.decisions.successors(&instant)?;
-            let successors = without_held(successors, &causes, previous.as_ref());
+            let mechanism = self.smooth.equations.mechanism;
+            let successors = without_ended(mechanism, successors, &causes, previous.as_ref());
             if !successors.is_empty() {
                 let taken = self.choose(&successors)?;
                 self.tell(causes, successors, taken);
@@ -301,16 +302,23 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 }
 
-/// Without the phases in which all joints stick that have just found that they cannot.
-fn without_held(
+/// Without the phases that have just come to their end: in which all joints stick that cannot any longer, or whose
+/// determinant vanishes.
+fn without_ended(
+    mechanism: &Mechanism,
     mut successors: Vec<Successor>,
     causes: &[Cause],
     previous: Option<&Phase>,
 ) -> Vec<Successor> {
-    if let Some(previous) = previous
-        && causes.contains(&Cause::Slips)
-    {
+    let Some(previous) = previous else { return successors };
+    if causes.contains(&Cause::Slips) {
         successors.retain(|successor| successor.phase.joints != previous.joints);
+    }
+    if causes.contains(&Cause::Locks) {
+        let pattern = previous.pattern(mechanism);
+        successors.retain(|Successor { phase, .. }| {
+            phase.joints != previous.joints || phase.pattern(mechanism) != pattern
+        });
     }
     successors
 }

@@ -5,7 +5,7 @@ use super::event::Cause;
 use super::history::{End, History};
 use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
-use super::root::falling_root;
+use super::root::{dip, falling_root};
 use super::rules::{Decisions, Hold};
 use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::watch::{Needs, Watch, Watched};
@@ -15,8 +15,12 @@ use crate::configuration::Velocity;
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
 /// Where the equations have no solution at one of them, it is this part of the way nearer to the one before.
 const BESIDE: f64 = 0.1;
+/// These and the ends of the step.
+const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
+/// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors of steps.
+const STOPPED: f64 = 0.01;
 /// Accuracy of a zero, as part of a step.
 const ROOT_TOLERANCE: f64 = 1e-13;
 /// A function of the user that is below this multiple of its next value has just passed zero.
@@ -208,6 +212,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 history.dense.truncate(first);
                 self.next = step;
                 match self.stop_at(fraction * step, history) {
+                    Ok(()) if fraction > 0.0 && self.still_slides(phase, &causes) => {
+                        self.go_on(fraction * step, phase, decisions)
+                    }
                     Ok(()) => Some(Ended::Event(causes)),
                     Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
                     Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
@@ -292,6 +299,35 @@ impl<'o, 'm> Smooth<'o, 'm> {
         Ok(())
     }
 
+    /// Whether a joint that should have stopped at the end of the step slides on, much faster than errors of steps are: its
+    /// stop was found on a solution within a longer step that did not resolve it.
+    fn still_slides(&self, phase: &Phase, causes: &[Cause]) -> bool {
+        let little = self.tolerance * self.watch.magnitudes.velocity;
+        let only_stops = causes.iter().all(|cause| matches!(cause, Cause::Stops(_)));
+        only_stops
+            && self.watch.list.iter().enumerate().any(|(index, watched)| {
+                let Watched::Velocity(joint, _) = *watched else { return false };
+                let samples = self.values.iter().filter_map(|values| values.get(index));
+                let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
+                let stops = causes.contains(&Cause::Stops(self.equations.sliders[joint]));
+                let velocity = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0);
+                stops && velocity > little && velocity > STOPPED * greatest
+            })
+    }
+
+    /// Goes on in the same phase from where a shortened step has ended, in steps of half its length.
+    fn go_on(&mut self, step: f64, phase: &Phase, decisions: &mut dyn Decisions) -> Option<Ended> {
+        self.next = step / 2.0;
+        let mut values = std::mem::take(&mut self.values);
+        let watched = self.watch_all(phase, decisions, &mut values[0]);
+        self.values = values;
+        match watched {
+            Ok(()) => None,
+            Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
+            Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
+        }
+    }
+
     fn advance(&mut self, step: f64) {
         let rest = self.end - self.time;
         self.time = if step >= rest { self.end } else { self.time + step };
@@ -340,58 +376,102 @@ impl<'o, 'm> Smooth<'o, 'm> {
         dense: &[f64],
         step: f64,
     ) -> Result<Option<(f64, Vec<Cause>)>, Failure> {
-        let mut left = 0.0;
-        for (part, right) in INSIDE.into_iter().chain([1.0]).enumerate() {
-            let mut right = right;
+        let mut places = SAMPLES;
+        let mut falls = Vec::new();
+        for part in 0..SAMPLES.len() - 1 {
             if part < INSIDE.len() {
-                match self.evaluate_within(dense, right, step, Needs::Forces) {
-                    // Exactly where the equations have no solution; a little before they have one.
-                    Err(Failure::Singular) => {
-                        right -= BESIDE * (right - left);
-                        self.evaluate_within(dense, right, step, Needs::Forces)?;
-                    }
-                    evaluated => evaluated?,
-                }
-                let mut values = std::mem::take(&mut self.values);
-                let watched = self.watch_all(phase, decisions, &mut values[part + 1]);
-                self.values = values;
-                watched?;
+                self.sample(phase, decisions, (dense, step), (part + 1, &mut places))?;
             }
-            let fallen: Vec<usize> =
-                (0..self.watch.list.len()).filter(|index| self.has_fallen(part, *index)).collect();
-            if !fallen.is_empty() {
-                return self
-                    .locate(phase, decisions, (dense, step), ([left, right], part, &fallen))
-                    .map(Some);
+            falls = self.falls_between([places[part], places[part + 1]], part);
+            if !falls.is_empty() {
+                break;
             }
-            left = right;
         }
-        Ok(None)
+        let until = falls.first().map_or(1.0, |fall| fall.ends[0]);
+        if until > 0.0 && places == SAMPLES {
+            self.add_dips(phase, decisions, (dense, step), (until, &mut falls))?;
+        }
+        if falls.is_empty() {
+            return Ok(None);
+        }
+        self.locate(phase, decisions, (dense, step), &falls).map(Some)
     }
 
-    /// Whether a function is below zero behind a part of the step, beyond rounding where it was not above zero before.
-    fn has_fallen(&self, part: usize, index: usize) -> bool {
-        let (before, after) = (self.values[part][index], self.values[part + 1][index]);
-        if let Watched::User(..) = self.watch.list[index] {
+    /// Values of all watched functions at a sample within the step.
+    fn sample(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        (dense, step): (&[f64], f64),
+        (sample, places): (usize, &mut [f64; 4]),
+    ) -> Result<(), Failure> {
+        match self.evaluate_within(dense, places[sample], step, Needs::Forces) {
+            // Exactly where the equations have no solution; a little before they have one.
+            Err(Failure::Singular) => {
+                places[sample] -= BESIDE * (places[sample] - places[sample - 1]);
+                self.evaluate_within(dense, places[sample], step, Needs::Forces)?;
+            }
+            evaluated => evaluated?,
+        }
+        let mut values = std::mem::take(&mut self.values);
+        let watched = self.watch_all(phase, decisions, &mut values[sample]);
+        self.values = values;
+        watched
+    }
+
+    /// What has fallen from one sample of the step to the next.
+    fn falls_between(&self, ends: [f64; 2], part: usize) -> Vec<Fall> {
+        let one = |index: usize| {
+            let values = [self.values[part][index], self.values[part + 1][index]];
+            Fall { index, ends, values }
+        };
+        (0..self.watch.list.len()).map(one).filter(|fall| self.is_below(fall)).collect()
+    }
+
+    /// Adds what falls and rises again between two samples, before something else has fallen.
+    fn add_dips(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        (dense, step): (&[f64], f64),
+        (until, falls): (f64, &mut Vec<Fall>),
+    ) -> Result<(), Failure> {
+        for index in 0..self.watch.list.len() {
+            let samples = std::array::from_fn(|sample| self.values[sample][index]);
+            let Some(place) = dip(samples).filter(|place| *place < until) else { continue };
+            let watched = self.watch.list[index];
+            self.evaluate_within(dense, place, step, watched.needs())?;
+            let value = self.value(watched, phase, decisions)?;
+            let before = SAMPLES.iter().rposition(|fraction| *fraction < place).unwrap_or(0);
+            let fall =
+                Fall { index, ends: [SAMPLES[before], place], values: [self.values[before][index], value] };
+            falls.extend(self.is_below(&fall).then_some(fall));
+        }
+        Ok(())
+    }
+
+    /// Whether a function is below zero at the end, beyond rounding where it was not above zero before.
+    fn is_below(&self, fall: &Fall) -> bool {
+        let [before, after] = fall.values;
+        if let Watched::User(..) = self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
             return after <= 0.0 && before > USER_ZERO * after.abs();
         }
-        let tolerance = self.watch.tolerance(self.watch.list[index], &self.equations);
+        let tolerance = self.watch.tolerance(self.watch.list[fall.index], &self.equations);
         if before > tolerance { after <= 0.0 } else { after < -tolerance && after < before }
     }
 
-    /// The least of the zeros between two fractions, and everything that vanishes there.
+    /// The least of the zeros of what falls, and everything that vanishes there.
     fn locate(
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
         (dense, step): (&[f64], f64),
-        (ends, part, fallen): ([f64; 2], usize, &[usize]),
+        falls: &[Fall],
     ) -> Result<(f64, Vec<Cause>), Failure> {
-        let mut zeros = Vec::with_capacity(fallen.len());
-        for &index in fallen {
+        let mut zeros = Vec::with_capacity(falls.len());
+        for &Fall { index, ends, values } in falls {
             let watched = self.watch.list[index];
-            let values = [self.values[part][index], self.values[part + 1][index]];
             let mut function =
                 |fraction: f64| match self.evaluate_within(dense, fraction, step, watched.needs()) {
                     // Where the equations have no solution forces are beyond all bounds: not before the zero.
@@ -468,7 +548,19 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let bodies = 3 * velocities.len();
         let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
+        self.equations.place(self.time, &self.state);
     }
+}
+
+/// A watched function that is below zero at the end of a part of a step.
+#[derive(Debug, Clone, Copy)]
+struct Fall {
+    /// Its number in the list.
+    index: usize,
+    /// Where the part begins and ends, as fractions of the step.
+    ends: [f64; 2],
+    /// Its values there.
+    values: [f64; 2],
 }
 
 /// Two places, and the values of a function there.

@@ -17,7 +17,7 @@ const VELOCITY_TOLERANCE: f64 = 1e-10;
 /// Lengths below this multiple of the size are rounding.
 const LENGTH_TOLERANCE: f64 = 1e-12;
 /// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as locked.
-const LOCKED: f64 = 1e-7;
+const LOCKED: f64 = 1e-9;
 /// A block leaves its guide when so little of its length is supported: normal forces grow like the inverse of the overlap, and the
 /// equations can still be solved there.
 const LEAVES: f64 = 1e-6;

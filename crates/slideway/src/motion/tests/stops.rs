@@ -138,30 +138,35 @@ components = [\"8 N/s * t\", 0]
     }
 }
 
-/// A force of 10 N cos(40 ln(1 - t)) swings faster and faster: with tau = 1 s - t the velocity without friction is
+/// A force of 10 N cos(40 ln|1 - t|) swings faster and faster: with tau = 1 s - t the velocity without friction is
 /// -(5 m/s^2) tau (cos(40 ln tau) + 40 sin(40 ln tau))/1601, so that the block reverses infinitely often before 1 s, at intervals
 /// that shrink by exp(-pi/40) each. The friction of 1 N delays the reversals, which stay in a geometric sequence.
-#[test]
-fn stops_that_accumulate_end_the_motion() {
+fn swinging_ever_faster(options: &SimulateOptions) -> History {
     let force = "
 [parameters]
 second = \"1 s\"
 [loads.force]
 type = \"force\"
 at = \"block.C\"
-components = [\"10 N * cos(40*ln(1 - t/second))\", 0]
+components = [\"10 N * cos(40*ln(abs(1 - t/second)))\", 0]
 ";
+    run(&block("0.05", "", force), options)
+}
+
+/// Times from the stops to 1 s.
+fn before_the_limit(history: &History) -> Vec<f64> {
+    let stops = history.events.iter().filter(|event| matches!(event.causes[..], [Cause::Stops(_)]));
+    stops.map(|event| 1.0 - event.time).collect()
+}
+
+#[test]
+fn stops_that_accumulate_end_the_motion() {
     // Events within 1e-7 of the duration, of which the errors of the steps must be a small part.
     let mut options = SimulateOptions::new(50.0);
     (options.tolerance, options.longest_step) = (1e-12, Some(0.01));
-    let history = run(&block("0.05", "", force), &options);
+    let history = swinging_ever_faster(&options);
     assert_eq!(history.end, End::Accumulation);
-    let stops: Vec<f64> = history
-        .events
-        .iter()
-        .filter(|event| matches!(event.causes[..], [Cause::Stops(_)]))
-        .map(|event| 1.0 - event.time)
-        .collect();
+    let stops = before_the_limit(&history);
     assert!(stops.len() > 150, "{}", stops.len());
     // Once the influence of the start has died away, and before rounding of the time matters.
     let ratio = (-std::f64::consts::PI / 40.0).exp();
@@ -169,6 +174,44 @@ components = [\"10 N * cos(40*ln(1 - t/second))\", 0]
         assert!((pair[1] / pair[0] - ratio).abs() < 1e-4, "{} {ratio}", pair[1] / pair[0]);
     }
     assert!(*stops.last().unwrap() < 1e-6, "{:?}", stops.last());
+}
+
+/// At default options, too: over 50 s the stops are followed until 40 of them lie within 5e-6 s, where velocities are still above the errors
+/// of steps.
+#[test]
+fn accumulating_stops_are_followed_at_default_options() {
+    let history = swinging_ever_faster(&SimulateOptions::new(50.0));
+    assert_eq!(history.end, End::Accumulation);
+    assert!((history.stop() - 1.0).abs() < 1e-6, "{}", history.stop());
+    let ratio = (-std::f64::consts::PI / 40.0).exp();
+    let stops = before_the_limit(&history);
+    let followed: Vec<f64> = stops.into_iter().take_while(|before| *before > 5e-6).collect();
+    assert!(*followed.last().unwrap() < 5e-6 / ratio.powi(2), "{followed:?}");
+    // An error of the velocity delays one stop and hastens the next.
+    for stops in followed[60..].windows(3) {
+        assert!((stops[2] / stops[0] - ratio * ratio).abs() < 0.01, "{stops:?}");
+    }
+    assert!(history.energy_error < 1e-5 * history.energy_scale, "{:e}", history.energy_error);
+}
+
+/// A force of 1 N + 4 N/s (t - 1 s) against 1 N of friction: v = (t - 1 s)^2 m/s^3 - v_1 is zero at 1 s - sqrt(v_1/(m/s^3)). There the force is less than
+/// friction: the block sticks until 1 s, 0.02 s later. Steps have up to 0.37 s.
+#[test]
+fn a_stop_within_a_third_of_a_step_is_found() {
+    let force = "
+[loads.force]
+type = \"force\"
+at = \"block.C\"
+components = [\"4 N/s * t - 3 N\", 0]
+";
+    for longest in [0.3, 0.31, 0.33, 0.35, 0.37] {
+        let options = SimulateOptions { longest_step: Some(longest), ..SimulateOptions::new(3.0) };
+        let history = run(&block("0.05", "rate = 0.9996", force), &options);
+        assert_eq!(joints(&history), [[SLIDES], [STICKS], [SLIDES]], "{longest}");
+        for (event, time) in history.events[1..].iter().zip([0.98, 1.0]) {
+            assert!((event.time - time).abs() < 1e-7, "{longest} {}", event.time);
+        }
+    }
 }
 
 /// The example moves to the right while a horizontal force at its lower end grows from 0 N by 10 N/s: normal forces vanish at
