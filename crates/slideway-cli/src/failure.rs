@@ -164,9 +164,9 @@ impl Failure {
             Self::SeriesFormat { .. } => {
                 Some(format!("possible endings: {}", SeriesFormat::ENDINGS.join(", ")))
             }
-            Self::CannotGoOn { .. } => Some(
-                "what is done is kept: make room, and the same command with --resume goes on".to_owned(),
-            ),
+            Self::CannotGoOn { .. } => {
+                Some("what is done is kept: make room, and the same command with --resume goes on".to_owned())
+            }
             #[cfg(not(feature = "parquet"))]
             Self::WithoutParquet => Some(
                 "build it with `cargo build --release --features parquet`, or use .csv or .npz".to_owned(),

@@ -84,14 +84,17 @@ pub(crate) fn to_parquet(series: &Series, metadata: &Metadata) -> io::Result<Vec
     });
     let mode = Column { name: "mode".to_owned(), kind: ColumnKind::Word, unit: "" };
     let columns: Vec<Column> = numbers.chain([mode]).collect();
-    let mut table = ParquetTable::new(Vec::new(), &columns, metadata)?;
+    let mut bytes = Vec::new();
+    let mut table = ParquetTable::new(&mut bytes, &columns, metadata)?;
     for start in (0..series.modes.len()).step_by(GROUP) {
         let rows = start..series.modes.len().min(start + GROUP);
         let modes = series.modes[rows.clone()].iter().map(|mode| Some(mode.as_bytes().to_vec().into()));
-        let numbers = series.columns.iter().map(|column| Values::Number(column.values[rows.clone()].to_vec()));
+        let numbers =
+            series.columns.iter().map(|column| Values::Number(column.values[rows.clone()].to_vec()));
         table.add(numbers.chain([Values::Word(modes.collect())]))?;
     }
-    table.finish()
+    table.finish()?;
+    Ok(bytes)
 }
 
 /// One array for each column, NaN where a quantity is not defined; `mode`, `units` in the order of the columns, and what the

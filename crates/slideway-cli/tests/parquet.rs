@@ -33,13 +33,13 @@ fn field<'r>(row: &'r Row, name: &str) -> &'r Field {
 fn threads_do_not_change_the_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.parquet");
-    let tables = ["1", "2", "5"].map(|threads| {
+    let tables = ["1", "3"].map(|threads| {
         let arguments = [&KLEPP[..], &["--vary", "mu_1=0..0.8:100001", "--force", "--output"]].concat();
         let run = command(&arguments).arg(&path).env("RAYON_NUM_THREADS", threads).output().unwrap();
         assert!(run.status.success());
         fs::read(&path).unwrap()
     });
-    assert!(tables[0] == tables[1] && tables[1] == tables[2]);
+    assert!(tables[0] == tables[1]);
     let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     assert!(reader.num_row_groups() > 1);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
@@ -51,8 +51,14 @@ fn what_does_not_exist_is_null() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("drawer.parquet");
     let run = slideway(&[
-        "sweep", "models/drawer.toml", "--vary", "mu=0.5,0.7", "--no-breakpoints", "--attainability",
-        "--output", path.to_str().unwrap(),
+        "sweep",
+        "models/drawer.toml",
+        "--vary",
+        "mu=0.5,0.7",
+        "--no-breakpoints",
+        "--attainability",
+        "--output",
+        path.to_str().unwrap(),
     ]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     let rows = rows(&path);
@@ -76,22 +82,29 @@ fn a_motion_is_a_table_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("motion.parquet");
     let name = path.to_str().unwrap();
-    let run =
-        slideway(&["simulate", "models/stick-slip.toml", "--until", "2s", "--step", "0.01s", "--output", name]);
+    let run = slideway(&[
+        "simulate",
+        "models/stick-slip.toml",
+        "--until",
+        "2s",
+        "--step",
+        "0.01s",
+        "--output",
+        name,
+    ]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     let rows = rows(&path);
     assert_eq!(rows.len(), 201);
     assert_eq!(field(&rows[200], "t"), &Field::Double(2.0));
-    let friction = |row: &Row| {
-        let names = row.get_column_iter().find(|(name, _)| name.ends_with(".friction_force"));
-        names.unwrap().1.clone()
-    };
     let sticking = |row: &Row| matches!(field(row, "mode"), Field::Str(mode) if mode.contains('='));
     assert!(rows.iter().any(sticking) && !rows.iter().all(sticking));
     for row in &rows {
-        assert_eq!(friction(row) == Field::Null, sticking(row), "{row}");
+        assert_eq!(*field(row, "sole.friction_force") == Field::Null, sticking(row), "{row}");
     }
-    assert!(metadata(&path, "slideway.command").starts_with("slideway simulate models/stick-slip.toml --until 2s"));
+    assert!(
+        metadata(&path, "slideway.command")
+            .starts_with("slideway simulate models/stick-slip.toml --until 2s")
+    );
     let model = fs::read_to_string(command::top().join("models/stick-slip.toml")).unwrap();
     assert_eq!(metadata(&path, "slideway.model"), model);
     assert!(metadata(&path, "slideway.units").contains(r#""t":"s""#));

@@ -103,9 +103,12 @@ fn files_without_a_known_ending_are_refused() {
 #[test]
 fn files_that_do_not_fit_are_not_written() {
     let folder = tempfile::tempdir().unwrap();
-    for (option, name) in
-        [("--output", "motion.csv"), ("--output", "motion.npz"), ("--plot", "plot.svg"), ("--animate", "moving.svg")]
-    {
+    for (option, name) in [
+        ("--output", "motion.csv"),
+        ("--output", "motion.npz"),
+        ("--plot", "plot.svg"),
+        ("--animate", "moving.svg"),
+    ] {
         let path = folder.path().join(name);
         // The system refuses to write more than 1024 bytes, as on a full disk; without the trap its signal would end the program.
         let run = std::process::Command::new("sh")

@@ -14,8 +14,7 @@ use std::time::{Duration, Instant};
 
 const KLEPP: [&str; 4] = ["sweep", "models/klepp-2002.toml", "--set", "F_20=0"];
 /// The endings of tables.
-const ENDINGS: &[&str] =
-    if cfg!(feature = "parquet") { &["csv", "npz", "parquet"] } else { &["csv", "npz"] };
+const ENDINGS: &[&str] = if cfg!(feature = "parquet") { &["csv", "npz", "parquet"] } else { &["csv", "npz"] };
 const DRAWER: &str = "models/drawer.toml";
 
 fn path(folder: &tempfile::TempDir, name: &str) -> (PathBuf, String) {
@@ -222,15 +221,15 @@ fn names(folder: &tempfile::TempDir) -> Vec<String> {
     names
 }
 
-/// The table fails at its last byte: long before the first two seconds are over, and for NumPy archives and Parquet files, which
-/// are completed at the end, while they are completed.
+/// The file fails at its last byte, long before the first two seconds are over: CSV tables while rows are written, NumPy archives and
+/// Parquet files while they are completed. The model and the command are most of so small a table, so that records alone fit.
 #[cfg(unix)]
 #[test]
 fn a_table_that_does_not_fit_is_kept_and_goes_on() {
     for ending in ENDINGS {
         let folder = tempfile::tempdir().unwrap();
         let (target, name) = path(&folder, &format!("table.{ending}"));
-        let arguments = [&KLEPP[..], &["--vary", "mu_1=0..0.8:301", "--output", &name]].concat();
+        let arguments = [&KLEPP[..], &["--vary", "mu_1=0..0.8:21", "--output", &name]].concat();
         assert_eq!(slideway(&arguments).code, 0);
         let whole = fs::read(&target).unwrap();
         fs::remove_file(&target).unwrap();

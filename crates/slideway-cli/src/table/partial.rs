@@ -231,23 +231,22 @@ impl PartialFile {
 
     /// Makes a Parquet file of the records: its end tells of all that comes before, so that rows cannot be added to it.
     #[cfg(feature = "parquet")]
-    fn convert(
-        &self,
-        go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> io::Result<ControlFlow<(), PathBuf>> {
+    fn convert(&self, go_on: &mut dyn FnMut(f64) -> ControlFlow<()>) -> io::Result<ControlFlow<(), PathBuf>> {
         let path = beside(&self.target, CONVERTED);
         let Encoder { layout, metadata, .. } = &self.encoder;
         let records = (&self.file, self.bytes);
-        let converted = File::create(&path)
-            .and_then(|sink| super::parquet::convert(records, (layout, metadata), sink, go_on))
-            .and_then(|converted| match converted {
-                ControlFlow::Continue(file) => file.sync_all().map(|()| ControlFlow::Continue(path.clone())),
-                ControlFlow::Break(()) => Ok(ControlFlow::Break(())),
-            });
-        if !matches!(converted, Ok(ControlFlow::Continue(_))) {
+        let converted = File::create(&path).and_then(|file| {
+            let flow = super::parquet::convert(records, (layout, metadata), &file, go_on)?;
+            file.sync_all()?;
+            Ok(flow)
+        });
+        if !matches!(converted, Ok(ControlFlow::Continue(()))) {
             let _ = fs::remove_file(&path);
         }
-        converted
+        Ok(match converted? {
+            ControlFlow::Continue(()) => ControlFlow::Continue(path),
+            ControlFlow::Break(()) => ControlFlow::Break(()),
+        })
     }
 
     fn cannot_go_on(&self, error: io::Error) -> Failure {

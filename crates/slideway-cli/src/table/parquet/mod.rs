@@ -90,12 +90,12 @@ impl<W: Write + Send> ParquetTable<W> {
         add().map_err(failure)
     }
 
-    /// Writes what stands at the end, and gives back where it was written to.
+    /// Writes what stands at the end.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(crate) fn finish(self) -> io::Result<W> {
-        self.writer.into_inner().map_err(failure)
+    pub(crate) fn finish(mut self) -> io::Result<()> {
+        self.writer.finish().map(|_| ()).map_err(failure)
     }
 }
 
@@ -124,8 +124,12 @@ fn properties(columns: &[Column], metadata: &Metadata) -> WriterProperties {
         .collect();
     let units = serde_json::json!(units).to_string();
     let program = Metadata::program();
-    let texts =
-        [("command", &metadata.command), ("model", &metadata.model), ("program", &program), ("units", &units)];
+    let texts = [
+        ("command", &metadata.command),
+        ("model", &metadata.model),
+        ("program", &program),
+        ("units", &units),
+    ];
     let texts = texts.map(|(key, text)| KeyValue::new(format!("slideway.{key}"), text.clone()));
     let mut properties = WriterProperties::builder()
         .set_created_by(program)

@@ -6,19 +6,19 @@ use crate::table::{Layout, Metadata};
 use ::parquet::data_type::ByteArray;
 use std::array;
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
 /// Makes a Parquet file of so many bytes of records. `go_on` is told which part is done, and breaks to end it early.
 ///
 /// # Errors
 /// If a file cannot be read or written.
-pub(in crate::table) fn convert<W: Write + Send>(
+pub(in crate::table) fn convert(
     (mut records, bytes): (&File, u64),
     (layout, metadata): (&Layout, &Metadata),
-    sink: W,
+    sink: &File,
     go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> io::Result<ControlFlow<(), W>> {
+) -> io::Result<ControlFlow<()>> {
     let fields = fields(layout);
     let mut table = ParquetTable::new(sink, &columns(&fields, layout), metadata)?;
     let record: usize = fields.iter().map(|field| field.kind.size()).sum();
