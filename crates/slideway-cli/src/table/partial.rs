@@ -216,6 +216,9 @@ impl PartialFile {
         &mut self,
         go_on: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> io::Result<ControlFlow<(), PathBuf>> {
+        if go_on(0.0).is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
         match self.encoder.format {
             TableFormat::Csv => {}
             TableFormat::Npz => {
