@@ -1,7 +1,10 @@
 //! Why a command could not do what it was asked to do.
 
+use crate::arguments::TableFormat;
 use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
+use crate::time_series::SeriesFormat;
+use clap::ValueEnum;
 use slideway::raw_problem::RawFaults;
 use std::fmt;
 use std::io;
@@ -58,6 +61,11 @@ pub(crate) enum Failure {
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
+    /// An unfinished table cannot be written any further.
+    CannotGoOn { path: PathBuf, error: io::Error },
+    /// Parquet files need a feature that the program was built without.
+    #[cfg(not(feature = "parquet"))]
+    WithoutParquet,
     /// There is no solution of the wanted number.
     NoSuchSolution { count: usize },
     /// An answer that is no text would go to a terminal.
@@ -117,9 +125,11 @@ impl Failure {
                 format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
             }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
-            Self::CannotWrite { path, error } => {
+            Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }
+            #[cfg(not(feature = "parquet"))]
+            Self::WithoutParquet => "this program was built without Parquet files".to_owned(),
             Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
@@ -151,7 +161,16 @@ impl Failure {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
-            Self::SeriesFormat { .. } => Some("end its name in .csv, .npz or .json".to_owned()),
+            Self::SeriesFormat { .. } => {
+                Some(format!("possible endings: {}", SeriesFormat::ENDINGS.join(", ")))
+            }
+            Self::CannotGoOn { .. } => {
+                Some("what is done is kept: make room, and the same command with --resume goes on".to_owned())
+            }
+            #[cfg(not(feature = "parquet"))]
+            Self::WithoutParquet => Some(
+                "build it with `cargo build --release --features parquet`, or use .csv or .npz".to_owned(),
+            ),
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
             Self::Overflow { .. } => Some("look for entries of absurd magnitude".to_owned()),
@@ -167,11 +186,15 @@ impl Failure {
             Self::AnotherSweep { .. } => Some(
                 "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
             ),
-            Self::UnknownEnding { .. } => Some("use .csv or .npz, or say it with --format".to_owned()),
+            Self::UnknownEnding { .. } => {
+                let forms = TableFormat::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+                let endings: Vec<String> = forms.map(|form| format!(".{}", form.get_name())).collect();
+                Some(format!("possible endings: {}; or say it with --format", endings.join(", ")))
+            }
             Self::NoLine => {
                 Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
             }
-            Self::NoStream => Some("use --output FILE.npz, or --format csv".to_owned()),
+            Self::NoStream => Some("name a file with --output, or use --format csv".to_owned()),
             Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
             _ => None,
         }

@@ -100,6 +100,17 @@ impl SweepWatch {
     }
 }
 
+impl SweepWatch {
+    /// Tells which part of the file is made, once all points are computed.
+    pub(crate) fn complete(&mut self, part: f64) {
+        let elapsed = self.start.elapsed();
+        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
+            self.shown = elapsed;
+            self.line.show(&format!("{:.0} % of the file", 100.0 * part));
+        }
+    }
+}
+
 /// A time without needless digits.
 fn rough(seconds: f64) -> String {
     if seconds < 90.0 {

@@ -98,6 +98,33 @@ fn files_without_a_known_ending_are_refused() {
 }
 
 /// 1 N s / sqrt(1.3 s - t) grows without bound towards 1.3 s and has no value behind it.
+/// Files that are made as a whole: table, plot and moving picture are written whole or not at all.
+#[cfg(unix)]
+#[test]
+fn files_that_do_not_fit_are_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for (option, name) in [
+        ("--output", "motion.csv"),
+        ("--output", "motion.npz"),
+        ("--plot", "plot.svg"),
+        ("--animate", "moving.svg"),
+    ] {
+        let path = folder.path().join(name);
+        // The system refuses to write more than 1024 bytes, as on a full disk; without the trap its signal would end the program.
+        let run = std::process::Command::new("sh")
+            .args(["-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_slideway")])
+            .args(["simulate", OSCILLATOR, "--until", "1s", option])
+            .arg(&path)
+            .current_dir(command::top())
+            .output()
+            .unwrap();
+        let said = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{name}: {said}");
+        assert_tells(&said, &[name, "cannot be written: file too large"]);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{name}");
+    }
+}
+
 #[test]
 fn a_load_without_a_value_ends_the_motion_and_keeps_what_was_computed() {
     let directory = tempfile::tempdir().unwrap();

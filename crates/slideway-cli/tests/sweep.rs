@@ -13,6 +13,8 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 const KLEPP: [&str; 4] = ["sweep", "models/klepp-2002.toml", "--set", "F_20=0"];
+/// The endings of tables.
+const ENDINGS: &[&str] = if cfg!(feature = "parquet") { &["csv", "npz", "parquet"] } else { &["csv", "npz"] };
 const DRAWER: &str = "models/drawer.toml";
 
 fn path(folder: &tempfile::TempDir, name: &str) -> (PathBuf, String) {
@@ -123,7 +125,7 @@ fn numpy_reads_the_archive() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_sweep_goes_on_with_the_same_bytes() {
-    for ending in ["csv", "npz"] {
+    for ending in ENDINGS {
         let folder = tempfile::tempdir().unwrap();
         let (whole, whole_name) = path(&folder, &format!("whole.{ending}"));
         let (target, name) = path(&folder, &format!("table.{ending}"));
@@ -161,7 +163,7 @@ fn an_interrupted_sweep_goes_on_with_the_same_bytes() {
 
         assert!(start(&name, &["--resume"]).wait().unwrap().success());
         let same = |one: &Path, other: &Path| fs::read(one).unwrap() == fs::read(other).unwrap();
-        if ending == "csv" {
+        if *ending == "csv" {
             // The commands differ in the name of the file.
             let [one, other] = [&whole, &target].map(|path| fs::read_to_string(path).unwrap());
             assert!(lines(&one) == lines(&other));
@@ -198,6 +200,101 @@ fn a_full_disk_is_told() {
         slideway(&["sweep", DRAWER, "--vary", "mu=0..0.5:2001", "--format", "csv", "--output", "/dev/full"]);
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("cannot be written: no space left on device"), "{}", run.stderr);
+}
+
+/// A run in a shell that lets no file grow beyond so many bytes: the system refuses to write more, as on a full disk.
+#[cfg(unix)]
+fn limited(bytes: u64, arguments: &[&str]) -> Output {
+    // POSIX: the unit of the limit is 512 bytes; without the trap the signal would end the program.
+    let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", bytes / 512);
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &script, "sh", env!("CARGO_BIN_EXE_slideway")]).args(arguments);
+    shell.current_dir(command::top()).output().unwrap()
+}
+
+#[cfg(unix)]
+fn names(folder: &tempfile::TempDir) -> Vec<String> {
+    let entries = fs::read_dir(folder.path()).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// The file fails at its last byte, long before the first two seconds are over: CSV tables while rows are written, NumPy archives and
+/// Parquet files while they are completed. The model and the command are most of so small a table, so that records alone fit.
+#[cfg(unix)]
+#[test]
+fn a_table_that_does_not_fit_is_kept_and_goes_on() {
+    for ending in ENDINGS {
+        let folder = tempfile::tempdir().unwrap();
+        let (target, name) = path(&folder, &format!("table.{ending}"));
+        let arguments = [&KLEPP[..], &["--vary", "mu_1=0..0.8:21", "--output", &name]].concat();
+        assert_eq!(slideway(&arguments).code, 0);
+        let whole = fs::read(&target).unwrap();
+        fs::remove_file(&target).unwrap();
+
+        let run = limited(whole.len() as u64 - 1, &arguments);
+        let said = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{ending}: {said}");
+        assert!(said.contains(".partial` cannot be written: file too large"), "{ending}: {said}");
+        assert!(said.contains("--resume goes on"), "{ending}: {said}");
+        assert_eq!(
+            names(&folder),
+            [format!("table.{ending}.partial"), format!("table.{ending}.partial.state")]
+        );
+
+        let resumed = slideway(&[&arguments[..], &["--resume"]].concat());
+        assert_eq!(resumed.code, 0, "{ending}: {}", resumed.stderr);
+        assert!(fs::read(&target).unwrap() == whole, "{ending}");
+        assert_eq!(names(&folder), [format!("table.{ending}")]);
+    }
+}
+
+/// Without room for the first state there is nothing to go on with, and nothing stays.
+#[cfg(unix)]
+#[test]
+fn a_table_that_cannot_begin_leaves_nothing() {
+    for ending in ENDINGS {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, name) = path(&folder, &format!("table.{ending}"));
+        let run = limited(512, &[&KLEPP[..], &["--vary", "mu_1=0..0.8:301", "--output", &name]].concat());
+        let said = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{ending}: {said}");
+        assert!(said.contains("cannot be written: file too large") && !said.contains("--resume"), "{said}");
+        assert_eq!(names(&folder), [""; 0], "{ending}");
+    }
+}
+
+/// A table that exists stays as it is until the new one is whole.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_spares_the_table_that_would_be_overwritten() {
+    for ending in ENDINGS {
+        let folder = tempfile::tempdir().unwrap();
+        let (target, name) = path(&folder, &format!("table.{ending}"));
+        fs::write(&target, "mine").unwrap();
+        let arguments = [&KLEPP[..], &["--vary", "mu_1=0..0.8:3001", "--force", "--output", &name]].concat();
+        assert_eq!(limited(60_000, &arguments).status.code(), Some(2), "{ending}");
+        assert_eq!(fs::read_to_string(&target).unwrap(), "mine");
+    }
+}
+
+/// Without the feature it is told how to get it.
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn parquet_files_need_their_feature() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, name) = path(&folder, "table.parquet");
+    let simulate = ["simulate", "models/stick-slip.toml", "--until", "1s", "--output", &name];
+    let sweep = [&KLEPP[..], &["--vary", "mu_1=0..0.8:3", "--output", &name]].concat();
+    for arguments in [&simulate[..], &sweep] {
+        let run = slideway(arguments);
+        assert_eq!(run.code, 2);
+        assert!(run.stderr.contains("built without Parquet"), "{}", run.stderr);
+        assert!(run.stderr.contains("cargo build --release --features parquet"), "{}", run.stderr);
+    }
+    assert_eq!(names(&folder), [""; 0]);
 }
 
 #[test]

@@ -94,7 +94,8 @@ fn paper_normal_forces(bencher: Bencher<'_, '_>) {
     let mut solutions = BatchSolutions::default();
     let (mut places, mut forces) = (Vec::new(), Vec::new());
     bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
-        (places.clear(), forces.clear());
+        places.clear();
+        forces.clear();
         batch.solve_each(&[&mu_1], &mut solutions, |point, pattern, y| {
             places.push((point, pattern));
             let sides = (0..3).map(|contact| Side::BOTH[pattern >> contact & 1].sign());

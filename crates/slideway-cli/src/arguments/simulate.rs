@@ -20,7 +20,8 @@ Exit codes:
   2  faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
   3  not followed to the end: too many steps or events, or what follows cannot be decided
 
-What was computed until then is told and written in any case, unless the motion cannot begin.";
+What was computed until then is told and written in any case, unless the motion cannot begin.
+--output writes the motion as a table beside what is told; the ending of the file says in which form.";
 
 /// Arguments of `slideway simulate`.
 #[derive(Debug, Args)]

@@ -62,7 +62,7 @@ pub(crate) struct SweepArguments {
     #[arg(long, requires = "output")]
     pub(crate) resume: bool,
 
-    /// Form of the table; without it the ending of the output file tells (.csv, .npz), else CSV.
+    /// Form of the table; without it the ending of the output file tells, else CSV.
     #[arg(long, value_enum)]
     pub(crate) format: Option<TableFormat>,
 
@@ -124,4 +124,7 @@ pub(crate) enum TableFormat {
     Csv,
     /// A NumPy archive.
     Npz,
+    /// A Parquet file.
+    #[cfg(feature = "parquet")]
+    Parquet,
 }

@@ -6,6 +6,9 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
+use crate::table::Metadata;
+#[cfg(feature = "parquet")]
+use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
@@ -43,7 +46,7 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         let history =
             motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
         let history = history.map_err(|faults| input.refused(faults))?;
-        files.write(&history, &options, step)?;
+        files.write(&history, &options, (step, &Metadata::of(&input)))?;
         Told::one(arguments, &history, &options, output)
     };
     drop(watch);
@@ -210,7 +213,12 @@ impl<'a> Files<'a> {
         Ok(Self { arguments, table, plot, animation })
     }
 
-    fn write(&self, history: &History, options: &SimulateOptions, step: Option<f64>) -> Result<(), Failure> {
+    fn write(
+        &self,
+        history: &History,
+        options: &SimulateOptions,
+        (step, metadata): (Option<f64>, &Metadata),
+    ) -> Result<(), Failure> {
         if let Some((format, output)) = &self.table {
             let times = match step {
                 Some(step) => history.times_in_steps(step),
@@ -219,7 +227,12 @@ impl<'a> Files<'a> {
             let series = history.series(&times);
             match format {
                 SeriesFormat::Csv => output.write(&to_csv(&series))?,
-                SeriesFormat::Npz => output.write_bytes(&to_npz(&series))?,
+                SeriesFormat::Npz => output.write_bytes(&to_npz(&series, metadata))?,
+                #[cfg(feature = "parquet")]
+                SeriesFormat::Parquet => {
+                    let table = to_parquet(&series, metadata).map_err(|error| output.failure(error))?;
+                    output.write_bytes(&table)?;
+                }
                 SeriesFormat::Json => {
                     let mut report = motion::report(history, options);
                     report.samples = Some(series);

@@ -11,15 +11,11 @@ use crate::watch::SweepWatch;
 use slideway::sweep::{Rows, Sweep, SweepState, to_text};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
-use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Arguments that do not change the table.
-const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
 
 /// Computes all solutions at every point of a grid or sample, and writes them to a table.
 pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -35,9 +31,8 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
         Some(file) => Some(Plotting::new(&sweep, arguments, file, model.title.as_deref())?),
         None => None,
     };
-    let metadata = Metadata { command: command(std::env::args_os()), model: input.text() };
     let layout = Layout::of(&sweep, options.vary.len(), options.attainability);
-    let encoder = Encoder::new(format, layout, metadata);
+    let encoder = Encoder::new(format, layout, Metadata::of(&input));
     let interrupted = Arc::new(AtomicBool::new(false));
     let work = Work { sweep: &sweep, encoder, plot };
     match destination.path().filter(|path| !is_special(path)) {
@@ -55,6 +50,10 @@ fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
         (Some(format), _) => Ok(format),
         (None, Some("csv") | None) => Ok(TableFormat::Csv),
         (None, Some("npz")) => Ok(TableFormat::Npz),
+        #[cfg(feature = "parquet")]
+        (None, Some("parquet")) => Ok(TableFormat::Parquet),
+        #[cfg(not(feature = "parquet"))]
+        (None, Some("parquet")) => Err(Failure::WithoutParquet),
         (None, Some(_)) => Err(Failure::UnknownEnding { path: path.map(Path::to_owned).unwrap_or_default() }),
     }
 }
@@ -62,23 +61,6 @@ fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
 /// Whether a path exists and is no regular file: a device or a pipe, which cannot be renamed to.
 fn is_special(path: &Path) -> bool {
     path.exists() && !path.is_file()
-}
-
-/// The command as it may be given again.
-fn command(arguments: impl Iterator<Item = OsString>) -> String {
-    let words = arguments.skip(1).map(|word| word.to_string_lossy().into_owned());
-    let kept = words.filter(|word| !LEFT_OUT.contains(&word.as_str()));
-    kept.fold("slideway".to_owned(), |command, word| format!("{command} {}", quoted(&word)))
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 /// What is computed, and what becomes of it.
@@ -172,16 +154,17 @@ fn to_file(
     output: &Output,
 ) -> Result<Outcome, Failure> {
     let sweep = work.sweep;
-    let overwrite = arguments.destination.force;
-    let Continued { mut file, state } =
-        PartialFile::open(path, work.encoder.clone(), (arguments.resume, overwrite))?;
-    let mut state = state.unwrap_or_else(|| sweep.start());
+    let how = (arguments.resume, arguments.destination.force);
+    let Continued { mut file, mut state } =
+        PartialFile::open(path, work.encoder.clone(), how, sweep.start())?;
     let flag = Arc::clone(interrupted);
     // Without a handler an interruption ends the program at once; the last state is still there.
     let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+    let go_on = || {
+        if interrupted.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
     let mut watch = SweepWatch::new(state.done, sweep.points());
     let mut failure = None;
-    let mut last: Option<SweepState> = None;
     if let Some(plot) = &mut work.plot {
         plot.repeat(sweep, state.done);
     }
@@ -191,21 +174,22 @@ fn to_file(
             failure = Some(error);
             return ControlFlow::Break(());
         }
-        if interrupted.load(Ordering::Relaxed) && state.done < sweep.points() {
-            last = Some(state.clone());
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        go_on()
     });
-    drop(watch);
     if let Some(failure) = failure {
         return Err(failure);
     }
-    if let Some(state) = last {
+    let is_computed = state.done == sweep.points();
+    let mut follow = |part| {
+        watch.complete(part);
+        go_on()
+    };
+    if !is_computed || file.complete(&mut follow)?.is_break() {
+        drop(watch);
         file.keep(&state)?;
         return Err(Failure::Interrupted { done: state.done, points: sweep.points(), path: file.path() });
     }
-    file.complete()?;
+    drop(watch);
     if let Some(plot) = work.plot {
         plot.write(&state)?;
     }

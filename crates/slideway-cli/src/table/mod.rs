@@ -2,13 +2,20 @@
 
 mod csv;
 pub(crate) mod npz;
+#[cfg(feature = "parquet")]
+pub(crate) mod parquet;
 mod partial;
 mod record;
 
 pub(crate) use partial::{Continued, PartialFile};
 
 use crate::arguments::TableFormat;
+use crate::input::Input;
 use slideway::sweep::{Rows, Sweep};
+use std::ffi::OsString;
+
+/// Arguments that do not change a table.
+const LEFT_OUT: [&str; 2] = ["--resume", "--force"];
 
 /// What every table tells of itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,9 +27,31 @@ pub(crate) struct Metadata {
 }
 
 impl Metadata {
+    /// The command of this run and its model.
+    pub(crate) fn of(input: &Input) -> Self {
+        Self { command: command(std::env::args_os()), model: input.text() }
+    }
+
     /// The program that made it.
     pub(crate) fn program() -> String {
         format!("slideway {}", env!("CARGO_PKG_VERSION"))
+    }
+}
+
+/// The command as it may be given again.
+fn command(arguments: impl Iterator<Item = OsString>) -> String {
+    let words = arguments.skip(1).map(|word| word.to_string_lossy().into_owned());
+    let kept = words.filter(|word| !LEFT_OUT.contains(&word.as_str()));
+    kept.fold("slideway".to_owned(), |command, word| format!("{command} {}", quoted(&word)))
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 
@@ -66,6 +95,8 @@ impl Encoder {
         match self.format {
             TableFormat::Csv => csv::head(&self.layout, &self.metadata),
             TableFormat::Npz => npz::head(&self.layout),
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => Vec::new(),
         }
     }
 
@@ -74,6 +105,9 @@ impl Encoder {
         match self.format {
             TableFormat::Csv => csv::rows(&self.layout, rows),
             TableFormat::Npz => record::rows(&self.layout, rows),
+            // The records that the file is made from.
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => record::rows(&self.layout, rows),
         }
     }
 }

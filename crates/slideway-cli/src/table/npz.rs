@@ -3,7 +3,7 @@
 //! Records are appended as they come; sizes and checksums at the beginning are filled in at the end. (The formats: PKWARE,
 //! APPNOTE.TXT 6.3.10, sections 4.3 and 4.5.3; NumPy, `numpy.lib.format`.)
 
-use super::record::{fields, size};
+use super::record::{FieldKind, fields, size};
 use super::{Layout, Metadata};
 use crc32fast::Hasher;
 use std::fs::File;
@@ -176,12 +176,22 @@ fn long(out: &mut Vec<u8>, numbers: &[u32]) {
 fn array_header(layout: &Layout, count: u64) -> Vec<u8> {
     let kinds: Vec<String> = fields(layout)
         .iter()
-        .map(|field| format!("({}, '{}')", text_literal(&field.name), field.kind))
+        .map(|field| format!("({}, '{}')", text_literal(&field.name), element_type(field.kind)))
         .collect();
     let header = |count: u64| {
         format!("{{'descr': [{}], 'fortran_order': False, 'shape': ({count},), }}", kinds.join(", "))
     };
     npy_header(&header(count), header(u64::MAX).len())
+}
+
+/// The type of a field as NumPy writes it.
+fn element_type(kind: FieldKind) -> String {
+    match kind {
+        FieldKind::Point => "<u8".to_owned(),
+        FieldKind::Count | FieldKind::Branch => "<u4".to_owned(),
+        FieldKind::Number => "<f8".to_owned(),
+        FieldKind::Word(size) => format!("|S{size}"),
+    }
 }
 
 /// A name as Python writes it.

@@ -1,4 +1,5 @@
-//! Rows as records of a fixed size, little-endian: the elements of a NumPy array with named fields.
+//! Rows as records of a fixed size, little-endian: the elements of a NumPy array with named fields, and what a Parquet file is
+//! made from.
 
 use super::Layout;
 use slideway::sweep::Rows;
@@ -6,27 +7,51 @@ use slideway::sweep::Rows;
 /// Bytes of a word of a status, a kind, a verdict.
 pub(super) const WORD: usize = 12;
 
-/// A field of a record: its name, its type as NumPy writes it, and its bytes.
+/// A field of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Field {
     pub(super) name: String,
-    pub(super) kind: String,
-    pub(super) size: usize,
+    pub(super) kind: FieldKind,
+}
+
+/// What a field holds. No word, no branch and no number stand in it as an empty word, as 0 and as not a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FieldKind {
+    /// The number of a point: 8 bytes.
+    Point,
+    /// How many there are: 4 bytes.
+    Count,
+    /// The number of a branch, from 1: 4 bytes.
+    Branch,
+    /// A number: 8 bytes.
+    Number,
+    /// A word of at most so many bytes, filled with zeros.
+    Word(usize),
+}
+
+impl FieldKind {
+    /// Bytes of the field.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::Point | Self::Number => 8,
+            Self::Count | Self::Branch => 4,
+            Self::Word(size) => size,
+        }
+    }
 }
 
 /// The fields of a record in their order.
 pub(super) fn fields(layout: &Layout) -> Vec<Field> {
-    let field = |name: &str, kind: &str, size| Field { name: name.to_owned(), kind: kind.to_owned(), size };
-    let number = |(name, _): &(String, &'static str)| field(name, "<f8", 8);
-    let word = |name: &str| field(name, &format!("|S{WORD}"), WORD);
-    let mut fields = vec![field("point", "<u8", 8)];
+    let field = |name: &str, kind| Field { name: name.to_owned(), kind };
+    let number = |(name, _): &(String, &'static str)| field(name, FieldKind::Number);
+    let word = |name: &str| field(name, FieldKind::Word(WORD));
+    let mut fields = vec![field("point", FieldKind::Point)];
     fields.extend(layout.varied.iter().map(number));
     fields.extend(["breakpoint", "status"].map(word));
-    fields.extend(["solutions", "gap_states", "rejected"].map(|name| field(name, "<u4", 4)));
+    fields.extend(["solutions", "gap_states", "rejected"].map(|name| field(name, FieldKind::Count)));
     fields.push(word("kind"));
-    fields.push(field("branch", "<u4", 4));
-    let size = layout.contacts.max(1);
-    fields.push(field("pattern", &format!("|S{size}"), size));
+    fields.push(field("branch", FieldKind::Branch));
+    fields.push(field("pattern", FieldKind::Word(layout.contacts.max(1))));
     if layout.attainability {
         fields.push(word("attainability"));
     }
@@ -36,7 +61,7 @@ pub(super) fn fields(layout: &Layout) -> Vec<Field> {
 
 /// Bytes of a record.
 pub(super) fn size(layout: &Layout) -> usize {
-    fields(layout).iter().map(|field| field.size).sum()
+    fields(layout).iter().map(|field| field.kind.size()).sum()
 }
 
 /// The records of rows.
