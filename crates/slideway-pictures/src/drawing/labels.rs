@@ -122,7 +122,6 @@ pub(super) fn obstacles(scene: &Scene) -> Vec<(Point, f64)> {
         let weight = match element.class {
             Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => 2.5,
             Class::Hatch | Class::Slot => 0.4,
-            Class::Body => continue,
             _ => 1.0,
         };
         match &element.shape {

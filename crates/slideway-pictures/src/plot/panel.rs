@@ -14,6 +14,8 @@ use std::fmt::Write;
 /// Height of rows of labels and bands (px).
 const ROW: f64 = 18.0;
 const BAND: f64 = 12.0;
+/// Space beside fitted curves, as a share of their extent.
+const SPACE_BESIDE: f64 = 0.03;
 /// Curves keep to this distance of their points (px).
 const TOLERANCE: f64 = 0.05;
 
@@ -32,16 +34,20 @@ fn y_range(panel: &Panel) -> [f64; 2] {
     panel.y.range.unwrap_or_else(|| fitting_range(panel))
 }
 
-/// The horizontal extent of the curves, where the axis has no range.
+/// The horizontal extent of the curves with some space beside them, where the axis has no range.
 fn x_range(panel: &Panel) -> [f64; 2] {
     let all = panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]);
     let fitted = all.filter(|x| x.is_finite()).fold(None, |range: Option<[f64; 2]>, x| {
         Some(range.map_or([x, x], |[least, greatest]| [least.min(x), greatest.max(x)]))
     });
-    match panel.x.range.or(fitted) {
-        Some([from, to]) if from < to => [from, to],
-        Some([at, _]) => [at - 0.5, at + 0.5],
-        None => [0.0, 1.0],
+    match (panel.x.range, fitted) {
+        (Some(range), _) if range[0] < range[1] => range,
+        (None, Some([from, to])) if from < to => {
+            let space = SPACE_BESIDE * (to - from);
+            [from - space, to + space]
+        }
+        (Some([at, _]), _) | (None, Some([at, _])) => [at - 0.5, at + 0.5],
+        (None, None) => [0.0, 1.0],
     }
 }
 

@@ -30,7 +30,7 @@ pub use report::{
 };
 pub(crate) use scan::bisect;
 pub use text::to_text;
-pub(crate) use varied::Varied;
+pub(crate) use varied::{Varied, mechanism_with};
 pub use varied::{FRICTION, ShownIn};
 
 use crate::fault::{Fault, FaultKind, Faults};
