@@ -4,7 +4,7 @@ use slideway::gallery;
 use slideway::limits::{LimitsOptions, Quantity, limits_with_curves};
 use slideway::map::{ColourBy, MapOptions, map};
 use slideway::model::{Model, Settings};
-use slideway::motion::{MotionOptions, simulate};
+use slideway::motion::{SimulateOptions, simulate};
 use slideway_pictures::motion::{motion_figure, portrait_figure};
 use slideway_pictures::plot::{self, Figure, limits_figure};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
@@ -239,7 +239,7 @@ fn pictures() -> Vec<(String, String)> {
         pictures.push((format!("limits of {name}"), plot::to_svg(&figure, &LIGHT)));
     }
     for name in ["frictional-oscillator", "klepp-2002-spring", "stick-slip", "telescopic-boom"] {
-        let history = simulate(&model(name, &[]), &MotionOptions::until(0.5)).expect("a motion");
+        let history = simulate(&model(name, &[]), &SimulateOptions::new(0.5)).expect("a motion");
         pictures.push((format!("motion of {name}"), plot::to_svg(&motion_figure(&history), &LIGHT)));
         pictures.push((format!("portrait of {name}"), plot::to_svg(&portrait_figure(&history), &LIGHT)));
     }
@@ -267,7 +267,7 @@ fn all_text_is_within_the_picture_and_none_over_another() {
 /// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as the rest.
 #[test]
 fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
-    let oscillator = simulate(&model("frictional-oscillator", &[]), &MotionOptions::until(1.0)).expect("a motion");
+    let oscillator = simulate(&model("frictional-oscillator", &[]), &SimulateOptions::new(1.0)).expect("a motion");
     let svg = plot::to_svg(&portrait_figure(&oscillator), &LIGHT);
     let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
     let (left, right) = (number(frame, "x"), number(frame, "x") + number(frame, "width"));
@@ -276,7 +276,7 @@ fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
     for [x, _] in parts.flatten() {
         assert!(left + 5.0 < x && x < right - 5.0, "{x} of {left} to {right}");
     }
-    let crank = simulate(&model("slider-crank", &[]), &MotionOptions::until(0.3)).expect("a motion");
+    let crank = simulate(&model("slider-crank", &[]), &SimulateOptions::new(0.3)).expect("a motion");
     let svg = plot::to_svg(&motion_figure(&crank), &LIGHT);
     let energy = svg.rsplit("class=\"panel\"").next().expect("a last panel");
     let widths: Vec<f64> = of_class(energy, "curve").iter().map(|curve| number(curve, "stroke-width")).collect();

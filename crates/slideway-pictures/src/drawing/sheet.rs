@@ -13,7 +13,7 @@ const PANEL: [f64; 2] = [440.0, 320.0];
 /// Least width of a panel, for its caption.
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels does not exceed if it has several.
-const ROW: f64 = 1200.0;
+const ROW: f64 = 1300.0;
 /// The most solutions that are drawn.
 const MOST: usize = 24;
 /// Length of the longest arrow of a force.
