@@ -187,14 +187,17 @@ fn texts(svg: &str) -> Vec<TextBox> {
     let mut boxes = Vec::new();
     for element in svg.split('<') {
         if element.starts_with("g ") {
-            inherited = attribute(element, "font-size").map_or(inherited, |size| size.parse().expect("a size"));
+            inherited =
+                attribute(element, "font-size").map_or(inherited, |size| size.parse().expect("a size"));
         }
-        let Some((head, content)) = element.strip_prefix("text ").and_then(|rest| rest.split_once('>')) else {
+        let Some((head, content)) = element.strip_prefix("text ").and_then(|rest| rest.split_once('>'))
+        else {
             continue;
         };
         let head = format!(" {head}");
         let size = attribute(&head, "font-size").map_or(inherited, |size| size.parse().expect("a size"));
-        let text = content.replace("&#39;", "'").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+        let text =
+            content.replace("&#39;", "'").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
         let (x, y, width) = (number(&head, "x"), number(&head, "y"), typeface::width(&text, size));
         let before = match attribute(&head, "text-anchor") {
             Some("middle") => 0.5 * width,
@@ -267,7 +270,8 @@ fn all_text_is_within_the_picture_and_none_over_another() {
 /// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as the rest.
 #[test]
 fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
-    let oscillator = simulate(&model("frictional-oscillator", &[]), &SimulateOptions::new(1.0)).expect("a motion");
+    let oscillator =
+        simulate(&model("frictional-oscillator", &[]), &SimulateOptions::new(1.0)).expect("a motion");
     let svg = plot::to_svg(&portrait_figure(&oscillator), &LIGHT);
     let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
     let (left, right) = (number(frame, "x"), number(frame, "x") + number(frame, "width"));
@@ -279,7 +283,8 @@ fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
     let crank = simulate(&model("slider-crank", &[]), &SimulateOptions::new(0.3)).expect("a motion");
     let svg = plot::to_svg(&motion_figure(&crank), &LIGHT);
     let energy = svg.rsplit("class=\"panel\"").next().expect("a last panel");
-    let widths: Vec<f64> = of_class(energy, "curve").iter().map(|curve| number(curve, "stroke-width")).collect();
+    let widths: Vec<f64> =
+        of_class(energy, "curve").iter().map(|curve| number(curve, "stroke-width")).collect();
     assert!(widths.len() > 40, "many phases");
     assert!(widths.iter().all(|width| *width == 2.2), "{widths:?}");
 }

@@ -179,9 +179,8 @@ mod tests {
                     let values = points.iter().map(|[u, v]| [along(&axes[0], *u), along(&axes[1], *v)]);
                     let found = evaluator.classes(values.clone());
                     for (values, found) in values.zip(found) {
-                        let at = |model: &Model| {
-                            parts_at(model, &axes, values).map_err(|faults| reason(&faults))
-                        };
+                        let at =
+                            |model: &Model| parts_at(model, &axes, values).map_err(|faults| reason(&faults));
                         let (forwards, opposite) = (at(&model), at(&backwards));
                         let expected = class(
                             colour_by,

@@ -129,9 +129,8 @@ fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64)
             shifted[power] += shifted[power - 1];
         }
     }
-    let (least, greatest) = shifted[..=degree]
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), &one| {
+    let (least, greatest) =
+        shifted[..=degree].iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), &one| {
             (least.min(one), greatest.max(one))
         });
     // A condition counts as violated from its tolerance on.
