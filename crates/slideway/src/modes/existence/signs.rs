@@ -51,12 +51,12 @@ impl Expansion {
         determinant[0] = 1.0;
         let mut answers = Vec::with_capacity(size);
         let mut adjugate = DMatrix::identity(size, size);
-        for power in 1..=size {
+        for (power, coefficient) in determinant.iter_mut().enumerate().take(size + 1).skip(1) {
             answers.push([&adjugate * &sources[0], &adjugate * &sources[1]]);
             let product = k * &adjugate;
-            determinant[power] = product.trace() / power as f64;
+            *coefficient = product.trace() / power as f64;
             adjugate = -product;
-            (0..size).for_each(|place| adjugate[(place, place)] += determinant[power]);
+            (0..size).for_each(|place| adjugate[(place, place)] += *coefficient);
         }
         Self { determinant, answers }
     }
