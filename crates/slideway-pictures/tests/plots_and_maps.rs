@@ -4,8 +4,11 @@ use slideway::gallery;
 use slideway::limits::{LimitsOptions, Quantity, limits_with_curves};
 use slideway::map::{ColourBy, MapOptions, map};
 use slideway::model::{Model, Settings};
+use slideway::motion::{SimulateOptions, simulate};
+use slideway_pictures::motion::{motion_figure, portrait_figure};
 use slideway_pictures::plot::{self, Figure, limits_figure};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
+use slideway_pictures::typeface;
 
 fn model(name: &str, settings: &[(&str, &str)]) -> Model {
     let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
@@ -162,4 +165,126 @@ fn regions_of_a_map_cover_their_pixels() {
         assert!((sum - 1.0).abs() < 1e-3, "{name}: {sum}");
         assert_eq!(of_class(&svg, "model").len(), 4, "the model lies on the map");
     }
+}
+
+/// A text of a picture: left, top, right, bottom of its box, and what it says.
+struct TextBox {
+    edges: [f64; 4],
+    text: String,
+}
+
+impl TextBox {
+    fn overlaps(&self, other: &Self) -> bool {
+        let ([a, b, c, d], [e, f, g, h]) = (self.edges, other.edges);
+        a < g && e < c && b < h && f < d
+    }
+}
+
+/// The boxes of all texts, those turned upright included; capitals are 0.73 of their size high in `DejaVu Sans`, and tails
+/// reach 0.21 below the line (its tables hhea and OS/2 round to these).
+fn texts(svg: &str) -> Vec<TextBox> {
+    let mut inherited = 0.0;
+    let mut boxes = Vec::new();
+    for element in svg.split('<') {
+        if element.starts_with("g ") {
+            inherited =
+                attribute(element, "font-size").map_or(inherited, |size| size.parse().expect("a size"));
+        }
+        let Some((head, content)) = element.strip_prefix("text ").and_then(|rest| rest.split_once('>'))
+        else {
+            continue;
+        };
+        let head = format!(" {head}");
+        let size = attribute(&head, "font-size").map_or(inherited, |size| size.parse().expect("a size"));
+        let text =
+            content.replace("&#39;", "'").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+        let (x, y, width) = (number(&head, "x"), number(&head, "y"), typeface::width(&text, size));
+        let before = match attribute(&head, "text-anchor") {
+            Some("middle") => 0.5 * width,
+            Some("end") => width,
+            _ => 0.0,
+        };
+        let (up, down) = (0.73 * size, 0.21 * size);
+        let edges = if head.contains("rotate(-90") {
+            [x - up, y - width + before, x + down, y + before]
+        } else {
+            [x - before, y - up, x - before + width, y + down]
+        };
+        boxes.push(TextBox { edges, text });
+    }
+    boxes
+}
+
+/// Maps, plots of limits, motions and phase portraits.
+fn pictures() -> Vec<(String, String)> {
+    let maps = [
+        ("klepp-2002", "mu_1=0..0.8", "F_20=0 N..15 N", ColourBy::Solutions),
+        ("klepp-2002", "mu_1=0..0.8", "alpha=60 deg..88 deg", ColourBy::Modes),
+        ("slider-crank", "phi=-175 deg..175 deg", "mu=0..1.5", ColourBy::Modes),
+        ("slider-crank", "phi=20 deg..90 deg", "l=45 mm..90 mm", ColourBy::Jam),
+        ("drawer", "mu=0..1", "L=200 mm..500 mm", ColourBy::Margin),
+    ];
+    let mut pictures = Vec::new();
+    for (name, x, y, colour_by) in maps {
+        let options = MapOptions { width: 40, height: 40, colour_by, ..MapOptions::of(x, y) };
+        let report = map(&model(name, &[]), &options).expect("a map");
+        pictures.push((format!("map of {name}"), slideway_pictures::map::to_svg(&report, &DARK)));
+    }
+    let limits = [
+        ("klepp-2002", "friction=0..10"),
+        ("painleve-klein", "mu=0..5"),
+        ("scotch-yoke", "phi=0 deg..360 deg"),
+        ("telescopic-boom", "friction=0..6"),
+        ("wedge", "friction=0..6"),
+    ];
+    for (name, vary) in limits {
+        let figure = figure(&model(name, &[]), vary);
+        pictures.push((format!("limits of {name}"), plot::to_svg(&figure, &LIGHT)));
+    }
+    for name in ["frictional-oscillator", "klepp-2002-spring", "stick-slip", "telescopic-boom"] {
+        let history = simulate(&model(name, &[]), &SimulateOptions::new(0.5)).expect("a motion");
+        pictures.push((format!("motion of {name}"), plot::to_svg(&motion_figure(&history), &LIGHT)));
+        pictures.push((format!("portrait of {name}"), plot::to_svg(&portrait_figure(&history), &LIGHT)));
+    }
+    pictures
+}
+
+/// With at least 4 px around it.
+#[test]
+fn all_text_is_within_the_picture_and_none_over_another() {
+    for (name, svg) in pictures() {
+        let [width, height] = ["width", "height"].map(|side| number(&svg, side));
+        let texts = texts(&svg);
+        assert!(texts.len() > 8, "{name}");
+        for (index, one) in texts.iter().enumerate() {
+            let [left, top, right, bottom] = one.edges;
+            let is_within = left >= 4.0 && top >= 4.0 && right <= width - 4.0 && bottom <= height - 4.0;
+            assert!(is_within, "{name}: {} at {:?} of {width} x {height}", one.text, one.edges);
+            for other in &texts[..index] {
+                assert!(!one.overlaps(other), "{name}: {} over {}", one.text, other.text);
+            }
+        }
+    }
+}
+
+/// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as the rest.
+#[test]
+fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
+    let oscillator =
+        simulate(&model("frictional-oscillator", &[]), &SimulateOptions::new(1.0)).expect("a motion");
+    let svg = plot::to_svg(&portrait_figure(&oscillator), &LIGHT);
+    let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
+    let (left, right) = (number(frame, "x"), number(frame, "x") + number(frame, "width"));
+    let curves = of_class(&svg, "curve");
+    let parts = curves.iter().flat_map(|curve| points(attribute(curve, "d").expect("data")));
+    for [x, _] in parts.flatten() {
+        assert!(left + 5.0 < x && x < right - 5.0, "{x} of {left} to {right}");
+    }
+    let crank = simulate(&model("slider-crank", &[]), &SimulateOptions::new(0.3)).expect("a motion");
+    let svg = plot::to_svg(&motion_figure(&crank), &LIGHT);
+    let energy = svg.rsplit("class=\"panel\"").next().expect("a last panel");
+    let widths: Vec<f64> =
+        of_class(energy, "curve").iter().map(|curve| number(curve, "stroke-width")).collect();
+    assert!(widths.len() > 40, "many phases");
+    assert!(widths.iter().all(|width| *width == 2.2), "{widths:?}");
 }

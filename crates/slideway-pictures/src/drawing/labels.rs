@@ -32,6 +32,7 @@ const STEP: f64 = 3.0;
 /// Gives every label its place, in their order; with bounds those that find no place within them are left out.
 pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
     let mut obstacles = obstacles(scene);
+    obstacles.extend(outlines(scene));
     let mut taken: Vec<Bounds> = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
     for label in labels {
         let Some(bounds) = best(&label, &obstacles, &taken, within) else { continue };
@@ -115,14 +116,22 @@ fn crossed(bounds: &Bounds, obstacles: &[(Point, f64)]) -> f64 {
     obstacles.iter().filter(|(place, _)| bounds.contains(place)).map(|(_, weight)| weight).sum()
 }
 
-/// Places along all lines, each with what it costs to cover it.
+/// Places along all lines but the outlines of bodies, each with what it costs to cover it.
 pub(super) fn obstacles(scene: &Scene) -> Vec<(Point, f64)> {
+    places_along(scene, |class| class != Class::Body)
+}
+
+/// Places along the outlines of bodies.
+fn outlines(scene: &Scene) -> Vec<(Point, f64)> {
+    places_along(scene, |class| class == Class::Body)
+}
+
+fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<(Point, f64)> {
     let mut places = Vec::new();
-    for element in &scene.elements {
+    for element in scene.elements.iter().filter(|element| counts(element.class)) {
         let weight = match element.class {
             Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => 2.5,
             Class::Hatch | Class::Slot => 0.4,
-            Class::Body => continue,
             _ => 1.0,
         };
         match &element.shape {

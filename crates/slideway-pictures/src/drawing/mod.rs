@@ -290,6 +290,12 @@ pub(crate) fn quantity(value: f64, unit: &str) -> String {
     format!("{} {unit}", number(value * factor))
 }
 
+/// The signs of a pattern one by one, with true minus signs.
+pub(crate) fn signs(pattern: &str) -> String {
+    let signs: Vec<String> = pattern.chars().map(String::from).collect();
+    signs.join(" ").replace('-', "\u{2212}")
+}
+
 /// Four significant digits, with a true minus sign.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();

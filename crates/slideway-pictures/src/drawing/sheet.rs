@@ -2,7 +2,7 @@
 
 use super::loads::load_force;
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
-use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene};
+use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene, signs};
 use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
@@ -13,7 +13,7 @@ const PANEL: [f64; 2] = [440.0, 320.0];
 /// Least width of a panel, for its caption.
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels does not exceed if it has several.
-const ROW: f64 = 1560.0;
+const ROW: f64 = 1300.0;
 /// The most solutions that are drawn.
 const MOST: usize = 24;
 /// Length of the longest arrow of a force.
@@ -153,8 +153,7 @@ impl Drawn<'_> {
         let options = SceneOptions { names, ..SceneOptions::contact_mode(force_scale) };
         let states = ContactStates::of(solution);
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let signs: Vec<String> = solution.pattern.chars().map(|sign| sign.to_string()).collect();
-        let signs = signs.join(" ").replace('-', "\u{2212}");
+        let signs = signs(&solution.pattern);
         let mut lines: Vec<String> =
             solution.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode)).collect();
         lines.push(solution.attainability.in_words());

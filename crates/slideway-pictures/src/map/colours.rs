@@ -11,8 +11,9 @@ pub(super) struct Paint {
     pub(super) hatching: Option<Hatching>,
 }
 
-/// Numbers of solutions, from one on: lighter to darker, blues that differ in lightness alone.
+/// Numbers of solutions, from one on: blues that differ in lightness alone, the first closest to the background.
 const NUMBERS: [&str; 6] = ["#d6e6f4", "#86bbdd", "#3a87c0", "#17548f", "#0b2f5b", "#061a36"];
+const NUMBERS_ON_DARK: [&str; 6] = ["#12365f", "#24649f", "#4a95cc", "#8cc4e6", "#c0e0f4", "#eef7fd"];
 /// Margins, small to large: the sequence YlGnBu of C. Brewer (ColorBrewer 2.0, Apache licence 2.0).
 const MARGINS: [&str; 7] = ["#ffffcc", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#0c2c84"];
 /// Sets of modes: lighter forms of the colours of Okabe and Ito, then the colours themselves.
@@ -26,6 +27,7 @@ const SEVERAL: &str = "#d9a5c3";
 /// How the points of a class are filled; sets of modes take their colours in the order of the classes.
 pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Paint {
     let plain = |fill: &'static str| Paint { fill, hatching: None };
+    let numbers = if *theme == DARK { NUMBERS_ON_DARK } else { NUMBERS };
     match &class.meaning {
         ClassMeaning::Locked | ClassMeaning::Moves { as_in_model: false, opposite: false } => {
             Paint { fill: LOCKED, hatching: Some(Hatching::Rising) }
@@ -33,7 +35,7 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Solutions { .. } if is_of_margins(classes) => plain(SEVERAL),
         ClassMeaning::Solutions { solutions, preload_gap_states } => {
             let fill =
-                if *solutions == 0 { "#f2e2b6" } else { NUMBERS[(solutions - 1).min(NUMBERS.len() - 1)] };
+                if *solutions == 0 { "#f2e2b6" } else { numbers[(solutions - 1).min(numbers.len() - 1)] };
             Paint { fill, hatching: (*preload_gap_states > 0).then_some(Hatching::Falling) }
         }
         ClassMeaning::Modes { .. } => {
@@ -48,8 +50,8 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             let step = all.iter().rposition(|bound| bound <= from).unwrap_or(0);
             plain(MARGINS[step])
         }
-        ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(NUMBERS[0]),
-        ClassMeaning::Moves { as_in_model: true, .. } => plain(NUMBERS[2]),
+        ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(numbers[0]),
+        ClassMeaning::Moves { as_in_model: true, .. } => plain(numbers[2]),
         ClassMeaning::Moves { .. } => plain("#7fcfb4"),
         ClassMeaning::Continuum => plain(theme.ink),
         ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } => {

@@ -36,7 +36,7 @@ pub fn to_svg(report: &MapReport, theme: &Theme) -> String {
     let width = (HEIGHT * report.x.pixels as f64 / report.y.pixels.max(1) as f64).clamp(WIDTHS[0], WIDTHS[1]);
     let axes = [axis(&report.x), axis(&report.y)];
     let left = MARGIN + axes[1].space_on_the_left(HEIGHT);
-    let whole = left + width + 2.0 * MARGIN + SAMPLE + 8.0 + LEGEND;
+    let whole = left + width + 3.0 * MARGIN + SAMPLE + 8.0 + LEGEND;
     let title = report.title.as_deref().unwrap_or_default();
     for line in wrapped(title, TITLE, whole - 2.0 * MARGIN).iter().filter(|line| !line.is_empty()) {
         let size = coordinate(TITLE);

@@ -1,13 +1,14 @@
 //! Figures of a motion: quantities over time with the contact modes as bands, and the phase portrait.
 
+use crate::drawing::signs;
 use crate::plot::{Axis, Band, Branch, Curve, Figure, Panel, Stroke};
 use crate::theme::LIGHT;
 use slideway::motion::{History, Series};
 
 /// Points of a curve, shared among the phases.
 const POINTS: f64 = 1500.0;
-/// Points of a phase at least.
-const LEAST: usize = 6;
+/// Points of a phase at least: its curve in a phase portrait may be long.
+const LEAST: usize = 24;
 /// The end of a phase is read so much before its end, as a part of it: forces may jump there.
 const BEFORE_END: f64 = 1e-9;
 
@@ -168,8 +169,7 @@ fn bands(history: &History) -> Vec<Band> {
             patterns.push(pattern.clone());
             patterns.len() - 1
         });
-        let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();
-        let meaning = format!("mode {}", signs.join(" "));
+        let meaning = format!("mode {}", signs(&pattern));
         bands.push(Band { from: phase.from, to: phase.to, colour, meaning });
     }
     bands

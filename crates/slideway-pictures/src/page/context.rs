@@ -102,10 +102,8 @@ fn states(report: &Report) -> Vec<StateView<'_>> {
 
 impl<'a> StateView<'a> {
     fn of(kind: &str, index: usize, count: &str, solution: &'a Solution) -> Self {
-        let signs: Vec<String> = solution.pattern.chars().map(String::from).collect();
-        let signs = signs.join(" ").replace('-', "\u{2212}");
         Self {
-            heading: format!("{kind} {} of {count}: {signs}", index + 1),
+            heading: format!("{kind} {} of {count}: {}", index + 1, crate::drawing::signs(&solution.pattern)),
             attainability: solution.attainability.in_words(),
             solution,
         }

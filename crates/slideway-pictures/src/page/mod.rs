@@ -65,6 +65,7 @@ pub fn to_html(page: &Page<'_>) -> Result<String, PageFault> {
     environment.set_trim_blocks(true);
     environment.set_lstrip_blocks(true);
     environment.add_filter("number", |value: f64| crate::drawing::number(value));
+    environment.add_filter("signs", |pattern: &str| crate::drawing::signs(pattern));
     environment.add_filter("precise", |value: f64| slideway::report::precise(value));
     environment.add_template("report.html", TEMPLATE).map_err(fault)?;
     let template = environment.get_template("report.html").map_err(fault)?;

@@ -8,6 +8,8 @@ use crate::theme::Theme;
 /// Width of a sample, and its distance from the text (px).
 const SAMPLE: f64 = 38.0;
 const GAP: f64 = 9.0;
+/// Curves stand side by side if there is room for so many.
+const COLUMNS: f64 = 3.0;
 /// Height of a line (px).
 const LINE: f64 = 19.0;
 
@@ -54,11 +56,20 @@ impl Legend {
         Self { entries }
     }
 
+    /// The width of the entries of curves, if several find room side by side; else they have lines of their own.
+    fn column(&self) -> Option<f64> {
+        let curves = self.entries.iter().filter(|(sample, _)| matches!(sample, Sample::Curve(..)));
+        let widest = curves.map(|(_, text)| width(text, SMALL)).fold(0.0, f64::max) + SAMPLE + GAP;
+        let columns = (WIDTH - 2.0 * MARGIN + 2.5 * GAP) / (widest + 2.5 * GAP);
+        (columns >= COLUMNS).then_some(widest)
+    }
+
     /// Draws it below `top`, entries that share a line from left to right, and returns its lower edge.
     pub(super) fn draw(&self, theme: &Theme, top: f64, svg: &mut Svg) -> f64 {
         let size = coordinate(SMALL);
         svg.open("g", &[("class", "legend"), ("font-size", &size), ("fill", theme.ink)]);
         let (mut x, mut y) = (MARGIN, top + SMALL);
+        let column = self.column();
         let mut last_is_curve = false;
         for (index, (sample, text)) in self.entries.iter().enumerate() {
             let sample_width = if matches!(sample, Sample::Marker(_) | Sample::End) { 14.0 } else { SAMPLE };
@@ -66,8 +77,8 @@ impl Legend {
             let text_width = lines.iter().map(|line| width(line, SMALL)).fold(0.0, f64::max);
             let space = sample_width + GAP + text_width;
             let is_curve = matches!(sample, Sample::Curve(..));
-            // Curves have lines of their own.
-            if index > 0 && (is_curve || last_is_curve || x + space > WIDTH - MARGIN) {
+            let goes_on = is_curve == last_is_curve && (!is_curve || column.is_some());
+            if index > 0 && (!goes_on || x + column.filter(|_| is_curve).unwrap_or(space) > WIDTH - MARGIN) {
                 (x, y) = (MARGIN, y + LINE);
             }
             draw_sample(sample, [x, y - 0.36 * SMALL], sample_width, theme, svg);
@@ -77,7 +88,7 @@ impl Legend {
                 }
                 svg.label([x + sample_width + GAP, y], &[], line);
             }
-            x += space + 2.5 * GAP;
+            x += column.filter(|_| is_curve).unwrap_or(space) + 2.5 * GAP;
             last_is_curve = is_curve;
         }
         svg.close("g");

@@ -14,6 +14,10 @@ use std::fmt::Write;
 /// Height of rows of labels and bands (px).
 const ROW: f64 = 18.0;
 const BAND: f64 = 12.0;
+/// Space beside fitted curves, as a share of their extent.
+const SPACE_BESIDE: f64 = 0.03;
+/// A piece of a curve that is shorter may lie within a crossing with another (px).
+const SHORT: f64 = 48.0;
 /// Curves keep to this distance of their points (px).
 const TOLERANCE: f64 = 0.05;
 
@@ -32,17 +36,27 @@ fn y_range(panel: &Panel) -> [f64; 2] {
     panel.y.range.unwrap_or_else(|| fitting_range(panel))
 }
 
-/// The horizontal extent of the curves, where the axis has no range.
+/// The horizontal extent of the curves with some space beside them, where the axis has no range.
 fn x_range(panel: &Panel) -> [f64; 2] {
     let all = panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]);
     let fitted = all.filter(|x| x.is_finite()).fold(None, |range: Option<[f64; 2]>, x| {
         Some(range.map_or([x, x], |[least, greatest]| [least.min(x), greatest.max(x)]))
     });
-    match panel.x.range.or(fitted) {
-        Some([from, to]) if from < to => [from, to],
-        Some([at, _]) => [at - 0.5, at + 0.5],
-        None => [0.0, 1.0],
+    match (panel.x.range, fitted) {
+        (Some(range), _) if range[0] < range[1] => range,
+        (None, Some([from, to])) if from < to => {
+            let space = SPACE_BESIDE * (to - from);
+            [from - space, to + space]
+        }
+        (Some([at, _]), _) | (None, Some([at, _])) => [at - 0.5, at + 0.5],
+        (None, None) => [0.0, 1.0],
     }
+}
+
+/// The length of visible parts.
+fn length(parts: &[Vec<[f64; 2]>]) -> f64 {
+    let pairs = parts.iter().flat_map(|part| part.windows(2));
+    pairs.map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
 }
 
 fn axes(panel: &Panel) -> [FrameAxis; 2] {
@@ -88,8 +102,10 @@ impl<'f> PanelLayout<'f> {
         self.marked(theme, svg);
         let parts: Vec<Vec<Vec<[f64; 2]>>> =
             self.panel.curves.iter().map(|curve| self.parts(curve)).collect();
+        let hiding: Vec<Vec<usize>> =
+            (0..parts.len()).map(|index| self.hiding(figure, index, &parts)).collect();
         for (index, curve) in self.panel.curves.iter().enumerate() {
-            let border = BORDER * self.number_above(figure, index, &parts) as f64;
+            let border = BORDER * self.number_above(index, &hiding, &parts) as f64;
             Self::curve(figure, curve, (&parts[index], CURVE + border), theme, svg);
         }
         // Markers and ends lie above all curves.
@@ -188,17 +204,36 @@ impl<'f> PanelLayout<'f> {
         theme.series[colour % theme.series.len()]
     }
 
-    /// How many later solid curves of other branches hide the curve with this index: it is drawn wider, so that it shows on
-    /// both sides of them.
-    fn number_above(&self, figure: &Figure, index: usize, parts: &[Vec<Vec<[f64; 2]>>]) -> usize {
+    /// The later solid curves of other branches that hide the curve with this index.
+    fn hiding(&self, figure: &Figure, index: usize, parts: &[Vec<Vec<[f64; 2]>>]) -> Vec<usize> {
         let branch = self.panel.curves[index].branch;
-        let later = self.panel.curves.iter().zip(parts).skip(index + 1);
-        let hides = |&(curve, above): &(&Curve, &Vec<Vec<[f64; 2]>>)| {
-            let stroke = figure.branches.get(curve.branch).map(|branch| branch.stroke);
+        let hides = |&above: &usize| {
+            let other = self.panel.curves[above].branch;
+            let stroke = figure.branches.get(other).map(|branch| branch.stroke);
             let is_solid = stroke.is_none_or(|stroke| stroke == Stroke::Solid);
-            curve.branch != branch && is_solid && runs_along(&parts[index], above, CURVE)
+            other != branch && is_solid && runs_along(&parts[index], &parts[above], CURVE)
         };
-        later.filter(hides).count().min(3)
+        (index + 1..parts.len()).filter(hides).collect()
+    }
+
+    /// How many curves hide the curve with this index: it is drawn wider, so that it shows on both sides of them. A short
+    /// piece counts only if most of its branch is hidden by theirs: it may lie within a mere crossing.
+    fn number_above(&self, index: usize, hiding: &[Vec<usize>], parts: &[Vec<Vec<[f64; 2]>>]) -> usize {
+        let curves = &self.panel.curves;
+        let is_same = |one: usize, other: usize| {
+            (curves[one].branch, curves[one].quantity) == (curves[other].branch, curves[other].quantity)
+        };
+        let mostly_hidden = |above: usize| {
+            let pieces = (0..curves.len()).filter(|&piece| is_same(piece, index));
+            let (hidden, all) = pieces.fold((0.0, 0.0), |(hidden, all), piece| {
+                let length = length(&parts[piece]);
+                let is_hidden = hiding[piece].iter().any(|&other| is_same(other, above));
+                (hidden + if is_hidden { length } else { 0.0 }, all + length)
+            });
+            2.0 * hidden >= all
+        };
+        let is_long = length(&parts[index]) >= SHORT;
+        hiding[index].iter().filter(|&&above| is_long || mostly_hidden(above)).count().min(3)
     }
 
     /// One curve, by its visible parts and its width.

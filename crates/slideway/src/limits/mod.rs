@@ -30,8 +30,8 @@ pub use report::{
 };
 pub(crate) use scan::bisect;
 pub use text::to_text;
-pub(crate) use varied::Varied;
 pub use varied::{FRICTION, ShownIn};
+pub(crate) use varied::{Varied, mechanism_with};
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};

@@ -1,7 +1,7 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::{Model, Setting, SettingKind, Settings};
 use crate::modes::existence::ModeProblemLine;
 use crate::solve::{Parts, Stages};
@@ -73,7 +73,7 @@ impl Varied {
             }
             Kind::Coordinate => {
                 let mechanism = Mechanism::new(&self.model)?;
-                let same = |coordinate: &&crate::mechanism::Coordinate| *coordinate.name == *self.name;
+                let same = |coordinate: &&Coordinate| *coordinate.name == *self.name;
                 mechanism.coordinates.iter().find(same).map_or(0.0, |coordinate| coordinate.value)
             }
         })
@@ -193,6 +193,22 @@ impl Varied {
     pub(crate) fn is_coordinate(&self) -> bool {
         self.kind == Kind::Coordinate
     }
+}
+
+/// The mechanism of a model with these values of what is varied, and the factor of its coefficients of friction.
+///
+/// # Errors
+/// Values that the model does not allow.
+pub(crate) fn mechanism_with(model: &Model, values: &[(&Varied, f64)]) -> Result<(Mechanism, f64), Faults> {
+    let number = |varied: &Varied| model.parameters.iter().position(|other| *other.name == *varied.name);
+    let of_kind = |kind: Kind| values.iter().filter(move |(varied, _)| varied.kind == kind);
+    let given = of_kind(Kind::Parameter).filter_map(|(varied, value)| Some((number(varied)?, *value)));
+    let mut mechanism = Mechanism::with_parameters(model, &given.collect::<Vec<_>>())?;
+    for (varied, value) in of_kind(Kind::Coordinate) {
+        let same = |other: &&mut Coordinate| *other.name == *varied.name;
+        mechanism.coordinates.iter_mut().filter(same).for_each(|coordinate| coordinate.value = *value);
+    }
+    Ok((mechanism, of_kind(Kind::Friction).map(|(_, factor)| factor).product()))
 }
 
 /// The unit in which values of what is varied are shown.

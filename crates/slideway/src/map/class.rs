@@ -138,7 +138,8 @@ fn states(parts: &Parts) -> Option<States> {
 
 /// The margin of a point with one solution, as a range of factors; none if there are too many patterns.
 fn margin(parts: &Parts) -> Option<ClassMeaning> {
-    let range = [1.0, f64::INFINITY];
+    // Changes beyond the last finite bound are of one class.
+    let range = [1.0, MARGINS[MARGINS.len() - 2]];
     let line = parts.without_pressure_friction().line_to(parts);
     let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
     let existence = line.existence(&options).ok()?;
@@ -162,5 +163,48 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
             "values that the model does not allow"
         }
         _ => "cannot be solved",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery;
+    use crate::model::{Model, Settings};
+    use crate::solve::Stages;
+
+    /// The oracle follows the number of solutions to infinite friction.
+    #[test]
+    fn margins_are_those_of_the_whole_ray() {
+        let models: [(&str, &[&str]); 2] = [("klepp-2002", &["mu_1", "mu_2"]), ("drawer", &["mu"])];
+        let mut finite = 0;
+        for (name, coefficients) in models {
+            let model = Model::parse(gallery::find(name).expect("in the gallery").text).expect("sound");
+            for step in 0..60_u32 {
+                let mu = 0.01 + 0.0131 * f64::from(step);
+                let values = [mu, 0.3 - 0.004 * f64::from(step)];
+                let set = |settings: Settings, (name, value): (&&str, f64)| {
+                    settings.parameter(name, &value.to_string())
+                };
+                let settings = coefficients.iter().zip(values).fold(Settings::default(), set);
+                let stages = Stages::new(&model.with(&settings).expect("sound")).expect("solvable");
+                let parts = stages.parts(1.0).expect("finite numbers");
+                let range = [1.0, f64::INFINITY];
+                let line = parts.without_pressure_friction().line_to(&parts);
+                let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
+                let existence = line.existence(&options).expect("few patterns");
+                let counts = counts(&line, &existence, range);
+                if counts[0].solutions != 1 {
+                    continue;
+                }
+                let factor = counts.iter().find(|count| count.solutions != 1).map(|count| count.from);
+                let Some(ClassMeaning::Margin { from, to }) = margin(&parts) else { panic!("a margin") };
+                let factor = factor.unwrap_or(f64::INFINITY);
+                finite += usize::from(factor < 5.0);
+                let is_within = from <= factor && factor < to.unwrap_or(f64::INFINITY);
+                assert!(is_within || to.is_none() && factor.is_infinite(), "{name}, {mu}: {factor}");
+            }
+        }
+        assert!(finite > 10, "{finite} finite margins");
     }
 }

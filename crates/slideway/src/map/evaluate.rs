@@ -3,9 +3,10 @@
 use super::class::{ClassKey, class, reason};
 use super::{Axis, ColourBy};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::backwards;
+use crate::limits::{backwards, mechanism_with};
+use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
-use crate::solve::{Parts, Stages};
+use crate::solve::{Parts, Stages, Trail};
 
 /// Shares of both ranges at which it is seen whether the mode problem depends bilinearly on both quantities.
 const PROBES: [f64; 3] = [0.271_828, 0.577_216, 0.834_627];
@@ -23,7 +24,7 @@ pub(super) struct Evaluator<'a> {
 enum Source {
     /// The corners of the plane: (0, 0), (1, 0), (0, 1), (1, 1).
     Bilinear(Box<[Parts; 4]>),
-    /// The model, at every point.
+    /// The model, at every point from the states of the points before it.
     Anew(Box<Model>),
 }
 
@@ -44,11 +45,18 @@ impl<'a> Evaluator<'a> {
         matches!(self.forwards, Source::Bilinear(_))
     }
 
-    /// The class of the point with these values.
-    pub(super) fn class(&self, x: f64, y: f64) -> ClassKey {
-        let at = |source: &Source| source.parts(self.axes, [x, y]).map_err(|faults| reason(&faults));
-        let forwards = at(&self.forwards);
-        let opposite = self.opposite.as_ref().map(at);
+    /// The classes of points with these values, one after another.
+    pub(super) fn classes(&self, points: impl Iterator<Item = [f64; 2]>) -> Vec<ClassKey> {
+        let mut trails = [Trail::default(), Trail::default()];
+        points.map(|values| self.class(values, &mut trails)).collect()
+    }
+
+    fn class(&self, values: [f64; 2], [there, back]: &mut [Trail; 2]) -> ClassKey {
+        let at = |source: &Source, trail: &mut Trail| {
+            source.parts(self.axes, values, trail).map_err(|faults| reason(&faults))
+        };
+        let forwards = at(&self.forwards, there);
+        let opposite = self.opposite.as_ref().map(|opposite| at(opposite, back));
         ClassKey(class(
             self.colour_by,
             forwards.as_ref().map_err(|reason| *reason),
@@ -76,7 +84,7 @@ impl Source {
         Ok(Self::Anew(Box::new(model)))
     }
 
-    fn parts(&self, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, Faults> {
+    fn parts(&self, axes: &[Axis; 2], values: [f64; 2], trail: &mut Trail) -> Result<Parts, Faults> {
         match self {
             Self::Bilinear(corners) => {
                 let share =
@@ -84,9 +92,26 @@ impl Source {
                 let place = [share(&axes[0], values[0]), share(&axes[1], values[1])];
                 Parts::mixture(&weighted(corners, place)).ok_or_else(Faults::default)
             }
-            Self::Anew(model) => parts_at(model, axes, values),
+            Self::Anew(model) => {
+                let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
+                let (mechanism, friction) = mechanism_with(model, &[x, y])?;
+                if !is_reached_from_neighbours(model, axes, &mechanism) {
+                    *trail = Trail::default();
+                }
+                Stages::along(trail, mechanism)?.parts(friction)
+            }
         }
     }
+}
+
+/// Whether a position that neighbouring points lead to is the one to which the way from the drawing leads: where dimensions
+/// change, that way may be blocked while neighbours have passed the place, unless the mechanism is in its drawing.
+fn is_reached_from_neighbours(model: &Model, axes: &[Axis; 2], mechanism: &Mechanism) -> bool {
+    let keeps_dimensions = |Axis { varied, .. }: &Axis| {
+        varied.is_coordinate() || varied.is_friction_factor() || model.is_friction_coefficient(&varied.name)
+    };
+    axes.iter().all(keeps_dimensions)
+        || mechanism.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at)
 }
 
 /// The corners with their weights at a place of the unit square.
@@ -99,6 +124,7 @@ fn along(axis: &Axis, share: f64) -> f64 {
     if share == 1.0 { axis.range[1] } else { axis.range[0] + share * (axis.range[1] - axis.range[0]) }
 }
 
+/// The mode problem by all stages of `solve`.
 fn parts_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, Faults> {
     let mut settings = Settings::default();
     let mut friction = 1.0;
@@ -137,4 +163,49 @@ fn nothing_varies(axes: &[Axis; 2], probes: &[([f64; 2], Result<Parts, Faults>)]
         }
     }
     faults.or(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery;
+
+    /// The oracle assembles the model of every point from the drawing and factors with full pivoting. Between neighbouring
+    /// points lie up to 11 degrees; a rod shorter than the crank cannot pass 90 degrees, which its neighbours can. The other run
+    /// of points jumps to and fro.
+    #[test]
+    fn points_along_a_trail_are_those_assembled_anew() {
+        let planes = [
+            ("slider-crank", "phi=-175 deg..175 deg", "mu=0..1.5"),
+            ("slider-crank", "phi=20 deg..170 deg", "l=45 mm..90 mm"),
+            ("klepp-2002", "mu_1=0..0.8", "alpha=60 deg..88 deg"),
+            ("scotch-yoke", "phi=2 deg..358 deg", "friction=0.5..3"),
+        ];
+        let jumping = |step: usize| [0.618_034, 0.754_878].map(|share| (step as f64 * share).fract());
+        let walking = |step: usize| [(step as f64 + 0.5) / 32.0, 0.1 + 0.02 * step as f64];
+        for (name, x, y) in planes {
+            let model = Model::parse(gallery::find(name).expect("in the gallery").text).expect("sound");
+            let axes = [x, y].map(|axis| Axis::new(&model, axis).expect("an axis"));
+            for colour_by in [ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
+                let evaluator = Evaluator::new(&model, &axes, colour_by).expect("something varies");
+                assert!(!evaluator.is_bilinear(), "{name}");
+                let backwards = backwards(&model).expect("can be turned round");
+                for points in [(0..32).map(walking).collect::<Vec<_>>(), (0..32).map(jumping).collect()] {
+                    let values = points.iter().map(|[u, v]| [along(&axes[0], *u), along(&axes[1], *v)]);
+                    let found = evaluator.classes(values.clone());
+                    for (values, found) in values.zip(found) {
+                        let at =
+                            |model: &Model| parts_at(model, &axes, values).map_err(|faults| reason(&faults));
+                        let (forwards, opposite) = (at(&model), at(&backwards));
+                        let expected = class(
+                            colour_by,
+                            forwards.as_ref().map_err(|reason| *reason),
+                            Some(opposite.as_ref().map_err(|reason| *reason)),
+                        );
+                        assert_eq!(found, ClassKey(expected), "{name} {colour_by:?} at {values:?}");
+                    }
+                }
+            }
+        }
+    }
 }

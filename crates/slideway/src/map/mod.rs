@@ -129,7 +129,7 @@ impl Axis {
 /// [`modes::enumerate`](crate::modes::enumerate), within its tolerances, not certified as those of `solve`.
 ///
 /// Where the mode problem depends bilinearly on both quantities (friction, preloads, loads), which is tried at a few points,
-/// its numbers are interpolated, else the mechanism is assembled anew at every point.
+/// its numbers are interpolated, else the mechanism is assembled at every point, from the positions of neighbouring points.
 ///
 /// # Errors
 /// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a point cannot be
@@ -150,9 +150,10 @@ pub fn map_with(
     let axes = axes(model, options)?;
     let [width, height] = [options.width, options.height].map(|size| size.clamp(1, GREATEST_SIZE));
     let evaluator = Evaluator::new(model, &axes, options.colour_by)?;
-    let class = |[i, j]: [usize; 2]| evaluator.class(axes[0].value(i, width), axes[1].value(j, height));
+    let values = |&[i, j]: &[usize; 2]| [axes[0].value(i, width), axes[1].value(j, height)];
+    let classes = |points: &[[usize; 2]]| evaluator.classes(points.iter().map(values));
     let grid = Grid { width, height, probe: options.probe.max(1) };
-    let Some(raster) = Raster::<ClassKey>::new(grid, &class, progress) else { return Ok(None) };
+    let Some(raster) = Raster::<ClassKey>::new(grid, &classes, progress) else { return Ok(None) };
     Ok(Some(report::report(model, options, &axes, &evaluator, &raster)))
 }
 

@@ -6,6 +6,10 @@ use std::ops::ControlFlow;
 
 /// Points that are solved between two calls of the callback.
 const AT_ONCE: usize = 2048;
+/// Points that are solved one after another.
+const RUN: usize = 32;
+/// Points are solved in rows of so many pixels' height, from left to right, so that successive ones are neighbours.
+const BAND: usize = 16;
 
 /// A plane of pixels, counted from the lower left corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,9 +38,12 @@ type Cell = [usize; 4];
 /// No class yet.
 const OPEN: u32 = u32::MAX;
 
+/// What tells the classes of points that lie near one another.
+type Classes<'c, K> = &'c (dyn Fn(&[[usize; 2]]) -> Vec<K> + Sync);
+
 struct Work<'w, K> {
     grid: Grid,
-    class: &'w (dyn Fn([usize; 2]) -> K + Sync),
+    classes_of: Classes<'w, K>,
     progress: &'w mut dyn FnMut(MapProgress) -> ControlFlow<()>,
     classes: Vec<K>,
     pixels: Vec<u32>,
@@ -49,13 +56,13 @@ impl<K: PartialEq + Send> Raster<K> {
     /// The classes of all pixels; none if the callback broke. The same for any number of threads.
     pub(super) fn new(
         grid: Grid,
-        class: &(dyn Fn([usize; 2]) -> K + Sync),
+        classes_of: Classes<'_, K>,
         progress: &mut dyn FnMut(MapProgress) -> ControlFlow<()>,
     ) -> Option<Self> {
         let pixels = grid.width * grid.height;
         let mut work = Work {
             grid,
-            class,
+            classes_of,
             progress,
             classes: Vec::new(),
             pixels: vec![OPEN; pixels],
@@ -75,12 +82,12 @@ impl<K: PartialEq + Send> Work<'_, K> {
 
     /// Solves the points among these that are not solved yet, in parallel, and enters them in their order.
     fn solve(&mut self, mut points: Vec<[usize; 2]>) -> Option<()> {
-        points.sort_unstable_by_key(|&[i, j]| [j, i]);
+        points.sort_unstable_by_key(|&[i, j]| [j / BAND, i, j]);
         points.dedup();
         points.retain(|&point| !self.is_solved[self.index(point)]);
         for chunk in points.chunks(AT_ONCE) {
-            let found: Vec<K> = chunk.par_iter().with_min_len(16).map(|&point| (self.class)(point)).collect();
-            for (&point, class) in chunk.iter().zip(found) {
+            let found: Vec<Vec<K>> = chunk.par_chunks(RUN).map(self.classes_of).collect();
+            for (&point, class) in chunk.iter().zip(found.into_iter().flatten()) {
                 let known = self.classes.iter().position(|other| *other == class);
                 let number = known.unwrap_or_else(|| {
                     self.classes.push(class);
@@ -227,7 +234,8 @@ mod tests {
         class: impl Fn([usize; 2]) -> u8 + Sync,
     ) -> Raster<u8> {
         let grid = Grid { width, height, probe };
-        Raster::new(grid, &class, &mut |_| ControlFlow::Continue(())).expect("nothing breaks")
+        let classes = |points: &[[usize; 2]]| points.iter().map(|&point| class(point)).collect();
+        Raster::new(grid, &classes, &mut |_| ControlFlow::Continue(())).expect("nothing breaks")
     }
 
     fn is_exact(raster: &Raster<u8>, class: impl Fn([usize; 2]) -> u8) -> bool {
@@ -311,7 +319,8 @@ mod tests {
     #[test]
     fn the_callback_ends_the_work() {
         let grid = Grid { width: 100, height: 100, probe: 1 };
-        let ended = Raster::new(grid, &|[i, _]: [usize; 2]| i % 2, &mut |_| ControlFlow::Break(()));
+        let classes = |points: &[[usize; 2]]| points.iter().map(|[i, _]| i % 2).collect();
+        let ended = Raster::new(grid, &classes, &mut |_| ControlFlow::Break(()));
         assert!(ended.is_none());
     }
 }

@@ -155,7 +155,7 @@ fn guarantee(raster: &Raster<ClassKey>, is_bilinear: bool) -> String {
     let source = if is_bilinear {
         "The mode problem depends bilinearly on both, so that its numbers were interpolated."
     } else {
-        "The mechanism was assembled anew at every point."
+        "The mechanism was assembled at every point."
     };
     let missed = match raster.grid.probe {
         1 => "Every pixel was solved.".to_owned(),

@@ -29,6 +29,7 @@ mod margins;
 mod mode_problem;
 mod parts;
 mod state;
+mod trail;
 mod uncertainty;
 mod words;
 
@@ -40,6 +41,7 @@ pub(crate) use mode_problem::{
 };
 pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};
+pub(crate) use trail::Trail;
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;

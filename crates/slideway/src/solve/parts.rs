@@ -1,6 +1,7 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
 use super::mode_problem::{check_size, mode_problem, velocity_signs};
+use super::trail::Trail;
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::{DriveId, JointId};
@@ -44,6 +45,18 @@ impl Stages {
         let configuration = Configuration::new(&mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
         let influence = Influence::new(&equations);
+        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
+        Ok(Self { mechanism, configuration, influence, velocity_signs })
+    }
+
+    /// Those of a mechanism, from the states of the last ones if these are near.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
+        check_size(&mechanism)?;
+        let (configuration, influences) = trail.state(&mechanism)?;
+        let influence = Influence::of(influences);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
         Ok(Self { mechanism, configuration, influence, velocity_signs })
     }

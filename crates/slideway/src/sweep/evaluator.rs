@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::friction::{Friction, FrictionFormulas};
 use super::quantity::Kind;
 use super::rows::{Breakpoint, PointStatus, Rows};
-use super::stages::{Stages, Trail};
+use super::stages::Stages;
 use super::together::{Found, Together};
 use super::told;
 use super::writer::{Writer, head};
@@ -15,7 +15,7 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::report::Report;
-use crate::solve::{SolveOptions, careful_report, mode_problem, solve_with, velocity_signs};
+use crate::solve::{SolveOptions, Trail, careful_report, mode_problem, solve_with, velocity_signs};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
@@ -44,7 +44,7 @@ impl Plan {
     /// Computes what is the same at all points; whatever is refused there is left to each of them.
     pub(super) fn prepare(&mut self) {
         let Some(formulas) = self.friction.as_ref().filter(|_| self.same_state()) else { return };
-        self.stages = Trail::default().stages(&self.mechanism, &self.columns).ok();
+        self.stages = Stages::along(&mut Trail::default(), &self.mechanism, &self.columns).ok();
         if let Some(stages) = self.stages.as_ref().filter(|_| !self.attainability) {
             self.together = Together::new(&self.mechanism, stages, formulas, &self.varied);
         }
@@ -199,7 +199,8 @@ impl<'p> Evaluator<'p> {
         self.put_friction(values)?;
         if self.stages.is_none() || !plan.same_state() {
             self.stages = None;
-            self.stages = Some(Cow::Owned(self.trail.stages(&self.mechanism, &plan.columns)?));
+            let stages = Stages::along(&mut self.trail, &self.mechanism, &plan.columns)?;
+            self.stages = Some(Cow::Owned(stages));
         }
         Ok(())
     }

@@ -4,16 +4,14 @@ use super::columns::{Columns, Output};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::influence::Influence;
-use crate::kinetics::{Elimination, Influences, KineticEquations};
+use crate::kinetics::Influences;
 use crate::mechanism::Mechanism;
 use crate::modes::screen::MOST_CONTACTS;
-use crate::solve::{preload_columns, sides, sliding_signs};
+use crate::solve::{Trail, preload_columns, sides, sliding_signs};
 use nalgebra::{DMatrix, DVector};
 
 type Square = [[f64; MOST_CONTACTS]; MOST_CONTACTS];
 
-/// States that are extrapolated.
-const REMEMBERED: usize = 3;
 /// Rounding of a state's numbers, as a part of the condition of its equations.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -38,34 +36,16 @@ pub(super) struct Stages {
     pub(super) accuracy: f64,
 }
 
-/// The states of the last points, from which the next one is reached.
-#[derive(Debug, Default)]
-pub(super) struct Trail {
-    reached: Vec<Configuration>,
-    elimination: Elimination,
-}
-
-impl Trail {
+impl Stages {
     /// The stages of a mechanism, from those of the last points if these are near.
     ///
     /// # Errors
     /// Whatever `solve` refuses, but for contacts at rest.
-    pub(super) fn stages(&mut self, mechanism: &Mechanism, columns: &Columns) -> Result<Stages, Faults> {
-        let configuration = match Configuration::near(mechanism, &self.reached) {
-            Some(configuration) => configuration,
-            None => Configuration::new(mechanism).inspect_err(|_| self.reached.clear())?,
-        };
-        let influences = match Influences::new(mechanism, &configuration, &mut self.elimination)? {
-            Some(influences) => influences,
-            None => KineticEquations::new(mechanism, &configuration)?.influences(),
-        };
-        self.reached.insert(0, configuration.clone());
-        self.reached.truncate(REMEMBERED);
-        Ok(Stages::new(mechanism, configuration, influences, columns))
+    pub(super) fn along(trail: &mut Trail, mechanism: &Mechanism, columns: &Columns) -> Result<Self, Faults> {
+        let (configuration, influences) = trail.state(mechanism)?;
+        Ok(Self::new(mechanism, configuration, influences, columns))
     }
-}
 
-impl Stages {
     fn new(
         mechanism: &Mechanism,
         configuration: Configuration,

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Dyn, LU};
 use super::roots::{Reduced, Root};
 
 /// Relative rounding errors up to which an inequality counts as met.
-const TOLERANCE: f64 = 1e-11;
+pub(super) const TOLERANCE: f64 = 1e-11;
 /// Equations whose pivots differ by more than this are no base point for the others.
 const SMALLEST_PIVOT: f64 = 1e-9;
 /// Fractions of the range that are tried as base points.
@@ -201,13 +201,21 @@ pub(super) fn pivot_ratio(lu: &LU<f64, Dyn, Dyn>) -> f64 {
 
 /// The parts of a range in which all conditions hold; none if eigenvalues could not be computed.
 fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
+    let signs = reduced.signs(range);
+    if signs.exclude() {
+        return Some(Vec::new());
+    }
     let end = |at| End { at, cause: Cause::Range };
     let mut parts = vec![Part { from: end(range[0]), to: end(range[1]) }];
     let room = SAME_PLACE * (range[1] - range[0]);
-    cut(&mut parts, &reduced.poles()?, &Cause::Singular, room);
+    if signs.determinant.is_none() {
+        cut(&mut parts, &reduced.poles()?, &Cause::Singular, room);
+    }
     for condition in reduced.order(range) {
         let cause = Cause::Conditions(vec![condition]);
-        cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
+        if signs.numerators[condition].is_none() {
+            cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
+        }
         parts.retain(|part| reduced.value(condition, part.middle()).is_some_and(Value::is_met));
         merge(&mut parts, &cause);
         if parts.is_empty() {

@@ -19,6 +19,7 @@
 mod counts;
 mod line;
 mod roots;
+mod signs;
 
 use nalgebra::{DMatrix, DVector};
 

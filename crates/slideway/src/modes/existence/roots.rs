@@ -22,16 +22,16 @@ pub(super) struct Root(pub(super) f64);
 /// z = z_0 + tau z_1 - tau X (I + tau K)^-1 (z_0 + tau z_1)_varying,     det A(t) = det A(base) det(I + tau K)
 /// ```
 pub(super) struct Reduced {
-    base: f64,
-    k: DMatrix<f64>,
+    pub(super) base: f64,
+    pub(super) k: DMatrix<f64>,
     /// The varying part of `z_0` and `z_1`.
-    sources: [DVector<f64>; 2],
+    pub(super) sources: [DVector<f64>; 2],
     /// `w . X` of every condition.
-    couplings: DMatrix<f64>,
+    pub(super) couplings: DMatrix<f64>,
     /// `w . z_0 + offset` and `w . z_1`.
-    values: [DVector<f64>; 2],
+    pub(super) values: [DVector<f64>; 2],
     /// `|w| . |z_0| + |offset|`.
-    magnitudes: DVector<f64>,
+    pub(super) magnitudes: DVector<f64>,
 }
 
 impl Reduced {

@@ -1,0 +1,37 @@
+//! States one after another, each reached from those before it.
+
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::kinetics::{Elimination, Influences, KineticEquations};
+use crate::mechanism::Mechanism;
+
+/// States that are extrapolated.
+const REMEMBERED: usize = 3;
+
+/// The states of the last points, from which the next one is reached.
+#[derive(Debug, Default)]
+pub(crate) struct Trail {
+    reached: Vec<Configuration>,
+    elimination: Elimination,
+}
+
+impl Trail {
+    /// The configuration of a mechanism, and its answers to loads and to unit friction forces: from those of the last points
+    /// if these are near.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses, but for contacts at rest.
+    pub(crate) fn state(&mut self, mechanism: &Mechanism) -> Result<(Configuration, Influences), Faults> {
+        let configuration = match Configuration::near(mechanism, &self.reached) {
+            Some(configuration) => configuration,
+            None => Configuration::new(mechanism).inspect_err(|_| self.reached.clear())?,
+        };
+        let influences = match Influences::new(mechanism, &configuration, &mut self.elimination)? {
+            Some(influences) => influences,
+            None => KineticEquations::new(mechanism, &configuration)?.influences(),
+        };
+        self.reached.insert(0, configuration.clone());
+        self.reached.truncate(REMEMBERED);
+        Ok((configuration, influences))
+    }
+}
