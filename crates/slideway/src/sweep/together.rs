@@ -131,6 +131,8 @@ fn in_order_of_enumeration(states: &mut [SmallState]) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
     use super::super::{RowKind, Rows, Sweep, SweepOptions};
     use crate::gallery;
     use crate::model::{Model, Settings};

@@ -24,8 +24,11 @@ fn reversed(history: &History, duration: f64) -> History {
         .unwrap()
 }
 
+/// Names and values of parameters.
+type Parameters = &'static [(&'static str, &'static str)];
+
 /// Every gallery model that can move on its own, without friction and dampers, and for how long: (name, settings, duration).
-const FRICTIONLESS: [(&str, &[(&str, &str)], f64); 10] = [
+const FRICTIONLESS: [(&str, Parameters, f64); 10] = [
     ("elliptic-trammel", &[("mu", "0")], 3.0),
     ("slider-crank", &[("mu", "0"), ("gas", "0 N"), ("T", "0 N m")], 0.25),
     ("klepp-2002", &[("mu_1", "0"), ("mu_2", "0"), ("mu_3", "0"), ("F_20", "0 N")], 1.0),
