@@ -162,7 +162,7 @@ fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
 fn a_normal_force_beyond_its_limit_ends_the_motion() {
     let run = slideway(&["simulate", KLEPP, "--until", "1s", "--max-reaction", "10"]);
     assert_eq!(run.code, 1, "{}", run.stderr);
-    assert_tells(&run.stdout, &["beyond", "In the end: q = "]);
+    assert_tells(&run.stdout, &["the normal force of upper has reached its limit", "In the end: q = "]);
 }
 
 /// What is refused, in full: exit code, message, place and help.

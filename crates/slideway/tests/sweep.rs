@@ -181,27 +181,29 @@ fn rows_are_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     assert!(solved > 60, "{solved}");
 }
 
-/// A grid goes from point to point; each position is what the way from the drawing gives.
+/// A grid goes from point to point; each position is what the way from the drawing gives. A rod shorter than the crank cannot
+/// pass 90 degrees on that way, though it can come there from a longer one.
 #[rstest]
-#[case("slider-crank", "phi=-80 deg..80 deg:161")]
-#[case("scotch-yoke", "phi=-170 deg..170 deg:171")]
-#[case("elliptic-trammel", "theta=100 deg..170 deg:71")]
-#[case("sleeve-on-arm", "phi=-60 deg..60 deg:61")]
-#[case("klepp-2002", "alpha=40 deg..85 deg:91")]
-fn a_grid_is_what_solve_says(#[case] name: &str, #[case] vary: &str) {
+#[case("slider-crank", &["phi=-80 deg..80 deg:161"])]
+#[case("scotch-yoke", &["phi=-170 deg..170 deg:171"])]
+#[case("elliptic-trammel", &["theta=100 deg..170 deg:71"])]
+#[case("sleeve-on-arm", &["phi=-60 deg..60 deg:61"])]
+#[case("klepp-2002", &["alpha=40 deg..85 deg:91"])]
+#[case("slider-crank", &["phi=20 deg..170 deg:16", "l=90 mm,80 mm,70 mm,60 mm,55 mm,52 mm,49 mm,47 mm,45 mm"])]
+fn a_grid_is_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     let model = model(name);
-    let sweep = Sweep::new(&model, &SweepOptions { all_columns: true, ..options(&[vary]) }).unwrap();
+    let sweep = Sweep::new(&model, &SweepOptions { all_columns: true, ..options(vary) }).unwrap();
     for rows in rows(&sweep) {
         let mut first = 0;
         while first < rows.len() {
             let point = rows.heads[first].point;
             let count = rows.heads[first..].iter().take_while(|head| head.point == point).count();
             if rows.heads[first].breakpoint == Breakpoint::No {
-                let settings = settings_of(&sweep, 1, &rows.numbers(first)[..1], &model);
+                let settings = settings_of(&sweep, vary.len(), &rows.numbers(first)[..vary.len()], &model);
                 match solve(&model.with(&settings).unwrap()) {
                     Ok(report) => check_point(&sweep, &rows, first..first + count, &report),
-                    // At a dead centre sliding stops.
-                    Err(_) => assert_eq!(rows.heads[first].status, PointStatus::Refused),
+                    // At a dead centre sliding stops; a rod that is too short has no position.
+                    Err(_) => assert!(!rows.heads[first].status.is_solved(), "{point}"),
                 }
             }
             first += count;

@@ -108,10 +108,14 @@ impl Source {
 /// change, that way may be blocked while neighbours have passed the place, unless the mechanism is in its drawing.
 fn is_reached_from_neighbours(model: &Model, axes: &[Axis; 2], mechanism: &Mechanism) -> bool {
     let keeps_dimensions = |Axis { varied, .. }: &Axis| {
-        varied.is_coordinate() || varied.is_friction_factor() || model.is_friction_coefficient(&varied.name)
+        let mut parameters = model.parameters.iter();
+        varied.is_coordinate()
+            || varied.is_friction_factor()
+            || parameters
+                .position(|other| *other.name == *varied.name)
+                .is_some_and(|index| model.changes_friction_alone(index))
     };
-    axes.iter().all(keeps_dimensions)
-        || mechanism.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at)
+    mechanism.is_in_drawing() || axes.iter().all(keeps_dimensions)
 }
 
 /// The corners with their weights at a place of the unit square.

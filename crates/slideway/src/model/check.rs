@@ -1,7 +1,7 @@
 //! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
 //! relations between values, and how its parts are connected.
 
-use super::{Along, BODY_LIMIT, Formula, JointKind, LoadKind, Model, NamedPoint, Slider};
+use super::{Along, BODY_LIMIT, Contact, Formula, JointKind, LoadKind, Model, NamedPoint, Slider};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
@@ -105,12 +105,24 @@ impl Model {
         let Some(wanted) = self.parameters.iter().position(|other| &*other.name == parameter) else {
             return false;
         };
+        self.contacts().flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
+    }
+
+    /// Whether a parameter changes nothing but coefficients of friction and preloads.
+    pub(crate) fn changes_friction_alone(&self, parameter: usize) -> bool {
+        let own = self.parameters.iter().map(|parameter| parameter.value);
+        let left_out: Vec<FormulaId> = own.chain(self.contacts().flat_map(Contact::friction)).collect();
+        let mut others = (0..self.formulas.len()).map(FormulaId).filter(|id| !left_out.contains(id));
+        !others.any(|id| self.uses(id, parameter))
+    }
+
+    /// The contacts of all sliding joints, in the order of the mechanism's.
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = &Contact> {
         let sliders = self.joints.iter().filter_map(|joint| match &joint.kind {
             JointKind::Slider(slider) => Some(slider),
             JointKind::Hinge(_) => None,
         });
-        let contacts = sliders.flat_map(|slider| &slider.contacts);
-        contacts.flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
+        sliders.flat_map(|slider| &slider.contacts)
     }
 
     /// Whether a formula uses a parameter, by way of others if need be; there are no circles.

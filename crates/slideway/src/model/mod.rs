@@ -250,6 +250,14 @@ pub struct Contact {
     pub stiffness: Option<FormulaId>,
 }
 
+impl Contact {
+    /// The formulas of its coefficients of friction and preloads.
+    pub(crate) fn friction(&self) -> impl Iterator<Item = FormulaId> + use<> {
+        let preload = self.preload.into_iter().flatten();
+        self.mu.into_iter().chain(self.mu_static).chain(preload)
+    }
+}
+
 /// A load.
 #[derive(Debug, Clone)]
 pub struct Load {

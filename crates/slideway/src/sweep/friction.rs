@@ -60,15 +60,11 @@ impl FrictionFormulas {
             .collect();
         let uses = |id: FormulaId| given.iter().any(|(index, _)| model.uses(id, *index));
         let mut contacts = Vec::new();
-        let mut friction = Vec::new();
-        for (number, contact) in contacts_of(model).enumerate() {
-            let ids: Vec<FormulaId> = contact
-                .mu
-                .into_iter()
-                .chain(contact.mu_static)
-                .chain(contact.preload.into_iter().flatten())
-                .collect();
-            if ids.iter().any(|id| uses(*id)) {
+        if given.iter().any(|(index, _)| !model.changes_friction_alone(*index)) {
+            return Ok(None);
+        }
+        for (number, contact) in model.contacts().enumerate() {
+            if contact.friction().any(uses) {
                 contacts.push(ContactFormulas {
                     contact: number,
                     name: contact.name.clone(),
@@ -77,13 +73,6 @@ impl FrictionFormulas {
                     preload: contact.preload.map(|id| id.filter(|id| uses(*id))),
                 });
             }
-            friction.extend(ids);
-        }
-        let own: Vec<FormulaId> = model.parameters.iter().map(|parameter| parameter.value).collect();
-        let others =
-            (0..model.formulas.len()).map(FormulaId).filter(|id| !own.contains(id) && !friction.contains(id));
-        if others.into_iter().any(uses) {
-            return Ok(None);
         }
         let numbers: Vec<usize> = given.iter().map(|(index, _)| *index).collect();
         let following = model.following(&numbers);
@@ -148,13 +137,4 @@ impl ContactFormulas {
         let kind = FaultKind::StaticBelowKinetic { contact: self.name.to_string(), mu, mu_static };
         Err(Fault::new(kind, formula.origin.place()).into())
     }
-}
-
-/// The contacts of a model in the order of the mechanism's.
-fn contacts_of(model: &Model) -> impl Iterator<Item = &crate::model::Contact> {
-    let sliders = model.joints.iter().filter_map(|joint| match &joint.kind {
-        crate::model::JointKind::Slider(slider) => Some(slider),
-        crate::model::JointKind::Hinge(_) => None,
-    });
-    sliders.flat_map(|slider| &slider.contacts)
 }

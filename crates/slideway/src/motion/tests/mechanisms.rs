@@ -151,7 +151,7 @@ const fn balanced(name: &'static str, duration: f64, events: usize) -> Balanced 
 }
 
 /// Every gallery model with inertia, so that something happens in each: driven ones are slowed down until they return.
-const BALANCED: [Balanced; 14] = [
+const BALANCED: [Balanced; 15] = [
     balanced("cam-follower", 1.0, 2),
     Balanced {
         replaced: Some(("acceleration = 0", "acceleration = \"-0.4 m/s^2\"")),
@@ -171,6 +171,7 @@ const BALANCED: [Balanced; 14] = [
     balanced("slider-crank", 0.1, 20),
     balanced("stick-slip", 2.0, 6),
     balanced("telescopic-boom", 1.0, 3),
+    balanced("thrown-drawer", 0.6, 1),
     Balanced {
         replaced: Some(("acceleration = 0", "acceleration = \"-0.04 m/s^2\"")),
         ..balanced("wedge", 1.0, 1)
