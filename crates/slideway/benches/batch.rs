@@ -87,20 +87,28 @@ fn bench_friction(
 /// What `reference/comparison/sweep_numpy.py` computes: the solutions of the paper's sweep, mu_1 from 0 to 0.8, with point,
 /// pattern and normal forces.
 #[divan::bench]
+#[expect(clippy::cast_possible_truncation, reason = "a million points, eight patterns")]
 fn paper_normal_forces(bencher: Bencher<'_, '_>) {
     const POINTS: usize = 1_000_000;
+    const BLOCK: usize = 4096;
     let mu_1: Vec<f64> = (0..POINTS).map(|point| 0.8 * point as f64 / (POINTS - 1) as f64).collect();
     let batch = FrictionBatch::new(&paper(0.0), &[0]).expect("few contacts");
     let mut solutions = BatchSolutions::default();
-    let (mut places, mut forces) = (Vec::new(), Vec::new());
+    let (mut points, mut patterns, mut forces) = (Vec::new(), Vec::new(), Vec::new());
     bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
-        places.clear();
+        points.clear();
+        patterns.clear();
         forces.clear();
-        batch.solve_each(&[&mu_1], &mut solutions, |point, pattern, y| {
-            places.push((point, pattern));
-            let sides = (0..3).map(|contact| Side::BOTH[pattern >> contact & 1].sign());
-            forces.extend(sides.zip(y).map(|(side, y)| side * y));
-        })
+        for (block, mu_1) in mu_1.chunks(BLOCK).enumerate() {
+            let tell = |point: usize, pattern: usize, y: &[f64]| {
+                points.push((block * BLOCK + point) as u32);
+                patterns.push(pattern as u8);
+                let sides = (0..3).map(|contact| Side::BOTH[pattern >> contact & 1].sign());
+                forces.extend(sides.zip(y).map(|(side, y)| side * y));
+            };
+            batch.solve_each(&[mu_1], &mut solutions, tell).expect("one list");
+        }
+        points.len()
     });
 }
 

@@ -22,6 +22,9 @@
 //! rounding that are assumed, not proven). Contacts of one block that both have a preload at the pressed face have
 //! dependent gap states, so that each of their points is one of these.
 //!
+//! Where the points differ in coefficients of friction alone, one for each contact, and no preload acts at a pressed face, their
+//! solutions are found together ([`crate::modes::batch`]); points near a boundary are left to elimination.
+//!
 //! # Order
 //! Points are numbered with the last quantity varying fastest. They are computed in chunks of a fixed size, so that nothing
 //! depends on the number of threads.
