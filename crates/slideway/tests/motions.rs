@@ -138,6 +138,38 @@ fn slides_to_the_left(history: &History) -> bool {
 const SLIDING: fn(f64) -> SimulateOptions =
     |duration| SimulateOptions { prefers_sliding: true, ..SimulateOptions::new(duration) };
 
+/// To the right with F_30 at the lower end alone the preload is between both faces (theory, section 3). A vertical force V on the
+/// bar, growing or falling with time, ends that. With T = tan(alpha), a = T mu_1/2, N = V (1/2, 1/4, 1/4) + sum eta_k F_k and
+/// the lever 1/4 of the block's friction (Klepp, 2002, section 6):
+/// - `+ - 0`: the preload is at the negative face alone when N_3 = 0 with N_2 = -(F_2 + F_30)/2, F_2 = -mu_2 N_2, so that
+///   V = (F_2 + F_30) (T - 1 - a)/(1 + 2 a), F_2 = F_30 mu_2/(2 - mu_2);
+/// - contact 2 changes side in the gap of contact 3 when N_2 = N_3 = 0: V = T F_30/(1 + 2 a).
+#[test]
+fn a_preload_gap_is_followed_until_it_closes() {
+    let text = gallery::find("klepp-2002-spring").unwrap().text;
+    let swinging = "[\"P*sin(2*pi*f*t)\", 0]";
+    assert!(text.contains(swinging));
+    let model = Model::parse(&text.replace(swinging, "[0, \"-P*t/(1 s)\"]")).unwrap();
+    let (t, mu_1, mu_2) = (80.0_f64.to_radians().tan(), 0.24, 0.1);
+    let (a, preload) = (t * mu_1 / 2.0, 0.5 * G);
+    let closes = preload * (1.0 + mu_2 / (2.0 - mu_2)) * (t - 1.0 - a) / (1.0 + 2.0 * a);
+    let changes = t * preload / (1.0 + 2.0 * a);
+    for (growth, load, mode) in [(-20.0, closes, "+--"), (20.0, changes, "++0"), (40.0, changes, "++0")] {
+        let settings = [("mu_1", "0.24"), ("F_30", "0.5*m*g"), ("k", "0 N/m"), ("c", "0 N s/m")];
+        let settings =
+            settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+        let settings = settings.parameter("P", &format!("{growth} N"));
+        let history = simulate(&model.with(&settings).unwrap(), &SimulateOptions::new(0.12)).unwrap();
+        let told = words(&history);
+        assert_eq!(history.events.len(), 2, "{told:#?}");
+        let pattern =
+            |event: usize| history.events[event].phase.as_ref().unwrap().pattern(&history.mechanism);
+        assert_eq!((pattern(0), pattern(1)), ("+-0".to_owned(), mode.to_owned()), "{told:#?}");
+        let event = &history.events[1];
+        assert!((event.time - (load - G) / growth).abs() < 1e-9, "{} {told:#?}", (load - G) / growth);
+    }
+}
+
 /// Klepp (2002), section 7, without preload: moving to the left the example has a solution up to mu_1* = 2 cot(80 deg) + 0.1 =
 /// 0.45265396. Below it moves to and fro if the force is great enough, and as long as sliding is preferred to wedging. (Friction
 /// to the left grows with 1/(mu_1* - mu_1), whatever the force: 114 N at 0.44, 15 kN at mu_1* - 0.0001.)
