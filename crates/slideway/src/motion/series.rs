@@ -6,6 +6,8 @@ use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use serde::Serialize;
 
+/// What tables hold besides the columns: a coordinate of such a name bears the prefix `coordinate.` there.
+const RESERVED: [&str; 5] = ["mode", "units", "model", "command", "program"];
 /// Times closer to the end than this part of the step are the end.
 const AT_END: f64 = 1e-9;
 
@@ -48,7 +50,8 @@ impl History {
 
     /// The motion at these times; those outside of it are left out. At an event it is what follows.
     ///
-    /// Columns are `t`, then for each coordinate its value, rate and acceleration, for each contact its normal force, friction
+    /// Columns are `t`, then for each coordinate its value (`coordinate.NAME` where the name alone is taken: `mode`, `units`,
+    /// `model`, `command`, `program`), rate and acceleration, for each contact its normal force, friction
     /// force and sliding velocity, for each drive its effort, and the energies: kinetic, potential, dissipated by the friction of all
     /// contacts, work of loads and of drives, lost in impulses.
     ///
@@ -90,7 +93,11 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
     for coordinate in &mechanism.coordinates {
         let name = &coordinate.name;
         let units = if coordinate.kind.is_angle() { ["rad/s", "rad/s^2"] } else { ["m/s", "m/s^2"] };
-        add(name.to_string(), unit(&coordinate.kind));
+        let is_reserved = RESERVED.contains(&&**name);
+        add(
+            if is_reserved { format!("coordinate.{name}") } else { name.to_string() },
+            unit(&coordinate.kind),
+        );
         add(format!("{name}.rate"), units[0]);
         add(format!("{name}.acceleration"), units[1]);
     }

@@ -179,3 +179,16 @@ zero_of = "x - 1 m"
     assert!((4.3..6.3).contains(&order), "{order} {errors:?}");
     assert!(errors[6] < 1e-10, "{errors:?}");
 }
+
+/// Tables have columns of these names already.
+#[test]
+fn coordinates_with_taken_names_bear_a_prefix() {
+    let text = crate::gallery::find("frictional-oscillator")
+        .unwrap()
+        .text
+        .replace("[coordinates.x]", "[coordinates.mode]");
+    let history = super::run(&text, &SimulateOptions::new(0.05));
+    let series = history.series(&history.times_in_steps(0.01));
+    let names: Vec<&str> = series.columns.iter().map(|column| column.name.as_str()).collect();
+    assert_eq!(names[..4], ["t", "coordinate.mode", "mode.rate", "mode.acceleration"]);
+}
