@@ -121,6 +121,15 @@ fn numpy_reads_the_archive() {
     assert!(text.ends_with("slideway sweep True\n"), "{text}{}", String::from_utf8_lossy(&output.stderr));
 }
 
+#[test]
+fn endings_may_be_capital_letters() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, name) = path(&folder, "KLEPP.NPZ");
+    let run = sweep(&["--vary", "mu_1=0..0.8:11", "--output", &name]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert!(fs::read(path).unwrap().starts_with(b"PK"), "an archive");
+}
+
 /// A run that is interrupted while it works, and goes on.
 #[cfg(unix)]
 #[test]
@@ -130,7 +139,8 @@ fn an_interrupted_sweep_goes_on_with_the_same_bytes() {
         let (whole, whole_name) = path(&folder, &format!("whole.{ending}"));
         let (target, name) = path(&folder, &format!("table.{ending}"));
         let partial = folder.path().join(format!("table.{ending}.partial"));
-        let vary = "mu_1=0..0.8:150001";
+        // Geometry takes much longer than friction alone, so that there is something to interrupt.
+        let vary = "alpha=1.1..1.4:30001";
         let arguments = |name: &str| [&KLEPP[..], &["--vary", vary, "--output", name]].concat().join(" ");
         let start = |name: &str, more: &[&str]| {
             let mut all: Vec<String> = arguments(name).split(' ').map(str::to_owned).collect();
@@ -155,7 +165,7 @@ fn an_interrupted_sweep_goes_on_with_the_same_bytes() {
         assert!(partial.exists() && !target.exists());
 
         // Another command, and the same one without --resume, are refused.
-        let other = sweep(&["--vary", "mu_1=0..0.7:150001", "--output", &name, "--resume"]);
+        let other = sweep(&["--vary", "alpha=1.1..1.3:30001", "--output", &name, "--resume"]);
         assert_eq!(other.code, 2);
         assert!(other.stderr.contains("belongs to another sweep"), "{}", other.stderr);
         let again = sweep(&["--vary", vary, "--output", &name]);

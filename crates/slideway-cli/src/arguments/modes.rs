@@ -50,7 +50,7 @@ impl ModesArguments {
     /// The form that is asked for.
     pub(crate) fn format(&self) -> ModesFormat {
         let ending = self.destination.output.as_ref().and_then(|path| path.extension()?.to_str());
-        self.format.unwrap_or(match ending {
+        self.format.unwrap_or(match ending.map(str::to_lowercase).as_deref() {
             Some("json") => ModesFormat::Json,
             Some("npz") => ModesFormat::Npz,
             _ => ModesFormat::Text,

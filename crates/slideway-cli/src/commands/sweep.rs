@@ -45,8 +45,8 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
 /// The form of the table: what is asked for, or what the ending of the output tells.
 fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
     let path = arguments.destination.output.as_deref().filter(|path| *path != Path::new("-"));
-    let ending = path.and_then(|path| path.extension()?.to_str());
-    match (arguments.format, ending) {
+    let ending = path.and_then(|path| path.extension()?.to_str()).map(str::to_lowercase);
+    match (arguments.format, ending.as_deref()) {
         (Some(format), _) => Ok(format),
         (None, Some("csv") | None) => Ok(TableFormat::Csv),
         (None, Some("npz")) => Ok(TableFormat::Npz),
