@@ -28,7 +28,7 @@ enum Outcome {
     Refused = 2,
     /// The search was incomplete and found nothing.
     Unknown = 3,
-    /// It was interrupted, and can be continued.
+    /// It was interrupted; what was done until then is kept.
     Interrupted = 130,
 }
 

@@ -1,15 +1,48 @@
 //! Time limits and progress of searches.
 
+use crate::Outcome;
 use crate::output::ProgressLine;
 use slideway::modes::Progress;
 use std::fmt::Write;
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Searches that take less time show no progress.
 const QUIET: Duration = Duration::from_secs(1);
 /// Time between two lines of progress.
 const BETWEEN: Duration = Duration::from_millis(200);
+
+/// Whether someone has interrupted the program (Ctrl-C). The second time ends it at once.
+#[derive(Clone)]
+pub(crate) struct Interruption(Arc<AtomicBool>);
+
+impl Interruption {
+    /// From now on an interruption is noticed.
+    pub(crate) fn watch() -> Self {
+        let flag = Arc::new(AtomicBool::new(false));
+        let set = Arc::clone(&flag);
+        let handler = move || {
+            if set.swap(true, Ordering::Relaxed) {
+                std::process::exit(i32::from(Outcome::Interrupted as u8));
+            }
+        };
+        // Without a handler an interruption ends the program at once.
+        let _ = ctrlc::set_handler(handler);
+        Self(flag)
+    }
+
+    /// Whether there was one.
+    pub(crate) fn is_requested(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Breaks once there was one.
+    pub(crate) fn flow(&self) -> ControlFlow<()> {
+        if self.is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
 
 /// Ends a search in time, and tells of its progress.
 pub(crate) struct Watch {

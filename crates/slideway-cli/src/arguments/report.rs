@@ -6,7 +6,7 @@ use clap::Args;
 pub(super) const HELP: &str = "\
 Examples:
   slideway report klepp-2002.toml --output klepp.html
-  slideway report klepp-2002.toml --set F_20=0 --vary mu_1=0..0.8 --vary alpha --output klepp.html
+  slideway report klepp-2002.toml --set F_20=0 --vary mu_1=0..0.8 --vary \"alpha=60 deg..88 deg\" --output klepp.html
   slideway report drawer.toml --output drawer.html --force
 
 Exit codes:

@@ -11,7 +11,7 @@ Examples:
   slideway simulate frictional-oscillator.toml --until 3s
   slideway simulate stick-slip.toml --until 10s --plot stick-slip.svg --animate stick-slip.html
   slideway simulate slider-crank.toml --until 0.2s --step 0.1ms --output motion.csv
-  slideway simulate klepp-2002-spring.toml --until 10s --set mu_1=0.6 --mode \"+ - +\"
+  slideway simulate klepp-2002-spring.toml --until 10s --set mu_1=0.6 --mode \"- + +\"
   slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 --all-branches
 
 Exit codes:
@@ -19,6 +19,7 @@ Exit codes:
   1  friction locks the mechanism: it cannot go on
   2  faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
   3  not followed to the end: too many steps or events, or what follows cannot be decided
+  130  interrupted (Ctrl-C)
 
 What was computed until then is told and written in any case, unless the motion cannot begin.
 --output writes the motion as a table beside what is told; the ending of the file says in which form.";

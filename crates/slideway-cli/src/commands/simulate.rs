@@ -10,7 +10,7 @@ use crate::table::Metadata;
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
-use crate::watch::Watch;
+use crate::watch::{Interruption, Watch};
 use slideway::configuration::Configuration;
 use slideway::fault::{Fault, FaultKind};
 use slideway::mechanism::Mechanism;
@@ -37,7 +37,11 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
 
     let until = mechanism.time + options.duration;
     let mut watch = Watch::new(arguments.time_limit);
-    let mut progress = |time| watch.follow(time, [mechanism.time, until]);
+    let interruption = Interruption::watch();
+    let mut progress = |time| {
+        interruption.flow()?;
+        watch.follow(time, [mechanism.time, until])
+    };
     let told = if arguments.all_branches {
         let most = (&mut Thorough as &mut dyn motion::Decisions, arguments.max_motions);
         let tree = motion::simulate_all(&mechanism, &configuration, &options, most, &mut progress);
@@ -51,7 +55,7 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
     };
     drop(watch);
     output.write(&told.text)?;
-    Ok(told.outcome)
+    Ok(if interruption.is_requested() { Outcome::Interrupted } else { told.outcome })
 }
 
 /// The answer on standard output.

@@ -7,15 +7,13 @@ use crate::input::Input;
 use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
-use crate::watch::SweepWatch;
+use crate::watch::{Interruption, SweepWatch};
 use slideway::sweep::{Rows, Sweep, SweepState, to_text};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Computes all solutions at every point of a grid or sample, and writes them to a table.
 pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -33,10 +31,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     };
     let layout = Layout::of(&sweep, options.vary.len(), options.attainability);
     let encoder = Encoder::new(format, layout, Metadata::of(&input));
-    let interrupted = Arc::new(AtomicBool::new(false));
     let work = Work { sweep: &sweep, encoder, plot };
     match destination.path().filter(|path| !is_special(path)) {
-        Some(path) => to_file(arguments, work, &path, &interrupted, &destination),
+        Some(path) => to_file(arguments, work, &path, &destination),
         None if format == TableFormat::Csv => stream(work, &destination),
         None => Err(Failure::NoStream),
     }
@@ -150,19 +147,15 @@ fn to_file(
     arguments: &SweepArguments,
     mut work: Work<'_>,
     path: &Path,
-    interrupted: &Arc<AtomicBool>,
     output: &Output,
 ) -> Result<Outcome, Failure> {
     let sweep = work.sweep;
     let how = (arguments.resume, arguments.destination.force);
     let Continued { mut file, mut state } =
         PartialFile::open(path, work.encoder.clone(), how, sweep.start())?;
-    let flag = Arc::clone(interrupted);
-    // Without a handler an interruption ends the program at once; the last state is still there.
-    let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
-    let go_on = || {
-        if interrupted.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    };
+    // Where it is not noticed it ends the program at once; the last state is still there.
+    let interruption = Interruption::watch();
+    let go_on = || interruption.flow();
     let mut watch = SweepWatch::new(state.done, sweep.points());
     let mut failure = None;
     if let Some(plot) = &mut work.plot {

@@ -1,0 +1,71 @@
+//! The examples of the help do what they show.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
+mod command;
+
+use command::{slideway, top};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Commands whose examples need nothing but the models: those of `modes` read problems of the user's, those of `completions` write
+/// to the home directory.
+const COMMANDS: [&str; 12] = [
+    "check", "draw", "drive", "hold", "limits", "map", "models", "report", "simulate", "size", "solve",
+    "sweep",
+];
+
+/// The examples of a help: lines behind the title, with what is broken off joined and without the words behind them.
+fn examples(help: &str) -> Vec<String> {
+    let mut examples: Vec<String> = Vec::new();
+    for line in
+        help.lines().skip_while(|line| *line != "Examples:").skip(1).take_while(|line| !line.is_empty())
+    {
+        let text = line.trim();
+        let text = text.split_once("  ").map_or(text, |(example, _)| example);
+        match examples.last_mut() {
+            Some(last) if !text.starts_with("slideway ") => last.push_str(&format!(" {text}")),
+            _ => examples.push(text.to_owned()),
+        }
+    }
+    examples
+}
+
+fn run(example: &str, folder: &Path) -> (Option<i32>, String) {
+    let binary = Path::new(env!("CARGO_BIN_EXE_slideway")).parent().unwrap();
+    let path = format!("{}:{}", binary.display(), std::env::var("PATH").unwrap());
+    let output = Command::new("sh")
+        .args(["-c", example])
+        .current_dir(folder)
+        .env("PATH", path)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn examples_of_the_help_run() {
+    let mut count = 0;
+    for name in COMMANDS {
+        let found = examples(&slideway(&[name, "--help"]).stdout);
+        assert!(!found.is_empty(), "{name}");
+        for example in found {
+            let folder = tempfile::tempdir().unwrap();
+            for model in fs::read_dir(top().join("models")).unwrap() {
+                let model = model.unwrap();
+                fs::copy(model.path(), folder.path().join(model.file_name())).unwrap();
+            }
+            // An example that overwrites its page has one.
+            if example.contains("--force") {
+                fs::write(folder.path().join("drawer.html"), "").unwrap();
+            }
+            let (code, said) = run(&example, folder.path());
+            assert!(matches!(code, Some(0 | 1)), "{example}: {code:?}\n{said}");
+            count += 1;
+        }
+    }
+    assert!(count > 40, "{count}");
+}
