@@ -124,6 +124,10 @@ show simulate-drawer-jam.txt 0 simulate models/thrown-drawer.toml --until 0.6s
 show simulate-drawer-stop.txt 0 simulate models/thrown-drawer.toml --until 0.6s --set "x_s=0.2 m"
 show simulate-drawer-locks.txt 0 simulate models/thrown-drawer.toml --until 0.6s --set "x_s=0.255 m"
 show limits-drawer-thrown.txt 0 limits models/thrown-drawer.toml --vary "x=0 m..0.39 m"
+show simulate-crank.txt 0 simulate models/slider-crank.toml --until 30ms
+show simulate-trammel.txt 0 simulate models/elliptic-trammel.toml --until 1.2s
+show simulate-sleeve.txt 0 simulate models/sleeve-on-arm.toml --until 0.6s
+show simulate-boom.txt 0 simulate models/telescopic-boom.toml --until 0.6s
 show simulate-klepp.txt 0 simulate models/klepp-2002-spring.toml --until 1s
 show simulate-klepp-locked.txt 0 simulate models/klepp-2002-spring.toml --until 10s --set mu_1=0.6 --prefer sliding
 show simulate-klepp-jam.txt 0 simulate models/klepp-2002-spring.toml --until 10s --set mu_1=0.6 --set direction=-1

@@ -20,8 +20,6 @@ draw() {
 
 draw klepp-2002.svg models/klepp-2002.toml
 draw klepp-2002-dark.svg models/klepp-2002.toml --theme dark
-draw klepp-2002-mechanism.svg models/klepp-2002.toml --solution none
-draw klepp-2002-second.svg models/klepp-2002.toml --solution 2
 draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set direction=-1
 draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150 deg"
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
@@ -68,5 +66,9 @@ motion animation-oscillator.svg --animate models/frictional-oscillator.toml --un
 motion animation-stick-slip.svg --animate models/stick-slip.toml --until 2s --slow-motion 4
 motion animation-klepp.svg --animate models/klepp-2002-spring.toml --until 1s --slow-motion 8
 motion animation-drawer.svg --animate models/thrown-drawer.toml --until 0.5s --slow-motion 10
+motion animation-crank.svg --animate models/slider-crank.toml --until 30ms --slow-motion 120
+motion animation-trammel.svg --animate models/elliptic-trammel.toml --until 1.2s --slow-motion 4
+motion animation-sleeve.svg --animate models/sleeve-on-arm.toml --until 0.6s --slow-motion 6
+motion animation-boom.svg --animate models/telescopic-boom.toml --until 0.6s --slow-motion 6
 draw drawer-before-the-jam.svg models/thrown-drawer.toml --at x=0.29 --rate x=1.2 --solution 2
 draw motion-near-the-jam.svg models/klepp-2002-spring.toml --set mu_1=0.44 --set direction=-1

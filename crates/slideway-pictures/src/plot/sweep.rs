@@ -413,7 +413,7 @@ fn in_words(breakpoint: Breakpoint) -> &'static str {
         Breakpoint::SideChange => "side change",
         Breakpoint::GapCloses => "gap closes",
         Breakpoint::Tipping => "tipping",
-        Breakpoint::NoPosition => "cannot be solved",
+        Breakpoint::NotSolved => "cannot be solved",
     }
 }
 

@@ -308,13 +308,14 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
             );
             ("reaction_limit", words)
         }
-        End::UserEvent(_) => {
-            ("user_event", format!("It ends at {time} s the event: {}.", last_words(history)))
-        }
+        End::UserEvent(_) => (
+            "user_event",
+            format!("It ends at {time} s, at an event that stops it: {}.", last_words(history)),
+        ),
         End::NoSuchBranch { branching } => (
             "no_such_branch",
             format!(
-                "It ends at {time} s: the branch that was wanted at the {branching}. decision does not exist there."
+                "It ends at {time} s: the branch that was wanted at decision {branching} does not exist there."
             ),
         ),
         End::NoContinuation => (

@@ -160,6 +160,11 @@ impl<'p> Evaluator<'p> {
     /// Adds the rows of a point.
     fn evaluate(&mut self, point: Point<'_>, rows: &mut Rows) {
         let first = rows.len();
+        // The equations may still be solved there, but to numbers without meaning.
+        if point.breakpoint == Breakpoint::NotSolved {
+            rows.push_empty(head(point, PointStatus::Refused), point.values);
+            return;
+        }
         let found = self.prepare(point.values).and_then(|()| self.solve(point, rows));
         if let Err(faults) = found {
             rows.truncate(first);
@@ -172,6 +177,9 @@ impl<'p> Evaluator<'p> {
     /// Adds the rows of a point that was solved together with others; nothing, and `false`, if it was left in doubt.
     fn write_found(&mut self, found: &Found<'_>, index: usize, point: Point<'_>, rows: &mut Rows) -> bool {
         let (Some(stages), Some(states)) = (&self.stages, found.states(index)) else { return false };
+        if point.breakpoint == Breakpoint::NotSolved {
+            return false;
+        }
         found.put_friction(index, &mut self.mechanism.contacts);
         Writer { plan: self.plan, mechanism: &self.mechanism, stages, guides: None }
             .write(states, point, rows)

@@ -102,8 +102,8 @@ pub enum Breakpoint {
     GapCloses,
     /// A guided slider tips.
     Tipping,
-    /// Beyond it there is no position.
-    NoPosition,
+    /// Beyond it there is no position, or a value that is not allowed; the point has no states itself.
+    NotSolved,
 }
 
 impl Breakpoint {
@@ -115,7 +115,7 @@ impl Breakpoint {
             Self::SideChange => "side_change",
             Self::GapCloses => "gap_closes",
             Self::Tipping => "tipping",
-            Self::NoPosition => "no_position",
+            Self::NotSolved => "not_solved",
         }
     }
 }
