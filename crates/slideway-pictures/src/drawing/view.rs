@@ -1,10 +1,11 @@
 //! From metres to drawing units, and how far guides reach.
 
+use super::bodies::lean;
 use super::scene::{Bounds, Point};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
 use slideway::ids::{BodyId, ContactId, Frame};
-use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Quantity, Shape, Slider};
+use slideway::mechanism::{Attachment, Effort, JointKind, LoadKind, Mechanism, Quantity, Shape, Slider};
 
 /// How a mechanism is laid out in a drawing: the same view serves many configurations of a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +16,16 @@ pub struct View {
     pub middle: Vector2<f64>,
     /// Least and greatest displacement (m) of each joint, zero for hinges: guides reach that far.
     pub slides: Vec<[f64; 2]>,
+    /// Where the drawing of each body with a long rectangle begins and ends along its longer side (m, from its centre of
+    /// mass): beyond, nothing else is to be seen. None for bodies that are drawn whole.
+    pub cuts: Vec<Option<[f64; 2]>>,
 }
+
+/// A rectangle is long if it is so many times as long as wide.
+const LONG: f64 = 4.0;
+/// How far a long rectangle is drawn beyond all other places, and how much has to be left for it to be torn off.
+const BEYOND: f64 = 70.0;
+const LEAST_CUT: f64 = 40.0;
 
 impl View {
     /// A view in which every one of some configurations has its place within a width and height (drawing units);
@@ -35,7 +45,9 @@ impl View {
                 JointKind::Slider(slider) => slides(mechanism, configurations, slider),
             })
             .collect();
-        Self { scale, middle: bounds.middle(), slides }
+        let bodies = (0..mechanism.bodies.len()).map(BodyId);
+        let cuts = bodies.map(|body| cut(mechanism, configurations, body, scale)).collect();
+        Self { scale, middle: bounds.middle(), slides, cuts }
     }
 
     /// Where a place (m) is in the drawing.
@@ -58,6 +70,39 @@ fn slides(mechanism: &Mechanism, configurations: &[&Configuration], slider: &Sli
         .map(|value| [value; 2])
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
         .unwrap_or([0.0; 2])
+}
+
+/// The part of a rectangle along its longer side that has places beside it, and what is drawn beyond them.
+fn cut(
+    mechanism: &Mechanism,
+    configurations: &[&Configuration],
+    body: BodyId,
+    scale: f64,
+) -> Option<[f64; 2]> {
+    let Some(Shape::Rectangle([width, height])) = mechanism.bodies[body.index()].shape else { return None };
+    if width.max(height) < LONG * width.min(height) {
+        return None;
+    }
+    let upright = if width >= height { 0.0 } else { std::f64::consts::FRAC_PI_2 };
+    let half = 0.5 * width.max(height);
+    let along = |configuration: &&Configuration| {
+        let pose = configuration.poses[body.index()];
+        let (sin, cos) = (pose.angle + lean(mechanism, body) + upright).sin_cos();
+        let axis = Vector2::new(cos, sin);
+        places(mechanism, configuration).into_iter().map(move |place| (place - pose.position).dot(&axis))
+    };
+    let beyond = BEYOND / scale;
+    let wanted = configurations
+        .iter()
+        .flat_map(along)
+        .map(|place| [place - beyond, place + beyond])
+        .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    let least = half - LEAST_CUT / scale;
+    let ends = [
+        if wanted[0] > -least { wanted[0] } else { -half },
+        if wanted[1] < least { wanted[1] } else { half },
+    ];
+    (ends != [-half, half]).then_some(ends)
 }
 
 /// Places (m) that have to be seen.
@@ -99,6 +144,11 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
                 places.extend(between.iter().map(|end| configuration.position(mechanism, end)));
             }
             _ => {}
+        }
+    }
+    for drive in &mechanism.drives {
+        if let Effort::Force { at, .. } = &drive.effort {
+            places.push(configuration.position(mechanism, at));
         }
     }
     places
