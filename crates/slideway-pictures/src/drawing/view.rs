@@ -21,7 +21,7 @@ pub struct View {
     pub cuts: Vec<Option<[f64; 2]>>,
 }
 
-/// A rectangle is long if it is so many times as long as wide.
+/// A rectangle may be cut if it is so many times as long as wide.
 const LONG: f64 = 4.0;
 /// How far a long rectangle is drawn beyond all other places, and how much has to be left for it to be torn off.
 const BEYOND: f64 = 70.0;
@@ -72,6 +72,12 @@ fn slides(mechanism: &Mechanism, configurations: &[&Configuration], slider: &Sli
         .unwrap_or([0.0; 2])
 }
 
+/// Whether a rectangle, such as a belt, is narrow and longer than all that it carries: then its ends do not have to be
+/// seen.
+fn is_long(mechanism: &Mechanism, [width, height]: [f64; 2]) -> bool {
+    width.max(height) >= mechanism.size.max(LONG * width.min(height))
+}
+
 /// The part of a rectangle along its longer side that has places beside it, and what is drawn beyond them.
 fn cut(
     mechanism: &Mechanism,
@@ -80,7 +86,7 @@ fn cut(
     scale: f64,
 ) -> Option<[f64; 2]> {
     let Some(Shape::Rectangle([width, height])) = mechanism.bodies[body.index()].shape else { return None };
-    if width.max(height) < LONG * width.min(height) {
+    if !is_long(mechanism, [width, height]) {
         return None;
     }
     let upright = if width >= height { 0.0 } else { std::f64::consts::FRAC_PI_2 };
@@ -117,9 +123,12 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
                 places.extend(ends.map(place));
             }
             Some(Shape::Rectangle([width, height])) => {
-                let half = if width.max(height) < mechanism.size { 0.5 * width.hypot(height) } else { 0.0 };
-                let across = Vector2::new(half.min(0.5 * width), half.min(0.5 * height));
-                places.extend([centre - across, centre + across]);
+                let across = 0.5 * Vector2::new(width, height);
+                if is_long(mechanism, [width, height]) {
+                    places.push(centre);
+                } else {
+                    places.extend([centre - across, centre + across]);
+                }
             }
             Some(Shape::Disc(radius)) => {
                 let across = Vector2::new(radius, radius);
