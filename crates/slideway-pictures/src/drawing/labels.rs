@@ -33,7 +33,7 @@ const CROSSED: f64 = 12.0;
 const MET: f64 = 3.0;
 /// What a unit costs by which a label makes the drawing wider or higher.
 const OUTSIDE: f64 = 0.15;
-/// What it costs to cover a place of an arrow or a dimension.
+/// What it costs to cover a place of an arrow; of a dimension it is more.
 const IMPORTANT: f64 = 4.0;
 /// Free space around a label.
 const MARGIN: f64 = 2.0;
@@ -190,12 +190,9 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<(Point, f6
     let mut places = Vec::new();
     for element in scene.elements.iter().filter(|element| counts(element.class)) {
         let weight = match element.class {
-            Class::Reaction
-            | Class::Friction
-            | Class::Load
-            | Class::Drive
-            | Class::Velocity
-            | Class::Dimension => IMPORTANT,
+            Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => IMPORTANT,
+            Class::Dimension => 2.0 * IMPORTANT,
+            Class::Hatch => 3.0,
             Class::Slot => 0.4,
             Class::Leader => 1.0,
             _ => 2.0,
