@@ -39,13 +39,24 @@ impl Flag<'_> {
 }
 
 /// Places labels to the right of their lines, from right to left, and before that to the left of them those that would
-/// leave the picture, from left to right: a line that rises to a higher row then passes the labels that were placed before.
+/// leave the picture or stand among such, from left to right: a line that rises to a higher row then passes the labels that were placed before.
 /// Each has the lowest row in which least is crossed.
 pub(super) fn flags(mut values: Vec<(f64, &MarkedValue)>, right: f64, size: f64) -> Vec<Flag<'_>> {
     values.sort_by(|one, other| other.0.total_cmp(&one.0));
-    let fits = |(x, value): &(f64, &MarkedValue)| x + GAP + width(&value.label, size) <= right;
-    let (to_the_right, mut to_the_left): (Vec<_>, Vec<_>) = values.into_iter().partition(fits);
-    to_the_left.reverse();
+    let space = |value: &MarkedValue| GAP + width(&value.label, size);
+    let fits = |(x, value): &(f64, &MarkedValue)| x + space(value) <= right;
+    let (mut to_the_right, mut to_the_left): (Vec<_>, Vec<_>) = values.into_iter().partition(fits);
+    // From right to left: what stands within labels that reach to the left does as they do.
+    let mut begin = to_the_left.iter().map(|(x, value)| x - space(value)).fold(f64::INFINITY, f64::min);
+    to_the_right.retain(|&(x, value)| {
+        let joins = x + GAP > begin && x - space(value) >= 0.0;
+        if joins {
+            begin = begin.min(x - space(value));
+            to_the_left.push((x, value));
+        }
+        !joins
+    });
+    to_the_left.sort_by(|one, other| one.0.total_cmp(&other.0));
     let mut flags: Vec<Flag<'_>> = Vec::new();
     for (x, value) in to_the_left {
         let space = width(&value.label, size);
@@ -87,6 +98,8 @@ mod tests {
             rows_of([640.0, 650.0, 660.0, 690.0], labels.map(|_| "much too long for this place")),
             [0, 1, 2, 3]
         );
+        // A short one among them does as they do.
+        assert_eq!(rows_of([500.0, 650.0, 660.0, 690.0], labels), [0, 1, 2, 0]);
     }
 
     /// The rows in the order in which the labels are placed, after a look at all pairs.
