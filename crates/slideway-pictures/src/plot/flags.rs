@@ -61,16 +61,16 @@ pub(super) fn flags(mut values: Vec<(f64, &MarkedValue)>, right: f64, size: f64)
     for (x, value) in to_the_left {
         let space = width(&value.label, size);
         let text = if x - GAP - space >= 0.0 { x - GAP - space } else { right - space };
-        place(Flag { value, x, text, row: 0 }, &mut flags, size);
+        place(&Flag { value, x, text, row: 0 }, &mut flags, size);
     }
     for (x, value) in to_the_right {
-        place(Flag { value, x, text: x + GAP, row: 0 }, &mut flags, size);
+        place(&Flag { value, x, text: x + GAP, row: 0 }, &mut flags, size);
     }
     flags
 }
 
 /// Adds a label in the lowest row in which it touches none and least is crossed.
-fn place<'f>(flag: Flag<'f>, flags: &mut Vec<Flag<'f>>, size: f64) {
+fn place<'f>(flag: &Flag<'f>, flags: &mut Vec<Flag<'f>>, size: f64) {
     let rows = flags.iter().map(|flag| flag.row + 1).max().unwrap_or(0);
     let crossings = |flag: &Flag<'f>| {
         let of = |other: &Flag<'f>| {

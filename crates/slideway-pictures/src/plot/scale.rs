@@ -46,8 +46,8 @@ pub(super) fn logarithmic_ticks([from, to]: [f64; 2], wanted: usize) -> Option<V
     #[expect(clippy::cast_possible_truncation, reason = "exponents of floating-point numbers")]
     let [first, last] = [from.log10().floor(), to.log10().ceil()].map(|exponent| exponent as i32);
     let inside = |tick: &f64| from * (1.0 - slack) <= *tick && *tick <= to * (1.0 + slack);
-    let at = |factors: &'static [f64], every: usize| -> Vec<f64> {
-        let powers = (first..=last).filter(|exponent| exponent.unsigned_abs() as usize % every == 0);
+    let at = |factors: &'static [f64], every: u32| -> Vec<f64> {
+        let powers = (first..=last).filter(|exponent| exponent.unsigned_abs().is_multiple_of(every));
         let ticks =
             powers.flat_map(|exponent| factors.iter().map(move |factor| factor * 10_f64.powi(exponent)));
         ticks.filter(inside).collect()
