@@ -168,20 +168,22 @@ mod tests {
 
     #[test]
     fn ticks_of_logarithmic_axes_are_round_and_not_too_many() {
-        let table: [([f64; 2], usize, Option<&[f64]>); 6] = [
-            ([0.001, 1.0], 10, Some(&[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0])),
-            ([0.001, 1.0], 9, Some(&[0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0])),
-            ([0.001, 1.0], 4, Some(&[0.001, 0.01, 0.1, 1.0])),
-            ([1e-6, 1e6], 7, Some(&[1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6])),
-            ([3.0, 40.0], 8, Some(&[5.0, 10.0, 20.0])),
-            ([2.1, 4.9], 8, None),
+        let table: [([f64; 2], usize, &[f64]); 5] = [
+            ([0.001, 1.0], 10, &[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0]),
+            ([0.001, 1.0], 9, &[0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0]),
+            ([0.001, 1.0], 4, &[0.001, 0.01, 0.1, 1.0]),
+            ([1e-6, 1e6], 7, &[1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6]),
+            ([3.0, 40.0], 8, &[5.0, 10.0, 20.0]),
         ];
         for (range, wanted, ticks) in table {
-            let found = logarithmic_ticks(range, wanted);
-            assert_eq!(found.as_ref().map(Vec::len), ticks.map(<[f64]>::len), "{range:?}: {found:?}");
-            let pairs = found.iter().flatten().zip(ticks.into_iter().flatten());
-            assert!(pairs.into_iter().all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{range:?}: {found:?}");
+            let found = logarithmic_ticks(range, wanted).unwrap_or_default();
+            assert_eq!(found.len(), ticks.len(), "{range:?}: {found:?}");
+            assert!(
+                found.iter().zip(ticks).all(|(a, b)| (a / b - 1.0).abs() < 1e-12),
+                "{range:?}: {found:?}"
+            );
         }
+        assert_eq!(logarithmic_ticks([2.1, 4.9], 8), None);
     }
 
     #[test]
