@@ -5,7 +5,7 @@ use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit, 
 use super::scene::{Class, Point};
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame};
-use slideway::mechanism::{Attachment, JointKind, LoadKind, Shape, Slider};
+use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Shape, Slider};
 use slideway::model::SliderKind;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -24,7 +24,7 @@ impl Painter<'_> {
         order.sort_by_key(|body| !is_disc(body));
         self.walls_behind_plates();
         for body in &order {
-            let mut parts: Vec<Vec<Point>> = self.plate(*body).into_iter().collect();
+            let mut parts: Vec<Vec<Point>> = self.drawn_plate(*body).into_iter().collect();
             if !parts.is_empty() {
                 parts.extend(self.housings(*body));
                 self.union(&parts);
@@ -148,27 +148,39 @@ impl Painter<'_> {
         match self.mechanism.bodies[body.index()].shape? {
             Shape::Bar(_) => None,
             Shape::Disc(radius) => Some(disc(centre, radius * scale)),
-            Shape::Rectangle([width, height]) => {
-                let angle = self.configuration.angle(Frame::Body(body)) + self.lean(body);
-                let along = self.view.direction(Vector2::new(angle.cos(), angle.sin()));
-                let local = Local { origin: centre, along, across: turned(along) };
-                let half = [width, height].map(|side| 0.5 * side * scale);
-                Some(local.rectangle([-half[0], half[0]], [-half[1], half[1]]))
+            Shape::Rectangle(sides) => {
+                let half = sides.map(|side| 0.5 * side * scale);
+                Some(self.plate_axes(body).rectangle([-half[0], half[0]], [-half[1], half[1]]))
             }
         }
     }
 
-    /// By how much a rectangle is turned in the drawing: it lies along the guide of its body, as the moment of inertia
-    /// leaves that open.
-    fn lean(&self, body: BodyId) -> f64 {
-        let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
-        let sliders = self.mechanism.joints.iter().filter_map(|joint| match &joint.kind {
-            JointKind::Slider(slider) => Some(slider),
-            JointKind::Hinge(_) => None,
-        });
-        let tangent = sliders.into_iter().find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
-        let angle = tangent.y.atan2(tangent.x);
-        angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
+    /// The centre of a rectangle and its axes, along its first and its second side.
+    fn plate_axes(&self, body: BodyId) -> Local {
+        let angle = self.configuration.angle(Frame::Body(body)) + lean(self.mechanism, body);
+        let along = self.view.direction(Vector2::new(angle.cos(), angle.sin()));
+        Local { origin: self.centre(body), along, across: turned(along) }
+    }
+
+    /// The outline of a rectangle or disc as it is drawn: a far end of a rectangle is torn off.
+    fn drawn_plate(&self, body: BodyId) -> Option<Vec<Point>> {
+        let (Some(Shape::Rectangle(sides)), Some(cut)) =
+            (self.mechanism.bodies[body.index()].shape, self.view.cuts[body.index()])
+        else {
+            return self.plate(body);
+        };
+        let axes = self.plate_axes(body);
+        let [width, height] = sides.map(|side| side * self.view.scale);
+        let (local, length, half) = if width >= height {
+            (axes, width, 0.5 * height)
+        } else {
+            (Local { along: -axes.across, across: axes.along, ..axes }, height, 0.5 * width)
+        };
+        let [from, to] = cut.map(|end| end * self.view.scale);
+        let mut outline = edge(&local, from, from > -0.5 * length, half);
+        outline.reverse();
+        outline.extend(edge(&local, to, to < 0.5 * length, half));
+        Some(outline)
     }
 
     /// The centre of mass of a body in the drawing.
@@ -310,6 +322,37 @@ impl Painter<'_> {
             }
         }
     }
+}
+
+/// By how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment of inertia
+/// leaves that open.
+pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
+    let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
+    let sliders = mechanism.joints.iter().filter_map(|joint| match &joint.kind {
+        JointKind::Slider(slider) => Some(slider),
+        JointKind::Hinge(_) => None,
+    });
+    let tangent = sliders.into_iter().find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
+    let angle = tangent.y.atan2(tangent.x);
+    angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
+}
+
+/// An end of a plate across `local`, from one side to the other; a zigzag where the plate is torn off.
+fn edge(local: &Local, along: f64, is_torn: bool, half: f64) -> Vec<Point> {
+    const TOOTH: f64 = 9.0;
+    const DEPTH: f64 = 4.0;
+    if !is_torn {
+        return vec![local.at(along, -half), local.at(along, half)];
+    }
+    let count = (2.0 * half / TOOTH).ceil().clamp(3.0, 200.0);
+    let mut corners = vec![local.at(along, -half)];
+    let (mut tooth, mut side) = (0.5, DEPTH);
+    while tooth < count {
+        corners.push(local.at(along + side, half * (2.0 * tooth / count - 1.0)));
+        (tooth, side) = (tooth + 1.0, -side);
+    }
+    corners.push(local.at(along, half));
+    corners
 }
 
 /// Bars along the hull of places, and its inside; a disc for a single place without a block.

@@ -72,7 +72,7 @@ impl Painter<'_> {
             }
         }
         let outwards = frame.across * (line - edge).signum();
-        self.value(Class::Dimension, text, 0.5 * (ends[0] + ends[1]), outwards);
+        self.value_along(Class::Dimension, text, ends, outwards);
     }
 }
 

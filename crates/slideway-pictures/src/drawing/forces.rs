@@ -1,6 +1,6 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
-use super::labels::obstacles;
+use super::labels::{obstacles, reserve};
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
@@ -95,13 +95,19 @@ impl Painter<'_> {
             let half = slide.guide.along * (0.5 * VELOCITY * velocity.signum());
             let (middle, side) = self.free_place(&slide, half);
             self.scene.add(Class::Velocity, Shape::Arrow { from: middle - half, to: middle + half });
-            self.value(Class::Velocity, quantity(velocity.abs(), "m/s"), middle, slide.guide.across * side);
+            let text = quantity(velocity.abs(), "m/s");
+            let ends = [middle - half, middle + half];
+            self.value_along(Class::Velocity, text, ends, slide.guide.across * side);
         }
     }
 
     /// Where beside a guide the arrow of a velocity covers least, and on which side that is.
     fn free_place(&self, slide: &Slide, half: Point) -> (Point, f64) {
-        let obstacles = obstacles(&self.scene);
+        let mut obstacles = obstacles(&self.scene);
+        self.labels
+            .iter()
+            .filter(|label| label.class == Class::Dimension)
+            .for_each(|label| reserve(label, &mut obstacles));
         let edge = slide.half_channel() + ASIDE;
         let mut best: Option<(f64, Point, f64)> = None;
         for (side, aversion) in

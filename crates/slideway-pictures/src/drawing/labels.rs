@@ -1,5 +1,6 @@
 //! Where labels stand: beside what they name, clear of each other.
 
+use super::outline::{nearest_on_line, unit};
 use super::scene::{ASCENT, Anchor, Bounds, Class, DESCENT, Point, Scene, Shape, Text};
 use std::f64::consts::TAU;
 
@@ -9,21 +10,31 @@ pub(super) struct Label {
     pub(super) class: Class,
     pub(super) text: String,
     pub(super) size: f64,
-    /// What it names.
+    /// The middle of what it names.
     pub(super) anchor: Point,
+    /// From there to the end of it where it is long, such as an arrow; zero for a place.
+    pub(super) reach: Point,
     /// Unit direction from there in which it would best stand.
     pub(super) towards: Point,
 }
 
 /// Directions that are tried.
 const DIRECTIONS: usize = 16;
+/// Shifts sideways that are tried, in half widths of the label.
+const SHIFTS: [f64; 3] = [0.0, -0.7, 0.7];
 /// Distances from the anchor that are tried.
 const DISTANCES: [f64; 14] =
     [5.0, 11.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0, 100.0, 125.0, 155.0, 190.0, 235.0, 290.0];
 /// Beyond this distance a line leads to the anchor.
 const LEADER: f64 = 30.0;
-/// What it costs that the line to the anchor runs through another label.
+/// What it costs that the line to what is named runs through another label, and for each place of another arrow or
+/// dimension on its way.
 const CROSSED: f64 = 12.0;
+const MET: f64 = 3.0;
+/// What a unit costs by which a label makes the drawing wider or higher.
+const OUTSIDE: f64 = 0.15;
+/// What it costs to cover a place of an arrow; of a dimension it is more.
+const IMPORTANT: f64 = 4.0;
 /// Free space around a label.
 const MARGIN: f64 = 2.0;
 /// Distance of the places of a line that labels keep clear of.
@@ -33,56 +44,105 @@ const STEP: f64 = 3.0;
 pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
     let mut obstacles = obstacles(scene);
     obstacles.extend(outlines(scene));
-    let mut taken: Vec<Bounds> = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
+    let texts = scene.texts().map(|(_, text)| text.bounds().widened(MARGIN)).collect();
+    let mut room = Room { obstacles, taken: texts, drawn: scene.bounds(), within };
     for label in labels {
-        let Some(bounds) = best(&label, &obstacles, &taken, within) else { continue };
-        if let Some(leader) = leader(label.anchor, &bounds) {
-            along(&leader, 1.0, &mut obstacles);
+        let Some(bounds) = room.best(&label) else { continue };
+        if let Some(leader) = leader(&label, &bounds) {
+            along(&leader, 1.0, &mut room.obstacles);
             scene.add(Class::Leader, Shape::Line(leader.to_vec()));
         }
         let at = Point::new(bounds.middle().x, bounds.greatest.y - DESCENT * label.size);
         scene.write(label.class, Text { text: label.text, at, anchor: Anchor::Middle, size: label.size });
-        taken.push(bounds.widened(MARGIN));
+        room.taken.push(bounds.widened(MARGIN));
+        room.drawn = room.drawn.map(|drawn| drawn.with(bounds));
     }
 }
 
-/// The cheapest free place.
-fn best(
-    label: &Label,
-    obstacles: &[(Point, f64)],
-    taken: &[Bounds],
+/// What labels have to keep clear of.
+struct Room {
+    /// Places along lines, each with what it costs to cover it.
+    obstacles: Vec<(Point, f64)>,
+    /// Other labels.
+    taken: Vec<Bounds>,
+    /// What the drawing takes so far.
+    drawn: Option<Bounds>,
+    /// What labels do not leave.
     within: Option<Bounds>,
-) -> Option<Bounds> {
-    let half =
-        0.5 * Point::new(crate::typeface::width(&label.text, label.size), (ASCENT + DESCENT) * label.size);
-    let mut best: Option<(f64, Bounds)> = None;
-    for distance in DISTANCES {
-        for index in 0..DIRECTIONS {
-            let direction = direction(label.towards, index);
-            let bounds = beside(label.anchor, direction, distance, half);
-            let is_free = taken.iter().all(|other| !other.overlaps(&bounds));
-            if !is_free || within.is_some_and(|within| !holds(&within, &bounds)) {
-                continue;
-            }
-            let turn = 1.0 - direction.dot(&label.towards);
-            let hidden =
-                leader(label.anchor, &bounds).map_or(0.0, |leader| CROSSED * texts_on(&leader, taken));
-            let cost = 0.35 * distance + 3.0 * turn + crossed(&bounds, obstacles) + hidden;
-            if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, bounds));
-            }
-        }
-        if best.is_some_and(|(least, _)| least < 0.35 * distance) {
-            break;
-        }
-    }
-    best.map(|(_, bounds)| bounds)
 }
 
-/// The line from a label at some distance to its anchor.
-fn leader(anchor: Point, bounds: &Bounds) -> Option<[Point; 2]> {
-    let nearest = anchor.sup(&bounds.least).inf(&bounds.greatest);
-    ((nearest - anchor).norm() > LEADER).then_some([nearest, anchor])
+impl Room {
+    /// The cheapest free place.
+    fn best(&self, label: &Label) -> Option<Bounds> {
+        let half = half_size(label);
+        let mut best: Option<(f64, Bounds)> = None;
+        for distance in DISTANCES {
+            for index in 0..DIRECTIONS {
+                let direction = direction(label.towards, index);
+                let turn = 1.0 - direction.dot(&label.towards);
+                for shift in SHIFTS {
+                    let aside = Point::new(shift * half.x, 0.0);
+                    let bounds = beside(label.anchor, direction, distance, half).shifted(aside);
+                    let far = 0.35 * distance + 3.0 * turn + 2.0 * shift.abs();
+                    if best.is_some_and(|(least, _)| far >= least) || !self.is_free(&bounds) {
+                        continue;
+                    }
+                    let cost = far + self.cost(label, &bounds);
+                    if best.is_none_or(|(least, _)| cost < least) {
+                        best = Some((cost, bounds));
+                    }
+                }
+            }
+            if best.is_some_and(|(least, _)| least < 0.35 * distance) {
+                break;
+            }
+        }
+        best.map(|(_, bounds)| bounds)
+    }
+
+    fn is_free(&self, bounds: &Bounds) -> bool {
+        self.taken.iter().all(|other| !other.overlaps(bounds))
+            && self.within.is_none_or(|within| holds(&within, bounds))
+    }
+
+    /// What a place costs, whatever its distance.
+    fn cost(&self, label: &Label, bounds: &Bounds) -> f64 {
+        let outside = self.drawn.map_or(0.0, |drawn| (drawn.with(*bounds).size() - drawn.size()).sum());
+        let led = leader(label, bounds)
+            .map_or(0.0, |leader| CROSSED * texts_on(&leader, &self.taken) + MET * self.met(&leader));
+        OUTSIDE * outside + crossed(bounds, &self.obstacles) + led
+    }
+
+    /// The number of places of arrows and dimensions through which a line runs before it ends.
+    fn met(&self, [from, to]: &[Point; 2]) -> f64 {
+        let along = unit(to - from, Point::x());
+        let end = to - along * (2.0 * STEP);
+        let is_met = |(place, weight): &&(Point, f64)| {
+            *weight >= IMPORTANT && nearest_on_line(*place, [*from, end]).0 < 0.5 * STEP
+        };
+        self.obstacles.iter().filter(is_met).count() as f64
+    }
+}
+
+/// Half the width and height of a label.
+fn half_size(label: &Label) -> Point {
+    0.5 * Point::new(crate::typeface::width(&label.text, label.size), (ASCENT + DESCENT) * label.size)
+}
+
+/// Adds the place where a label would stand with nothing in its way.
+pub(super) fn reserve(label: &Label, obstacles: &mut Vec<(Point, f64)>) {
+    let half = half_size(label);
+    let middle = beside(label.anchor, label.towards, DISTANCES[0], half).middle();
+    let aside = Point::new(half.x, 0.0);
+    along(&[middle - aside, middle + aside], IMPORTANT, obstacles);
+}
+
+/// The line from a label at some distance to what it names.
+fn leader(label: &Label, bounds: &Bounds) -> Option<[Point; 2]> {
+    let named = [label.anchor - label.reach, label.anchor + label.reach];
+    let (_, foot) = nearest_on_line(bounds.middle(), named);
+    let nearest = foot.sup(&bounds.least).inf(&bounds.greatest);
+    ((nearest - foot).norm() > LEADER).then_some([nearest, foot])
 }
 
 /// The number of labels through which a line runs.
@@ -130,9 +190,12 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<(Point, f6
     let mut places = Vec::new();
     for element in scene.elements.iter().filter(|element| counts(element.class)) {
         let weight = match element.class {
-            Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => 2.5,
-            Class::Hatch | Class::Slot => 0.4,
-            _ => 1.0,
+            Class::Reaction | Class::Friction | Class::Load | Class::Drive | Class::Velocity => IMPORTANT,
+            Class::Dimension => 2.0 * IMPORTANT,
+            Class::Hatch => 3.0,
+            Class::Slot => 0.4,
+            Class::Leader => 1.0,
+            _ => 2.0,
         };
         match &element.shape {
             Shape::Line(corners) => along(corners, weight, &mut places),

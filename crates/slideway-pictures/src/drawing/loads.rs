@@ -203,7 +203,7 @@ impl Painter<'_> {
             self.scene.add(class, Shape::Arrow { from, to });
             let side = turned(direction);
             let side = if side.y > 0.0 { -side } else { side };
-            self.value(class, text, 0.5 * (from + to) + side * 2.0, side);
+            self.value_along(class, text, [from + side * 2.0, to + side * 2.0], side);
         }
     }
 

@@ -99,6 +99,8 @@ pub struct SceneOptions {
     pub play: bool,
     /// Names of joints.
     pub names: bool,
+    /// Values of forces, velocities and dimensions.
+    pub values: bool,
     /// Lengths and heights of blocks.
     pub dimensions: bool,
     /// Drawing units for a newton: forces of contacts, loads and drives are drawn to this scale. Without it loads are
@@ -166,7 +168,15 @@ pub fn scene(
 impl SceneOptions {
     /// The mechanism with its names, dimensions and loads.
     pub fn overview() -> Self {
-        Self { play: false, names: true, dimensions: true, force_scale: None, velocities: true, within: None }
+        Self {
+            play: false,
+            names: true,
+            values: true,
+            dimensions: true,
+            force_scale: None,
+            velocities: true,
+            within: None,
+        }
     }
 
     /// A contact mode with its forces, `force_scale` drawing units for a newton.
@@ -245,15 +255,22 @@ impl Painter<'_> {
     /// A name beside a place.
     fn name(&mut self, text: &str, anchor: Point, towards: Point) {
         if self.options.names {
-            let label =
-                Label { class: Class::Words, text: text.to_owned(), size: NAME_SIZE, anchor, towards };
-            self.labels.push(label);
+            let (class, text, reach) = (Class::Words, text.to_owned(), Point::zeros());
+            self.labels.push(Label { class, text, size: NAME_SIZE, anchor, reach, towards });
         }
     }
 
     /// A value beside a place.
     fn value(&mut self, class: Class, text: String, anchor: Point, towards: Point) {
-        self.labels.push(Label { class, text, size: VALUE_SIZE, anchor, towards });
+        self.value_along(class, text, [anchor, anchor], towards);
+    }
+
+    /// A value beside an arrow or a dimension.
+    fn value_along(&mut self, class: Class, text: String, [from, to]: [Point; 2], towards: Point) {
+        if self.options.values {
+            let (anchor, reach) = (0.5 * (from + to), 0.5 * (to - from));
+            self.labels.push(Label { class, text, size: VALUE_SIZE, anchor, reach, towards });
+        }
     }
 
     /// Lines across the outer side of a straight line of ground, which is to the left of the way from `from` to `to`

@@ -147,6 +147,12 @@ impl Bounds {
         Self { least: self.least - margin, greatest: self.greatest + margin }
     }
 
+    /// The same size elsewhere.
+    #[must_use]
+    pub(super) fn shifted(self, by: Point) -> Self {
+        Self { least: self.least + by, greatest: self.greatest + by }
+    }
+
     /// The same width, with the heights of other bounds.
     #[must_use]
     pub(super) fn with_heights_of(self, other: &Self) -> Self {

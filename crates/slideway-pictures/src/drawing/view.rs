@@ -1,10 +1,11 @@
 //! From metres to drawing units, and how far guides reach.
 
+use super::bodies::lean;
 use super::scene::{Bounds, Point};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
 use slideway::ids::{BodyId, ContactId, Frame};
-use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Quantity, Shape, Slider};
+use slideway::mechanism::{Attachment, Effort, JointKind, LoadKind, Mechanism, Quantity, Shape, Slider};
 
 /// How a mechanism is laid out in a drawing: the same view serves many configurations of a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +16,16 @@ pub struct View {
     pub middle: Vector2<f64>,
     /// Least and greatest displacement (m) of each joint, zero for hinges: guides reach that far.
     pub slides: Vec<[f64; 2]>,
+    /// Where the drawing of each body with a long rectangle begins and ends along its longer side (m, from its centre of
+    /// mass): beyond, nothing else is to be seen. None for bodies that are drawn whole.
+    pub cuts: Vec<Option<[f64; 2]>>,
 }
+
+/// A rectangle may be cut if it is so many times as long as wide.
+const LONG: f64 = 4.0;
+/// How far a long rectangle is drawn beyond all other places, and how much has to be left for it to be torn off.
+const BEYOND: f64 = 70.0;
+const LEAST_CUT: f64 = 40.0;
 
 impl View {
     /// A view in which every one of some configurations has its place within a width and height (drawing units);
@@ -35,7 +45,9 @@ impl View {
                 JointKind::Slider(slider) => slides(mechanism, configurations, slider),
             })
             .collect();
-        Self { scale, middle: bounds.middle(), slides }
+        let bodies = (0..mechanism.bodies.len()).map(BodyId);
+        let cuts = bodies.map(|body| cut(mechanism, configurations, body, scale)).collect();
+        Self { scale, middle: bounds.middle(), slides, cuts }
     }
 
     /// Where a place (m) is in the drawing.
@@ -60,6 +72,45 @@ fn slides(mechanism: &Mechanism, configurations: &[&Configuration], slider: &Sli
         .unwrap_or([0.0; 2])
 }
 
+/// Whether a rectangle, such as a belt, is narrow and longer than all that it carries: then its ends do not have to be
+/// seen.
+fn is_long(mechanism: &Mechanism, [width, height]: [f64; 2]) -> bool {
+    width.max(height) >= mechanism.size.max(LONG * width.min(height))
+}
+
+/// The part of a rectangle along its longer side that has places beside it, and what is drawn beyond them.
+fn cut(
+    mechanism: &Mechanism,
+    configurations: &[&Configuration],
+    body: BodyId,
+    scale: f64,
+) -> Option<[f64; 2]> {
+    let Some(Shape::Rectangle([width, height])) = mechanism.bodies[body.index()].shape else { return None };
+    if !is_long(mechanism, [width, height]) {
+        return None;
+    }
+    let upright = if width >= height { 0.0 } else { std::f64::consts::FRAC_PI_2 };
+    let half = 0.5 * width.max(height);
+    let along = |configuration: &&Configuration| {
+        let pose = configuration.poses[body.index()];
+        let (sin, cos) = (pose.angle + lean(mechanism, body) + upright).sin_cos();
+        let axis = Vector2::new(cos, sin);
+        places(mechanism, configuration).into_iter().map(move |place| (place - pose.position).dot(&axis))
+    };
+    let beyond = BEYOND / scale;
+    let wanted = configurations
+        .iter()
+        .flat_map(along)
+        .map(|place| [place - beyond, place + beyond])
+        .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    let least = half - LEAST_CUT / scale;
+    let ends = [
+        if wanted[0] > -least { wanted[0] } else { -half },
+        if wanted[1] < least { wanted[1] } else { half },
+    ];
+    (ends != [-half, half]).then_some(ends)
+}
+
 /// Places (m) that have to be seen.
 fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f64>> {
     let mut places = Vec::new();
@@ -72,9 +123,12 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
                 places.extend(ends.map(place));
             }
             Some(Shape::Rectangle([width, height])) => {
-                let half = if width.max(height) < mechanism.size { 0.5 * width.hypot(height) } else { 0.0 };
-                let across = Vector2::new(half.min(0.5 * width), half.min(0.5 * height));
-                places.extend([centre - across, centre + across]);
+                let across = 0.5 * Vector2::new(width, height);
+                if is_long(mechanism, [width, height]) {
+                    places.push(centre);
+                } else {
+                    places.extend([centre - across, centre + across]);
+                }
             }
             Some(Shape::Disc(radius)) => {
                 let across = Vector2::new(radius, radius);
@@ -99,6 +153,11 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
                 places.extend(between.iter().map(|end| configuration.position(mechanism, end)));
             }
             _ => {}
+        }
+    }
+    for drive in &mechanism.drives {
+        if let Effort::Force { at, .. } = &drive.effort {
+            places.push(configuration.position(mechanism, at));
         }
     }
     places

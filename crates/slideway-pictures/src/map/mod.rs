@@ -62,6 +62,7 @@ fn axis(axis: &MapAxis) -> FrameAxis {
         name: axis.name.clone(),
         unit: axis.unit.clone(),
         range: [axis.from / axis.scale, axis.to / axis.scale],
+        logarithmic: false,
     }
 }
 

@@ -2,9 +2,7 @@
 
 use super::page;
 use crate::drawing::svg::markup;
-use crate::drawing::{
-    Bounds, Class, ContactForces, ContactState, ContactStates, Scene, SceneOptions, Shape, View, scene,
-};
+use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample};
@@ -122,7 +120,9 @@ impl<'h> Painted<'h> {
         let rare = (forces.len() as f64 * (1.0 - RARE)) as usize;
         let greatest = forces.get(rare).or(forces.last()).copied().unwrap_or(0.0);
         let scale = if greatest > 0.0 { LONGEST_ARROW / greatest } else { 1.0 };
-        Self { history, samples, view, options: SceneOptions::contact_mode(scale) }
+        // Words would flicker.
+        let options = SceneOptions { values: false, ..SceneOptions::contact_mode(scale) };
+        Self { history, samples, view, options }
     }
 
     /// The shapes that occur, the frames made of them, and what they need of the drawing.
@@ -157,7 +157,7 @@ impl<'h> Painted<'h> {
         phase.map_or_else(String::new, |interval| interval.phase.pattern(&self.history.mechanism))
     }
 
-    /// The drawing at a time; words would flicker and are left out.
+    /// The drawing at a time.
     fn scene(&self, sample: &Sample) -> Scene {
         let mode = self.mode(sample);
         let contacts = sample.contacts.iter().zip(mode.chars()).map(|(contact, sign)| ContactState {
@@ -175,11 +175,6 @@ impl<'h> Painted<'h> {
             }),
         });
         let states = ContactStates { contacts: contacts.collect(), efforts: sample.efforts.clone() };
-        let mut scene =
-            scene(&self.history.mechanism, &sample.configuration, &states, &self.view, &self.options);
-        scene
-            .elements
-            .retain(|element| element.class != Class::Leader && !matches!(element.shape, Shape::Text(_)));
-        scene
+        scene(&self.history.mechanism, &sample.configuration, &states, &self.view, &self.options)
     }
 }

@@ -68,7 +68,7 @@ pub fn portrait_figure(history: &History) -> Figure {
     let panel = |(index, coordinate): (usize, &slideway::mechanism::Coordinate)| {
         let name = &coordinate.name;
         let unit = if coordinate.kind.is_angle() { "rad" } else { "m" };
-        let axis = |name: String, unit: String| Axis { name, unit, range: None };
+        let axis = |name: String, unit: String| Axis { name, unit, ..Axis::default() };
         let pieces = samples.pieces.iter().map(|piece| curve(piece, (name, &format!("{name}.rate")), index));
         Panel {
             x: axis(name.to_string(), unit.to_owned()),
@@ -142,8 +142,13 @@ impl Builder<'_> {
         }
         Panel {
             title: title.to_owned(),
-            x: Axis { name: "t".to_owned(), unit: "s".to_owned(), range: Some(self.samples.range) },
-            y: Axis { name: name.to_owned(), unit: unit.to_owned(), range: None },
+            x: Axis {
+                name: "t".to_owned(),
+                unit: "s".to_owned(),
+                range: Some(self.samples.range),
+                ..Axis::default()
+            },
+            y: Axis { name: name.to_owned(), unit: unit.to_owned(), ..Axis::default() },
             curves: drawn,
             ..Panel::default()
         }

@@ -43,6 +43,8 @@ pub struct Axis {
     pub unit: String,
     /// From where to where; chosen by [`fitting_range`](super::fitting_range) where absent.
     pub range: Option<[f64; 2]>,
+    /// Whether equal distances are equal ratios; the range is positive then.
+    pub logarithmic: bool,
 }
 
 /// A branch of solutions, a mode, a motion: what has one colour and stroke.

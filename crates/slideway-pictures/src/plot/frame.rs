@@ -1,7 +1,7 @@
 //! A frame with its axes: ticks, numbers, names with units.
 
 use super::clip::Frame;
-use super::scale::{Scale, angle_step, tick_step, tick_text, ticks};
+use super::scale::{Scale, angle_step, logarithmic_ticks, tick_step, tick_text, ticks};
 use super::svg::{Svg, coordinate, width};
 use super::{MARGIN, SMALL, TEXT};
 use crate::theme::Theme;
@@ -18,6 +18,7 @@ pub(crate) struct FrameAxis {
     pub(crate) name: String,
     pub(crate) unit: String,
     pub(crate) range: [f64; 2],
+    pub(crate) logarithmic: bool,
 }
 
 impl FrameAxis {
@@ -30,6 +31,10 @@ impl FrameAxis {
             reason = "lengths are not negative"
         )]
         let wanted = ((length / between) as usize).max(3);
+        if let Some(ticks) = self.logarithmic.then(|| logarithmic_ticks(self.range, wanted)).flatten() {
+            let texts = ticks.iter().map(|&tick| tick_text(tick, tick, tick)).collect();
+            return (ticks, texts);
+        }
         let step =
             if self.unit == "deg" { angle_step(self.range, wanted) } else { tick_step(self.range, wanted) };
         let ticks = ticks(self.range, step);
@@ -42,6 +47,11 @@ impl FrameAxis {
     pub(crate) fn space_on_the_left(&self, length: f64) -> f64 {
         let (_, texts) = self.ticks(length, BETWEEN_Y);
         texts.iter().map(|text| width(text, SMALL)).fold(0.0, f64::max) + TICK + 8.0 + 1.5 * TEXT
+    }
+
+    /// With its beginning and its end at these places (px).
+    pub(super) fn scale(&self, places: [f64; 2]) -> Scale {
+        Scale { values: self.range, places, logarithmic: self.logarithmic }
     }
 
     /// The name with the unit.
@@ -86,11 +96,11 @@ impl Placed {
     }
 
     pub(super) fn x(&self) -> Scale {
-        Scale { values: self.axes[0].range, places: [self.frame.left, self.frame.right] }
+        self.axes[0].scale([self.frame.left, self.frame.right])
     }
 
     pub(super) fn y(&self) -> Scale {
-        Scale { values: self.axes[1].range, places: [self.frame.bottom, self.frame.top] }
+        self.axes[1].scale([self.frame.bottom, self.frame.top])
     }
 
     /// The place of a point, if it is within the frame.

@@ -12,8 +12,8 @@
 //!     title: "A parabola".to_owned(),
 //!     branches: vec![Branch { name: "y = x^2".to_owned(), colour: 0, stroke: Stroke::Solid }],
 //!     panels: vec![Panel {
-//!         x: Axis { name: "x".to_owned(), unit: "m".to_owned(), range: Some([0.0, 1.0]) },
-//!         y: Axis { name: "y".to_owned(), unit: "m^2".to_owned(), range: None },
+//!         x: Axis { name: "x".to_owned(), unit: "m".to_owned(), range: Some([0.0, 1.0]), ..Axis::default() },
+//!         y: Axis { name: "y".to_owned(), unit: "m^2".to_owned(), ..Axis::default() },
 //!         curves: vec![Curve { branch: 0, quantity: 0, points, ends: Default::default() }],
 //!         ..Panel::default()
 //!     }],

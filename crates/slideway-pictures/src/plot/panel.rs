@@ -60,8 +60,12 @@ fn length(parts: &[Vec<[f64; 2]>]) -> f64 {
 }
 
 fn axes(panel: &Panel) -> [FrameAxis; 2] {
-    let with =
-        |axis: &Axis, range: [f64; 2]| FrameAxis { name: axis.name.clone(), unit: axis.unit.clone(), range };
+    let with = |axis: &Axis, range: [f64; 2]| FrameAxis {
+        name: axis.name.clone(),
+        unit: axis.unit.clone(),
+        range,
+        logarithmic: axis.logarithmic && range[0] > 0.0,
+    };
     [with(&panel.x, x_range(panel)), with(&panel.y, y_range(panel))]
 }
 
@@ -77,7 +81,7 @@ impl<'f> PanelLayout<'f> {
         let right = right - 12.0;
         let axes = axes(panel);
         let values = axes[0].range;
-        let x = Scale { values, places: [left, right] };
+        let x = axes[0].scale([left, right]);
         let inside = |at: f64| values[0] <= at && at <= values[1];
         let marked = panel.marked.iter().filter(|value| inside(value.at));
         let flags = flags(marked.map(|value| (x.place(value.at), value)).collect(), right + 10.0, SMALL);
@@ -151,13 +155,14 @@ impl<'f> PanelLayout<'f> {
     }
 
     fn marked(&self, theme: &Theme, svg: &mut Svg) {
-        for Flag { value, x, text, row } in &self.flags {
+        for flag in &self.flags {
+            let Flag { value, x, row, .. } = flag;
             let baseline = self.baseline(*row);
             let (class, stroke_width, dash) =
                 if value.asymptote { ("asymptote", "1.5", "10 3 2 3") } else { ("marked", "1", "2 3") };
             let at = format!("{}", value.at);
-            // Beside its label, or below it at the edge of the picture.
-            let upper = if *text > *x { baseline - 0.8 * SMALL } else { baseline + 3.0 };
+            // Beside its label, or below it where the picture is too narrow.
+            let upper = if flag.is_beside(SMALL) { baseline - 0.8 * SMALL } else { baseline + 3.0 };
             let attributes = [
                 ("class", class),
                 ("data-at", &*at),

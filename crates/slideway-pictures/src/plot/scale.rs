@@ -18,11 +18,15 @@ pub(super) struct Scale {
     pub(super) values: [f64; 2],
     /// Their places.
     pub(super) places: [f64; 2],
+    /// Whether equal distances are equal ratios.
+    pub(super) logarithmic: bool,
 }
 
 impl Scale {
     pub(super) fn place(&self, value: f64) -> f64 {
-        let share = (value - self.values[0]) / (self.values[1] - self.values[0]);
+        let [value, from, to] = [value, self.values[0], self.values[1]]
+            .map(|value| if self.logarithmic { value.ln() } else { value });
+        let share = (value - from) / (to - from);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 }
@@ -33,6 +37,26 @@ pub(super) fn tick_step([from, to]: [f64; 2], wanted: usize) -> f64 {
     let power = 10_f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= rough * 0.999_999);
     factor.unwrap_or(10.0) * power
+}
+
+/// Ticks at 1, 2 and 5 times powers of ten, at 1 and 3 times them, or at powers of ten: as many as there is room for, at
+/// even distances. None where the positive range is too narrow for three of them.
+pub(super) fn logarithmic_ticks([from, to]: [f64; 2], wanted: usize) -> Option<Vec<f64>> {
+    let slack = 1e-9;
+    #[expect(clippy::cast_possible_truncation, reason = "exponents of floating-point numbers")]
+    let [first, last] = [from.log10().floor(), to.log10().ceil()].map(|exponent| exponent as i32);
+    let inside = |tick: &f64| from * (1.0 - slack) <= *tick && *tick <= to * (1.0 + slack);
+    let at = |factors: &'static [f64], every: u32| -> Vec<f64> {
+        let powers = (first..=last).filter(|exponent| exponent.unsigned_abs().is_multiple_of(every));
+        let ticks =
+            powers.flat_map(|exponent| factors.iter().map(move |factor| factor * 10_f64.powi(exponent)));
+        ticks.filter(inside).collect()
+    };
+    let fine: [&'static [f64]; 2] = [&[1.0, 2.0, 5.0], &[1.0, 3.0]];
+    let coarse = (1..=100).map(|every| at(&[1.0], every));
+    let ticks =
+        fine.into_iter().map(|factors| at(factors, 1)).chain(coarse).find(|ticks| ticks.len() <= wanted)?;
+    (ticks.len() >= 3).then_some(ticks)
 }
 
 /// The same in degrees: parts of a turn where the range is wide.
@@ -140,6 +164,34 @@ mod tests {
         assert_eq!(texts, ["\u{2212}0.2", "0", "0.2", "0.4"]);
         assert_eq!(tick_text(2.5e7, 5e6, 3e7), "2.5e7");
         assert!(ticks([0.0, f64::NAN], 0.1).is_empty());
+    }
+
+    #[test]
+    fn ticks_of_logarithmic_axes_are_round_and_not_too_many() {
+        let table: [([f64; 2], usize, &[f64]); 5] = [
+            ([0.001, 1.0], 10, &[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0]),
+            ([0.001, 1.0], 9, &[0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0]),
+            ([0.001, 1.0], 4, &[0.001, 0.01, 0.1, 1.0]),
+            ([1e-6, 1e6], 7, &[1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6]),
+            ([3.0, 40.0], 8, &[5.0, 10.0, 20.0]),
+        ];
+        for (range, wanted, ticks) in table {
+            let found = logarithmic_ticks(range, wanted).unwrap_or_default();
+            assert_eq!(found.len(), ticks.len(), "{range:?}: {found:?}");
+            assert!(
+                found.iter().zip(ticks).all(|(a, b)| (a / b - 1.0).abs() < 1e-12),
+                "{range:?}: {found:?}"
+            );
+        }
+        assert_eq!(logarithmic_ticks([2.1, 4.9], 8), None);
+    }
+
+    #[test]
+    fn equal_ratios_are_equal_distances_on_a_logarithmic_axis() {
+        let scale = Scale { values: [0.01, 100.0], places: [0.0, 400.0], logarithmic: true };
+        for (value, place) in [(0.01, 0.0), (0.1, 100.0), (1.0, 200.0), (10.0, 300.0), (100.0, 400.0)] {
+            assert!((scale.place(value) - place).abs() < 1e-9, "{value}");
+        }
     }
 
     #[test]

@@ -63,6 +63,51 @@ fn no_two_texts_overlap() {
     }
 }
 
+/// Letters over a dimension or over hatching are hard to read: each label has a place without.
+#[test]
+fn no_text_covers_a_dimension_or_hatching() {
+    for (name, case) in cases() {
+        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+        let texts: Vec<_> = sheet.scene.texts().map(|(_, text)| (text, text.bounds())).collect();
+        for class in [Class::Dimension, Class::Hatch] {
+            for shape in of_class(&sheet.scene, class) {
+                let Shape::Line(places) = shape else { continue };
+                for place in places.windows(2).flat_map(|pair| between(pair[0], pair[1])) {
+                    let covering = texts.iter().find(|(_, bounds)| bounds.contains(&place));
+                    assert!(covering.is_none(), "{name}: {covering:?} covers a {class:?} at {place}");
+                }
+            }
+        }
+    }
+}
+
+/// Places a unit apart on the way from one place to another.
+fn between(from: Point, to: Point) -> impl Iterator<Item = Point> {
+    let way = to - from;
+    let steps = way.norm().ceil().max(1.0);
+    std::iter::successors(Some(0.0), |step| Some(step + 1.0))
+        .take_while(move |step| *step <= steps)
+        .map(move |step| from + way * (step / steps))
+}
+
+/// A belt of 3 m that carries a block of 0.12 m is torn off, so that the block fills more than a tenth of the panel of
+/// 440 units; the plates of drawers are drawn whole.
+#[test]
+fn long_plates_are_torn_off_and_others_are_whole() {
+    let case = Case::gallery("stick-slip");
+    let view = View::fitting(&case.mechanism, &[&case.configuration], [440.0, 320.0]);
+    assert!(0.12 * view.scale > 44.0, "{}", view.scale);
+    let [from, to] = view.cuts[0].unwrap();
+    // All other places lie within half a metre of the middle of the belt, where its rollers end.
+    assert!(-1.0 < from && from < -0.5 && 0.5 < to && to < 1.0, "{from} {to}");
+    assert_eq!(view.cuts[1], None);
+    for name in ["drawer", "thrown-drawer", "scotch-yoke"] {
+        let case = Case::gallery(name);
+        let view = View::fitting(&case.mechanism, &[&case.configuration], [440.0, 320.0]);
+        assert!(view.cuts.iter().all(Option::is_none), "{name}");
+    }
+}
+
 #[test]
 fn every_solution_has_its_picture_and_caption() {
     for (name, case) in cases() {

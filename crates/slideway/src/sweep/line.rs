@@ -12,6 +12,8 @@ pub struct Line {
     pub range: [f64; 2],
     /// The unit in which values are to be shown: that of both ends of the range, as written.
     pub shown_in: ShownIn,
+    /// Whether the logarithms of its values are evenly spaced.
+    pub logarithmic: bool,
 }
 
 impl Sweep {
@@ -31,6 +33,7 @@ impl Sweep {
         });
         let si = || ShownIn { unit: axis.quantity.unit(model).to_owned(), scale: 1.0 };
         let shown_in = shown_in.unwrap_or_else(si);
-        (range[0] < range[1]).then(|| Line { name: axis.quantity.name.clone(), range, shown_in })
+        let logarithmic = matches!(axis.values, Values::Logarithmic { .. });
+        (range[0] < range[1]).then(|| Line { name: axis.quantity.name.clone(), range, shown_in, logarithmic })
     }
 }
