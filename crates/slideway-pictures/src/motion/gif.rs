@@ -16,7 +16,7 @@ const GREATEST_SIDE: f64 = 1000.0;
 /// One of so many frames is asked for its colours.
 const SAMPLED: usize = 8;
 /// So many frames are drawn before they are packed.
-const CHUNK: usize = 32;
+const CHUNK: usize = 16;
 /// Delays are counted in these (1/s).
 const TICKS: f64 = 100.0;
 /// Viewers show frames with a shorter delay for a tenth of a second.
@@ -185,4 +185,159 @@ fn span(end: usize, is_wanted: impl Fn(usize) -> bool) -> std::ops::Range<usize>
 #[expect(clippy::cast_possible_truncation, reason = "at most the greatest side")]
 fn small(side: usize) -> u16 {
     side as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{AnimationOptions, animation};
+    use crate::theme::{DARK, LIGHT, Theme};
+    use gif::{ColorOutput, DecodeOptions, Decoder};
+    use slideway::gallery;
+    use slideway::model::Model;
+    use slideway::motion::{SimulateOptions, simulate};
+
+    /// 0.25 s of the bar on its spring, shown in 0.75 s: 19 steps of at most 0.04 s, from one chunk to the next.
+    fn bar(theme: &Theme) -> Animation {
+        let text = gallery::find("klepp-2002-spring").expect("in the gallery").text;
+        let history = simulate(&Model::parse(text).expect("a model"), &SimulateOptions::new(0.25));
+        animation(&history.expect("a motion"), &AnimationOptions { slow_motion: Some(3.0) }, theme)
+    }
+
+    /// The same motion with these frames alone.
+    fn with_frames(animation: Animation, numbers: &[usize]) -> Animation {
+        let frames = numbers.iter().map(|number| animation.frames[*number].clone()).collect();
+        Animation { frames, ..animation }
+    }
+
+    fn gif_of(animation: &Animation) -> Vec<u8> {
+        animation.to_gif(&mut |_| ()).expect("a GIF")
+    }
+
+    fn opened(bytes: &[u8]) -> Decoder<&[u8]> {
+        let mut options = DecodeOptions::new();
+        options.set_color_output(ColorOutput::RGBA);
+        options.read_info(bytes).expect("a GIF")
+    }
+
+    /// What a viewer shows: every frame over those before it.
+    fn shown(bytes: &[u8]) -> Vec<Vec<Colour>> {
+        let mut decoder = opened(bytes);
+        let width = usize::from(decoder.width());
+        let mut canvas: Vec<Option<Colour>> = vec![None; width * usize::from(decoder.height())];
+        let mut pictures = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().expect("a frame") {
+            let rows = frame.buffer.chunks(4 * usize::from(frame.width));
+            for (row, pixels) in (usize::from(frame.top)..).zip(rows) {
+                for (column, pixel) in (usize::from(frame.left)..).zip(pixels.chunks(4)) {
+                    if pixel[3] == 255 {
+                        canvas[row * width + column] = Some([pixel[0], pixel[1], pixel[2]]);
+                    }
+                }
+            }
+            pictures.push(canvas.iter().map(|pixel| pixel.expect("the first frame is whole")).collect());
+        }
+        pictures
+    }
+
+    #[test]
+    fn frames_stand_as_long_as_in_the_svg() {
+        let animation = bar(&LIGHT);
+        let bytes = gif_of(&animation);
+        let mut decoder = opened(&bytes);
+        assert_eq!(decoder.repeat(), Repeat::Infinite);
+        let [width, height] = still_size(&animation).map(|side| format!("{side}"));
+        assert_eq!([decoder.width().to_string(), decoder.height().to_string()], [width, height]);
+        let mut delays = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().expect("a frame") {
+            delays.push(frame.delay);
+        }
+        assert_eq!(delays.len(), 20, "19 steps and the end");
+        assert!(delays.iter().all(|delay| [3, 4].contains(delay)), "{delays:?}");
+        // 20 * 0.75 s / 19 = 0.789 s
+        assert_eq!(delays.iter().sum::<u16>(), 79);
+    }
+
+    /// Every pixel of every frame as it was drawn, but for colours that the palette lacks.
+    #[test]
+    fn frames_show_what_was_drawn() {
+        let animation = bar(&LIGHT);
+        let pictures = shown(&gif_of(&animation));
+        let flat = flat_colours(&animation);
+        for (frame, picture) in animation.frames.iter().zip(&pictures) {
+            let drawn = drawn(&animation, frame, 1.0).expect("pixels");
+            assert!(drawn.pixels().iter().all(|pixel| pixel.alpha() == 255));
+            for (wanted, got) in colours(&drawn).zip(picture) {
+                let furthest = (0..3).map(|channel| wanted[channel].abs_diff(got[channel])).max();
+                assert!(furthest <= Some(NOT_SEEN), "{wanted:?}: {got:?}");
+                assert!(wanted == *got || !flat.contains(&wanted), "{wanted:?}: {got:?}");
+            }
+        }
+        let drawing = pictures[0].len() * 7 / 10;
+        for pair in pictures.windows(2) {
+            let moved =
+                pair[0][..drawing].iter().zip(&pair[1][..drawing]).filter(|(one, other)| one != other);
+            assert!(moved.count() > 100, "the bar moves between any two frames");
+        }
+    }
+
+    /// Antialiased edges may differ by so many of 255 levels.
+    const NOT_SEEN: u8 = 16;
+
+    #[test]
+    fn bytes_do_not_depend_on_the_number_of_threads() {
+        let animation = bar(&LIGHT);
+        let with_threads = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| gif_of(&animation))
+        };
+        assert!(with_threads(1) == with_threads(3));
+    }
+
+    #[test]
+    fn progress_is_told_up_to_the_end() {
+        let mut told = Vec::new();
+        bar(&LIGHT).to_gif(&mut |part| told.push(part)).expect("a GIF");
+        assert_eq!(told, [0.8, 1.0], "16 of 20 frames, and all");
+    }
+
+    #[test]
+    fn a_wide_drawing_is_scaled_down_and_has_its_background_to_the_edge() {
+        let mut animation = with_frames(bar(&DARK), &[0]);
+        let least = animation.bounds.least;
+        animation.bounds.greatest = least + nalgebra::Vector2::new(1612.3, 500.7);
+        let bytes = gif_of(&animation);
+        let decoder = opened(&bytes);
+        // 1613 x ceil(500.7 + 78) units
+        assert_eq!([decoder.width(), decoder.height()], [1000, 359]);
+        let picture = &shown(&bytes)[0];
+        let background = parsed(DARK.background).expect("a colour");
+        let last_row = &picture[picture.len() - 1000..];
+        let last_column = picture.chunks(1000).map(|row| &row[999]);
+        assert!(last_row.iter().chain(last_column).all(|colour| *colour == background));
+    }
+
+    #[test]
+    fn a_frame_like_the_one_before_is_one_pixel_that_does_not_change() {
+        let animation = with_frames(bar(&LIGHT), &[3, 3]);
+        let bytes = gif_of(&animation);
+        let mut decoder = opened(&bytes);
+        decoder.read_next_frame().expect("a frame").expect("the first");
+        let second = decoder.read_next_frame().expect("a frame").expect("the second");
+        assert_eq!([second.width, second.height], [1, 1]);
+        assert_eq!(second.buffer[3], 0, "see-through");
+        let [one, other] = &shown(&bytes)[..] else { panic!("two frames") };
+        assert_eq!(one, other);
+    }
+
+    #[test]
+    fn what_a_gif_cannot_show_is_a_fault() {
+        let animation = with_frames(bar(&LIGHT), &[0]);
+        let slow = Animation { frame_time: 700.0, ..animation.clone() };
+        assert!(slow.to_gif(&mut |_| ()).expect_err("too slow").to_string().contains("for 700 s"));
+        let endless = Animation { frame_time: f64::INFINITY, ..animation.clone() };
+        assert!(matches!(endless.to_gif(&mut |_| ()), Err(GifFault::Slow { .. })));
+        let none = Animation { frames: Vec::new(), ..animation };
+        assert!(matches!(none.to_gif(&mut |_| ()), Err(GifFault::NoFrame)));
+    }
 }

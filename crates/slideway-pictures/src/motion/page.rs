@@ -223,7 +223,7 @@ fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
 fn speed_below(animation: &Animation, out: &mut String) {
     let _ = writeln!(
         out,
-        "<text class=\"s-dimension\" stroke=\"none\" x=\"{}\" y=\"{}\" font-size=\"12\">{}</text>",
+        "<text class=\"s-dimension\" style=\"stroke: none\" x=\"{}\" y=\"{}\" font-size=\"12\">{}</text>",
         short(animation.bounds.least.x + INDENT),
         short(animation.bounds.greatest.y + 72.0),
         speed(animation)
