@@ -76,6 +76,15 @@ impl Watch {
         ControlFlow::Continue(())
     }
 
+    /// Tells which part of a moving picture is made.
+    pub(crate) fn animate(&mut self, part: f64) {
+        let elapsed = self.start.elapsed();
+        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
+            self.shown = elapsed;
+            self.line.show(&format!("{:.0} % of the moving picture, {} s", 100.0 * part, elapsed.as_secs()));
+        }
+    }
+
     /// Tells of the progress, and breaks when time is up.
     pub(crate) fn look(&mut self, progress: &Progress) -> ControlFlow<()> {
         let elapsed = self.start.elapsed();

@@ -90,8 +90,8 @@ fn a_state_that_cannot_be_assembled_is_refused() {
 fn files_without_a_known_ending_are_refused() {
     let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--output", "motion.xls"]);
     assert_tells(&message, &["`motion.xls` names no form of a time series", ".csv"]);
-    let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--animate", "motion.gif"]);
-    assert_tells(&message, &[".html"]);
+    let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--animate", "motion.mp4"]);
+    assert_tells(&message, &[".html, .svg, .gif"]);
     let message =
         refused(&["simulate", OSCILLATOR, "--until", "1s", "--all-branches", "--output", "motion.csv"]);
     assert_tells(&message, &["--branch"]);
@@ -103,17 +103,19 @@ fn files_without_a_known_ending_are_refused() {
 #[test]
 fn files_that_do_not_fit_are_not_written() {
     let folder = tempfile::tempdir().unwrap();
-    for (option, name) in [
-        ("--output", "motion.csv"),
-        ("--output", "motion.npz"),
-        ("--plot", "plot.svg"),
-        ("--animate", "moving.svg"),
+    for (options, name) in [
+        (&["--output"][..], "motion.csv"),
+        (&["--output"], "motion.npz"),
+        (&["--plot"], "plot.svg"),
+        (&["--animate"], "moving.svg"),
+        (&["--slow-motion", "0.2", "--animate"], "moving.gif"),
     ] {
         let path = folder.path().join(name);
         // The system refuses to write more than 1024 bytes, as on a full disk; without the trap its signal would end the program.
         let run = std::process::Command::new("sh")
             .args(["-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_slideway")])
-            .args(["simulate", OSCILLATOR, "--until", "1s", option])
+            .args(["simulate", OSCILLATOR, "--until", "1s"])
+            .args(options)
             .arg(&path)
             .current_dir(command::top())
             .output()
@@ -123,6 +125,47 @@ fn files_that_do_not_fit_are_not_written() {
         assert_tells(&said, &[name, "cannot be written: file too large"]);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "{name}");
     }
+}
+
+/// 0.2 s shown in 0.2 s: 5 steps of 0.04 s and the end.
+#[test]
+fn a_gif_moves_and_does_not_depend_on_the_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = |name: &str, threads: &str| {
+        let path = folder.path().join(name);
+        let arguments = ["simulate", KLEPP, "--until", "0.2s", "--slow-motion", "1", "--theme", "dark"];
+        let mut run = command(&arguments);
+        let run = run.arg("--animate").arg(&path).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        (run, std::fs::read(&path).unwrap())
+    };
+    let (run, bytes) = made("motion.gif", "1");
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let mut decoder = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+    let background = decoder.global_palette().unwrap()[..3].to_vec();
+    assert_eq!(background, [0x0d, 0x11, 0x17], "that of the dark theme");
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        frames.push((frame.delay, frame.width, frame.height));
+    }
+    assert_eq!(frames.iter().map(|frame| frame.0).collect::<Vec<_>>(), [4; 6]);
+    assert!(frames.iter().all(|frame| frame.1 > 100 && frame.2 > 100), "all move: {frames:?}");
+    assert_eq!(made("again.gif", "2").1, bytes);
+
+    let (refused, kept) = made("motion.gif", "1");
+    assert_eq!(refused.status.code(), Some(2));
+    assert_tells(&String::from_utf8(refused.stderr).unwrap(), &["motion.gif` exists already", "--force"]);
+    assert_eq!(kept, bytes);
+}
+
+#[test]
+fn a_gif_whose_frames_would_stand_too_long_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motion.gif");
+    let slow = ["simulate", OSCILLATOR, "--until", "1s", "--slow-motion", "1e6", "--animate"];
+    let message = refused(&[&slow[..], &[path.to_str().unwrap()]].concat());
+    // 400 steps of 2500 s
+    assert_tells(&message, &["2500 s", "655 s"]);
+    assert!(!path.exists());
 }
 
 #[test]

@@ -47,6 +47,11 @@ pub enum RasterFault {
 /// # Ok::<(), slideway_pictures::raster::RasterFault>(())
 /// ```
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, RasterFault> {
+    pixels(svg, scale)?.encode_png().map_err(|error| RasterFault::Packing(error.to_string()))
+}
+
+/// A picture as pixels, `scale` of them for each unit of the SVG.
+pub(crate) fn pixels(svg: &str, scale: f64) -> Result<Pixmap, RasterFault> {
     let not_svg = |error: &dyn std::fmt::Display| RasterFault::NotSvg(error.to_string());
     let document = Document::parse(svg).map_err(|error| not_svg(&error))?;
     let outlined = with_outlines(svg, &document);
@@ -68,7 +73,7 @@ pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, RasterFault> {
     #[expect(clippy::cast_possible_truncation, reason = "pixels need no more precision")]
     let transform = Transform::from_scale(scale as f32, scale as f32);
     resvg::render(&tree, transform, &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| RasterFault::Packing(error.to_string()))
+    Ok(pixmap)
 }
 
 /// The SVG with the outlines of its texts in their place.

@@ -69,7 +69,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long, requires = "plot")]
     pub(crate) phase_portrait: bool,
 
-    /// Draw the mechanism moving, contact modes exaggerated: FILE.html or FILE.svg.
+    /// Draw the mechanism moving, contact modes exaggerated: FILE.html, FILE.svg, or FILE.gif for mails and slides. At most 25 frames for each second and 400 in all; a GIF has at most 1000 pixels on each side.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
 

@@ -50,7 +50,7 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         let history =
             motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
         let history = history.map_err(|faults| input.refused(faults))?;
-        files.write(&history, &options, (step, &Metadata::of(&input)))?;
+        files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
     drop(watch);
@@ -222,6 +222,7 @@ impl<'a> Files<'a> {
         history: &History,
         options: &SimulateOptions,
         (step, metadata): (Option<f64>, &Metadata),
+        watch: &mut Watch,
     ) -> Result<(), Failure> {
         if let Some((format, output)) = &self.table {
             let times = match step {
@@ -253,13 +254,15 @@ impl<'a> Files<'a> {
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
             let animation = animation(history, &options, theme);
-            output.write_bytes(
-                match format {
-                    AnimationFormat::Html => animation.to_html(),
-                    AnimationFormat::Svg => animation.to_svg(),
-                }
-                .as_bytes(),
-            )?;
+            let mut progress = |part| watch.animate(part);
+            let bytes = match format {
+                AnimationFormat::Html => animation.to_html().into_bytes(),
+                AnimationFormat::Svg => animation.to_svg().into_bytes(),
+                AnimationFormat::Gif => animation
+                    .to_gif(&mut progress)
+                    .map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
+            };
+            output.write_bytes(&bytes)?;
         }
         Ok(())
     }
@@ -270,6 +273,7 @@ impl<'a> Files<'a> {
 enum AnimationFormat {
     Html,
     Svg,
+    Gif,
 }
 
 impl AnimationFormat {
@@ -277,7 +281,8 @@ impl AnimationFormat {
         match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
             Some("html" | "htm") => Ok(Self::Html),
             Some("svg") => Ok(Self::Svg),
-            _ => Err(Failure::FileFormat { path: path.to_owned(), known: &[".html", ".svg"] }),
+            Some("gif") => Ok(Self::Gif),
+            _ => Err(Failure::FileFormat { path: path.to_owned(), known: &[".html", ".svg", ".gif"] }),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A moving picture as a document by itself.
 
-use super::animation::Animation;
+use super::animation::{Animation, FrameOf};
 use crate::drawing::svg::{Colour, rules, short};
 use crate::escaped;
 use crate::typeface::STACK;
@@ -8,6 +8,10 @@ use std::fmt::Write;
 
 /// Room for the words below the drawing (drawing units).
 const CAPTION: f64 = 78.0;
+/// From the left edge to the words (drawing units).
+const INDENT: f64 = 12.0;
+/// How far the background of a frame that stands still goes beyond its edges (drawing units).
+const BLEED: f64 = 2.0;
 /// At most so many events are told in an SVG document.
 const MOST_TOLD: usize = 200;
 /// Letters in a line of the caption.
@@ -151,30 +155,92 @@ pub(super) fn svg(animation: &Animation) -> String {
     }
     let uses = Uses::of(animation, common.len());
     uses.define(animation, &mut out);
-    let left = short(corner.x + 12.0);
-    let below = animation.bounds.greatest.y;
     for (number, frame) in animation.frames.iter().enumerate() {
         let begin = animation.frame_time * number as f64;
         let _ = writeln!(out, "<g class=\"frame\">{}", shown(begin, animation.frame_time));
         for index in &frame.shapes[common.len()..] {
             uses.draw(animation, *index, &mut out);
         }
-        let _ = writeln!(
-            out,
-            "<text class=\"s-words\" x=\"{left}\" y=\"{}\" font-size=\"15\">t = {:.4} s, mode {}</text></g>",
-            short(below + 16.0),
-            frame.time,
-            escaped(&frame.mode)
-        );
+        clock(animation, frame, &mut out);
+        out.push_str("</g>\n");
     }
-    events(animation, &mut out, [corner.x + 12.0, below + 38.0]);
+    events(animation, &mut out);
+    speed_below(animation, &mut out);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// One frame as a document that stands still, with what is told at its time; its sides are whole numbers.
+pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
+    let [width, height] = still_size(animation);
+    let corner = animation.bounds.least;
+    let mut out = String::new();
+    // The background goes beyond the edges, so that no pixel shows what is behind it.
     let _ = writeln!(
         out,
-        "<text class=\"s-dimension\" stroke=\"none\" x=\"{left}\" y=\"{}\" font-size=\"12\">{}</text>\n</svg>",
-        short(below + 72.0),
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"{x} {y} {width} {height}\">\n<style>\n{rules}</style>\n\
+         <rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+        short(corner.x - BLEED),
+        short(corner.y - BLEED),
+        width + 2.0 * BLEED,
+        height + 2.0 * BLEED,
+        x = short(corner.x),
+        y = short(corner.y),
+        rules = rules(&Colour::of_theme(&animation.theme)),
+    );
+    for index in &frame.shapes {
+        out.push_str(&animation.shapes[*index]);
+    }
+    clock(animation, frame, &mut out);
+    if let Some((time, words)) = animation.events.iter().rev().find(|(time, _)| *time <= frame.time) {
+        words_of_event(animation, *time, words, &mut out);
+    }
+    speed_below(animation, &mut out);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// Width and height of a frame that stands still (drawing units).
+pub(super) fn still_size(animation: &Animation) -> [f64; 2] {
+    let size = animation.bounds.size();
+    [size.x.ceil(), (size.y + CAPTION).ceil()]
+}
+
+/// Time and mode of a frame, below its drawing.
+fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
+    let _ = write!(
+        out,
+        "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"15\">t = {:.4} s, mode {}</text>",
+        short(animation.bounds.least.x + INDENT),
+        short(animation.bounds.greatest.y + 16.0),
+        frame.time,
+        escaped(&frame.mode)
+    );
+}
+
+/// The last line below the drawing.
+fn speed_below(animation: &Animation, out: &mut String) {
+    let _ = writeln!(
+        out,
+        "<text class=\"s-dimension\" style=\"stroke: none\" x=\"{}\" y=\"{}\" font-size=\"12\">{}</text>",
+        short(animation.bounds.least.x + INDENT),
+        short(animation.bounds.greatest.y + 72.0),
         speed(animation)
     );
-    out
+}
+
+/// The words of an event, below the drawing.
+fn words_of_event(animation: &Animation, time: f64, words: &str, out: &mut String) {
+    for (line, text) in lines(&format!("{time:.4} s: {words}")).iter().take(2).enumerate() {
+        let _ = write!(
+            out,
+            "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
+            short(animation.bounds.least.x + INDENT),
+            short(animation.bounds.greatest.y + 38.0 + 16.0 * line as f64),
+            escaped(text)
+        );
+    }
 }
 
 /// How often each shape occurs behind those that all frames share.
@@ -207,7 +273,7 @@ impl Uses {
 }
 
 /// The words of each event until the next.
-fn events(animation: &Animation, out: &mut String, [x, y]: [f64; 2]) {
+fn events(animation: &Animation, out: &mut String) {
     let clock = |time: f64| (time - animation.times[0]) * animation.slow_motion;
     let total = animation.frame_time * animation.frames.len() as f64;
     let told = &animation.events[..animation.events.len().min(MOST_TOLD)];
@@ -218,15 +284,7 @@ fn events(animation: &Animation, out: &mut String, [x, y]: [f64; 2]) {
             continue;
         }
         let _ = write!(out, "<g class=\"told\">{}", shown(begin, end - begin));
-        for (line, text) in lines(&format!("{time:.4} s: {words}")).iter().take(2).enumerate() {
-            let _ = write!(
-                out,
-                "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
-                short(x),
-                short(y + 16.0 * line as f64),
-                escaped(text)
-            );
-        }
+        words_of_event(animation, *time, words, out);
         out.push_str("</g>\n");
     }
 }
@@ -257,7 +315,7 @@ fn shown(begin: f64, duration: f64) -> String {
 /// The shapes with which every frame begins.
 fn common(animation: &Animation) -> Vec<usize> {
     let Some(first) = animation.frames.first() else { return Vec::new() };
-    let length = |frame: &super::animation::FrameOf| {
+    let length = |frame: &FrameOf| {
         frame.shapes.iter().zip(&first.shapes).take_while(|(one, other)| one == other).count()
     };
     let shared = animation.frames.iter().map(length).min().unwrap_or(0);
