@@ -3,10 +3,12 @@
 use crate::drawing::signs;
 use crate::plot::{Axis, Band, Branch, Curve, Figure, Panel, Stroke};
 use crate::theme::LIGHT;
-use slideway::motion::{History, Series};
+use slideway::motion::{History, PhaseInterval, Series};
 
 /// Points of a curve, shared among the phases.
 const POINTS: f64 = 1500.0;
+/// Phases that are drawn one by one; of more, those for whose jumps there is no room are drawn together.
+const PIECES: usize = 250;
 /// Points of a phase at least: its curve in a phase portrait may be long.
 const LEAST: usize = 24;
 /// The end of a phase is read so much before its end, as a part of it: forces may jump there.
@@ -107,16 +109,18 @@ impl Samples {
     fn of(history: &History) -> Self {
         let range = [history.start(), history.stop()];
         let whole = range[1] - range[0];
-        let piece = |phase: &slideway::motion::PhaseInterval| {
-            let length = phase.to - phase.from;
+        let groups = groups(history);
+        let least = if groups.iter().any(|group| group.len() > 1) { 2 } else { LEAST };
+        let times = |phase: &&PhaseInterval| {
+            let (from, length) = (phase.from, phase.to - phase.from);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of POINTS")]
-            let points = ((POINTS * length / whole) as usize).max(LEAST);
+            let points = ((POINTS * length / whole) as usize).max(least);
             let last = length * (1.0 - BEFORE_END);
-            let times = (0..=points).map(|point| phase.from + last * point as f64 / points as f64);
-            history.series(&times.collect::<Vec<_>>())
+            (0..=points).map(move |point| from + last * point as f64 / points as f64)
         };
-        let phases = history.phases.iter().filter(|phase| phase.to > phase.from);
-        Self { pieces: phases.map(piece).collect(), range }
+        let piece =
+            |group: &Vec<&PhaseInterval>| history.series(&group.iter().flat_map(times).collect::<Vec<f64>>());
+        Self { pieces: groups.iter().map(piece).collect(), range }
     }
 
     /// Whether a column has another number than zero.
@@ -124,6 +128,21 @@ impl Samples {
         let columns = self.pieces.iter().filter_map(|piece| piece.column(name));
         columns.flat_map(|column| column.values.iter().flatten()).any(|value| *value != 0.0)
     }
+}
+
+/// Phases that are drawn as one piece: each by itself, or where there are too many, neighbours for whose jumps there is no room.
+fn groups(history: &History) -> Vec<Vec<&PhaseInterval>> {
+    let phases: Vec<&PhaseInterval> = history.phases.iter().filter(|phase| phase.to > phase.from).collect();
+    let shortest =
+        if phases.len() > PIECES { (history.stop() - history.start()) / PIECES as f64 } else { 0.0 };
+    let mut groups: Vec<Vec<&PhaseInterval>> = Vec::new();
+    for phase in phases {
+        match groups.last_mut() {
+            Some(group) if group[group.len() - 1].to - group[0].from < shortest => group.push(phase),
+            _ => groups.push(vec![phase]),
+        }
+    }
+    groups
 }
 
 struct Builder<'s> {
@@ -167,15 +186,21 @@ fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
 fn bands(history: &History) -> Vec<Band> {
     let mut patterns: Vec<String> = Vec::new();
     let mut bands = Vec::new();
-    for phase in history.phases.iter().filter(|phase| phase.to > phase.from) {
-        let pattern = phase.phase.pattern(&history.mechanism);
+    for group in groups(history) {
+        // Of those for which there is no room, the longest.
+        let length = |phase: &PhaseInterval| phase.to - phase.from;
+        let Some(longest) = group.iter().max_by(|one, other| length(one).total_cmp(&length(other))) else {
+            continue;
+        };
+        let (from, to) = (group[0].from, group[group.len() - 1].to);
+        let pattern = longest.phase.pattern(&history.mechanism);
         let known = patterns.iter().position(|known| *known == pattern);
         let colour = known.unwrap_or_else(|| {
             patterns.push(pattern.clone());
             patterns.len() - 1
         });
         let meaning = format!("mode {}", signs(&pattern));
-        bands.push(Band { from: phase.from, to: phase.to, colour, meaning });
+        bands.push(Band { from, to, colour, meaning });
     }
     bands
 }

@@ -2,11 +2,29 @@
 
 /// Distance of the places of a curve that are looked at (px).
 const STEP: f64 = 6.0;
+
 /// Whether at least half of the length of `beneath` lies within a distance of `above`, both given by their visible parts.
 pub(super) fn runs_along(beneath: &[Vec<[f64; 2]>], above: &[Vec<[f64; 2]>], distance: f64) -> bool {
+    if !are_near(beneath, above, distance) {
+        return false;
+    }
     let places: Vec<[f64; 2]> = beneath.iter().flat_map(|part| spaced(part)).collect();
     let hidden = places.iter().filter(|&&place| above.iter().any(|part| is_near(place, part, distance)));
     !places.is_empty() && 2 * hidden.count() >= places.len()
+}
+
+/// Whether the rectangles around both come within the distance.
+fn are_near(one: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>], distance: f64) -> bool {
+    let range = |parts: &[Vec<[f64; 2]>], axis: usize| {
+        let values = parts.iter().flatten().map(|place| place[axis]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], value| {
+            [f64::min(least, value), f64::max(greatest, value)]
+        })
+    };
+    [0, 1].into_iter().all(|axis| {
+        let ([from, to], [begin, end]) = (range(one, axis), range(other, axis));
+        from - distance <= end && begin - distance <= to
+    })
 }
 
 /// Middles of pieces of equal length along a line.
