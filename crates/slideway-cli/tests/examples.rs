@@ -26,7 +26,7 @@ fn examples(help: &str) -> Vec<String> {
         let text = line.trim();
         let text = text.split_once("  ").map_or(text, |(example, _)| example);
         match examples.last_mut() {
-            Some(last) if !text.starts_with("slideway ") => last.push_str(&format!(" {text}")),
+            Some(last) if !text.starts_with("slideway ") => last.extend([" ", text]),
             _ => examples.push(text.to_owned()),
         }
     }

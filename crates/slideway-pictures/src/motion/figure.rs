@@ -35,7 +35,7 @@ pub fn motion_figure(history: &History) -> Figure {
         .map(|contact| (contact.name.to_string(), format!("{}.normal_force", contact.name)))
         .collect();
     let mut panel = builder.panel("Normal forces and contact modes", ("normal force", "N"), &forces);
-    panel.bands = bands(history);
+    panel.bands = bands(history, builder.branches.len());
     panels.push(panel);
     let energies = [
         ("kinetic energy", "energy.kinetic"),
@@ -182,25 +182,30 @@ fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
     Curve { branch, quantity: 0, points, ends: <[crate::plot::End; 2]>::default() }
 }
 
-/// The contact modes along the time.
-fn bands(history: &History) -> Vec<Band> {
-    let mut patterns: Vec<String> = Vec::new();
-    let mut bands = Vec::new();
+/// The contact modes along the time, in colours from this one on: those before it are the curves' of the same panel.
+fn bands(history: &History, first: usize) -> Vec<Band> {
+    let mut meanings: Vec<String> = Vec::new();
+    let mut bands: Vec<Band> = Vec::new();
     for group in groups(history) {
-        // Of those for which there is no room, the longest.
-        let length = |phase: &PhaseInterval| phase.to - phase.from;
-        let Some(longest) = group.iter().max_by(|one, other| length(one).total_cmp(&length(other))) else {
-            continue;
+        let pattern = group[0].phase.pattern(&history.mechanism);
+        let is_one = group.iter().all(|phase| phase.phase.pattern(&history.mechanism) == pattern);
+        let meaning = if is_one {
+            format!("mode {}", signs(&pattern))
+        } else {
+            "modes too short to be told apart".to_owned()
         };
-        let (from, to) = (group[0].from, group[group.len() - 1].to);
-        let pattern = longest.phase.pattern(&history.mechanism);
-        let known = patterns.iter().position(|known| *known == pattern);
-        let colour = known.unwrap_or_else(|| {
-            patterns.push(pattern.clone());
-            patterns.len() - 1
-        });
-        let meaning = format!("mode {}", signs(&pattern));
-        bands.push(Band { from, to, colour, meaning });
+        let to = group[group.len() - 1].to;
+        if let Some(last) = bands.last_mut().filter(|last| last.meaning == meaning) {
+            last.to = to;
+            continue;
+        }
+        let known = meanings.iter().position(|known| *known == meaning);
+        let colour = first
+            + known.unwrap_or_else(|| {
+                meanings.push(meaning.clone());
+                meanings.len() - 1
+            });
+        bands.push(Band { from: group[0].from, to, colour, meaning });
     }
     bands
 }
