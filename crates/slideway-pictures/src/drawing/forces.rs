@@ -8,6 +8,8 @@ use super::{ContactForces, Painter, quantity};
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::model::{CarriedBy, SliderKind};
 
+/// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
+const AT_REST: f64 = 1e-9;
 /// Distance of a velocity from what is drawn of its guide.
 const ASIDE: f64 = 19.0;
 /// Places of the arrow of a velocity: along the guide, and further off.
@@ -89,7 +91,8 @@ impl Painter<'_> {
             let Some(contact) = slider.contacts.first() else { continue };
             let velocity = self.actual.contact(mechanism, *contact).sliding_velocity;
             let velocity = if slide.block_frame == Frame::Ground { -velocity } else { velocity };
-            if velocity == 0.0 {
+            // The velocity of a joint that sticks is rounding.
+            if velocity.abs() <= AT_REST * mechanism.size {
                 continue;
             }
             let half = slide.guide.along * (0.5 * VELOCITY * velocity.signum());

@@ -147,6 +147,13 @@ impl Bounds {
         Self { least: self.least - margin, greatest: self.greatest + margin }
     }
 
+    /// As wide as this at least, about the same middle.
+    #[must_use]
+    pub(crate) fn at_least_as_wide_as(self, width: f64) -> Self {
+        let margin = Point::new(0.5 * (width - self.size().x).max(0.0), 0.0);
+        Self { least: self.least - margin, greatest: self.greatest + margin }
+    }
+
     /// The same size elsewhere.
     #[must_use]
     pub(super) fn shifted(self, by: Point) -> Self {

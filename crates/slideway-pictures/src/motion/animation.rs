@@ -22,6 +22,8 @@ const LONGEST_ARROW: f64 = 80.0;
 const RARE: f64 = 0.05;
 /// Around the drawing (drawing units).
 const MARGIN: f64 = 24.0;
+/// The drawing is at least as wide as this, for the words below it (drawing units).
+const LEAST_WIDTH: f64 = 600.0;
 
 /// How a motion is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -163,7 +165,7 @@ impl<'h> Painted<'h> {
             frames.push(FrameOf { time, mode: signs.join(" "), shapes: indices });
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
-        (shapes, frames, bounds.unwrap_or(empty).widened(MARGIN))
+        (shapes, frames, bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH))
     }
 
     fn mode(&self, sample: &Sample) -> String {

@@ -3,7 +3,8 @@
 use super::animation::{Animation, FrameOf};
 use crate::drawing::svg::{Colour, rules, short};
 use crate::escaped;
-use crate::typeface::STACK;
+use crate::plot::svg::wrapped;
+use crate::typeface::{STACK, width};
 use std::fmt::Write;
 
 /// Room for the words below the drawing (drawing units).
@@ -14,8 +15,10 @@ const INDENT: f64 = 12.0;
 const BLEED: f64 = 2.0;
 /// At most so many events are told in an SVG document.
 const MOST_TOLD: usize = 200;
-/// Letters in a line of the caption.
-const LETTERS: usize = 96;
+/// Size of the words of an event.
+const WORDS: f64 = 13.0;
+/// Lines for the words of an event.
+const LINES: usize = 2;
 
 /// A page with a slider for the time and the log of events.
 pub(super) fn html(animation: &Animation) -> String {
@@ -230,12 +233,18 @@ fn speed_below(animation: &Animation, out: &mut String) {
     );
 }
 
-/// The words of an event, below the drawing.
+/// The words of an event in the lines below the drawing; three dots where these do not hold all.
 fn words_of_event(animation: &Animation, time: f64, words: &str, out: &mut String) {
-    for (line, text) in lines(&format!("{time:.4} s: {words}")).iter().take(2).enumerate() {
+    let space = animation.bounds.size().x - 2.0 * INDENT;
+    let mut lines = wrapped(&format!("{time:.4} s: {words}"), WORDS, space - width("…", WORDS));
+    if lines.len() > LINES {
+        lines.truncate(LINES);
+        lines.iter_mut().skip(LINES - 1).for_each(|line| line.push('…'));
+    }
+    for (line, text) in lines.iter().enumerate() {
         let _ = write!(
             out,
-            "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
+            "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{}</text>",
             short(animation.bounds.least.x + INDENT),
             short(animation.bounds.greatest.y + 38.0 + 16.0 * line as f64),
             escaped(text)
@@ -287,22 +296,6 @@ fn events(animation: &Animation, out: &mut String) {
         words_of_event(animation, *time, words, out);
         out.push_str("</g>\n");
     }
-}
-
-fn lines(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = vec![String::new()];
-    for word in text.split(' ') {
-        let last = lines.last_mut().expect("there is always a line");
-        if last.len() + word.len() > LETTERS && !last.is_empty() {
-            lines.push(word.to_owned());
-        } else {
-            if !last.is_empty() {
-                last.push(' ');
-            }
-            last.push_str(word);
-        }
-    }
-    lines
 }
 
 /// What makes a group visible from a time of the clock on, for some time (s).
