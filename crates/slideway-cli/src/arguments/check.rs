@@ -6,7 +6,7 @@ use clap::Args;
 pub(super) const HELP: &str = "\
 Examples:
   slideway check drawer.toml
-  slideway check bracket-on-pole.toml --set mu=0.2
+  slideway check slider-crank.toml --set mu=0.3
   slideway check drawer.toml --format json
 
 Exit codes:
