@@ -15,7 +15,6 @@ const QUIET: Duration = Duration::from_secs(1);
 const BETWEEN: Duration = Duration::from_millis(200);
 
 /// Whether someone has interrupted the program (Ctrl-C). The second time ends it at once.
-#[derive(Clone)]
 pub(crate) struct Interruption(Arc<AtomicBool>);
 
 impl Interruption {
@@ -44,28 +43,48 @@ impl Interruption {
     }
 }
 
+/// When a line of progress is due.
+struct Pace {
+    start: Instant,
+    shown: Duration,
+}
+
+impl Pace {
+    /// Starts now.
+    fn new() -> Self {
+        Self { start: Instant::now(), shown: Duration::ZERO }
+    }
+
+    /// The time since the start, if a line is due: it counts as shown.
+    fn due(&mut self) -> Option<Duration> {
+        let elapsed = self.start.elapsed();
+        let is_due = elapsed >= QUIET && elapsed >= self.shown + BETWEEN;
+        if is_due {
+            self.shown = elapsed;
+        }
+        is_due.then_some(elapsed)
+    }
+}
+
 /// Ends a search in time, and tells of its progress.
 pub(crate) struct Watch {
-    start: Instant,
+    pace: Pace,
     limit: Option<Duration>,
-    shown: Duration,
     line: ProgressLine,
 }
 
 impl Watch {
     /// Starts now.
     pub(crate) fn new(limit: Option<Duration>) -> Self {
-        Self { start: Instant::now(), limit, shown: Duration::ZERO, line: ProgressLine::new() }
+        Self { pace: Pace::new(), limit, line: ProgressLine::new() }
     }
 
     /// Tells how far a simulation has come between two times (s), and breaks when time is up.
     pub(crate) fn follow(&mut self, time: f64, [start, until]: [f64; 2]) -> ControlFlow<()> {
-        let elapsed = self.start.elapsed();
-        if self.limit.is_some_and(|limit| elapsed >= limit) {
+        if self.limit.is_some_and(|limit| self.pace.start.elapsed() >= limit) {
             return ControlFlow::Break(());
         }
-        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
-            self.shown = elapsed;
+        if let Some(elapsed) = self.pace.due() {
             let part = (time - start) / (until - start);
             self.line.show(&format!(
                 "t = {time:.4} s of {until} s ({:.0} %), {} s",
@@ -78,21 +97,17 @@ impl Watch {
 
     /// Tells which part of a moving picture is made.
     pub(crate) fn animate(&mut self, part: f64) {
-        let elapsed = self.start.elapsed();
-        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
-            self.shown = elapsed;
+        if let Some(elapsed) = self.pace.due() {
             self.line.show(&format!("{:.0} % of the moving picture, {} s", 100.0 * part, elapsed.as_secs()));
         }
     }
 
     /// Tells of the progress, and breaks when time is up.
     pub(crate) fn look(&mut self, progress: &Progress) -> ControlFlow<()> {
-        let elapsed = self.start.elapsed();
-        if self.limit.is_some_and(|limit| elapsed >= limit) {
+        if self.limit.is_some_and(|limit| self.pace.start.elapsed() >= limit) {
             return ControlFlow::Break(());
         }
-        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
-            self.shown = elapsed;
+        if let Some(elapsed) = self.pace.due() {
             self.line.show(&format!(
                 "{:.1} % of the patterns, {} nodes, {} found, {} s",
                 100.0 * progress.fraction,
@@ -107,10 +122,9 @@ impl Watch {
 
 /// Tells how far a sweep has come, how fast it is, and how long it will take.
 pub(crate) struct SweepWatch {
-    start: Instant,
+    pace: Pace,
     first: u64,
     points: u64,
-    shown: Duration,
     line: ProgressLine,
 }
 
@@ -120,16 +134,12 @@ const BAR: usize = 24;
 impl SweepWatch {
     /// Starts now, with so many points done of so many.
     pub(crate) fn new(first: u64, points: u64) -> Self {
-        Self { start: Instant::now(), first, points, shown: Duration::ZERO, line: ProgressLine::new() }
+        Self { pace: Pace::new(), first, points, line: ProgressLine::new() }
     }
 
     /// Tells how many points are done.
     pub(crate) fn look(&mut self, done: u64) {
-        let elapsed = self.start.elapsed();
-        if elapsed < QUIET || elapsed < self.shown + BETWEEN {
-            return;
-        }
-        self.shown = elapsed;
+        let Some(elapsed) = self.pace.due() else { return };
         let fraction = done as f64 / self.points.max(1) as f64;
         let rate = (done - self.first) as f64 / elapsed.as_secs_f64();
         let filled = (1..=BAR).take_while(|part| *part as f64 <= fraction * BAR as f64).count();
@@ -140,14 +150,10 @@ impl SweepWatch {
         }
         self.line.show(&text);
     }
-}
 
-impl SweepWatch {
     /// Tells which part of the file is made, once all points are computed.
     pub(crate) fn complete(&mut self, part: f64) {
-        let elapsed = self.start.elapsed();
-        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
-            self.shown = elapsed;
+        if self.pace.due().is_some() {
             self.line.show(&format!("{:.0} % of the file", 100.0 * part));
         }
     }
