@@ -8,6 +8,7 @@ use super::enumeration::EnumerationError;
 use super::findings::{Findings, SUSPECT_CONDITION};
 use super::scaling::ScaledProblem;
 use super::solutions::{Certificate, ContactState, SolutionSet, UndecidedPattern};
+use super::support::Support;
 
 /// Whether a decision settled a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +55,8 @@ impl Findings<'_> {
             }
             Decision::Singular { set } => {
                 self.examined += 1;
-                self.file_singular(pattern, set.normal_forces(pattern), Certificate::Singular);
+                let support = Support::of_exact_set(pattern, &set, &self.problem.has_jump);
+                self.file_singular(pattern, (set.normal_forces(pattern), support), Certificate::Singular);
             }
             Decision::Undecided { unknowns, in_doubt } => self.file_undecided(pattern, unknowns, in_doubt)?,
         }
@@ -76,7 +78,8 @@ impl Findings<'_> {
             }
             Centre::Set(set) => {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
-                self.file_singular(pattern, set, certificate);
+                let support = Support::of_set(pattern, &set, &self.problem.has_jump);
+                self.file_singular(pattern, (set, support), certificate);
                 Ok(())
             }
             Centre::Nothing if self.undecided.len() >= self.limits.solutions => {

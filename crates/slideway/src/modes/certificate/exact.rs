@@ -51,7 +51,7 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64
         let unknowns = echelon.solve_reduced(pattern.len());
         return ExactOutcome::Regular { determinant: echelon.determinant_sign(), unknowns };
     }
-    ExactOutcome::Singular(ExactSet::new(&echelon, pattern, bases))
+    ExactOutcome::Singular(ExactSet::new(&echelon, pattern, bases, &mut || true))
 }
 
 /// The signs that decide on a regular pattern, without fractions.

@@ -37,6 +37,7 @@ mod system;
 pub use crate::interval::{Interval, Sign};
 pub(super) use data::{Column, Radii};
 pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
+pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
 pub use exact::{ExactOutcome, solve_exactly};

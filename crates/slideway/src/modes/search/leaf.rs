@@ -1,8 +1,9 @@
 //! The outcome of single patterns, and whether it is proven.
 
 use super::load::LoadedProblem;
+use super::monitor::Monitor;
 use super::report::StopReason;
-use crate::modes::certificate::{Decision, decide};
+use crate::modes::certificate::{Decision, decide_while};
 use crate::modes::decided::Filed;
 use crate::modes::findings::Findings;
 use crate::modes::solutions::ContactState;
@@ -26,7 +27,11 @@ impl<'a> Leaves<'a> {
     }
 
     /// Files what a pattern admits.
-    pub(super) fn examine(&mut self, pattern: &[ContactState]) -> Result<(), StopReason> {
+    pub(super) fn examine(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         if !self.certify {
             return self.examine_within_tolerances(pattern);
         }
@@ -35,19 +40,29 @@ impl<'a> Leaves<'a> {
             self.findings.leave_unexamined(pattern, pattern.len());
             return Ok(());
         }
-        let decision = self.decide(pattern);
+        let decision = self.decide(pattern, monitor)?;
         self.file(pattern, decision)
     }
 
     /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
     /// together with the contacts that the right-hand side comes from.
-    fn decide(&mut self, pattern: &[ContactState]) -> Decision {
-        let decision = decide(self.problem.view(), pattern).decision;
-        if !matches!(decision, Decision::Undecided { .. }) || !self.problem.is_part_of_exact_problem() {
-            return decision;
+    fn decide(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Decision, StopReason> {
+        let mut proceed = || monitor.goes_on();
+        let verdict = decide_while(self.problem.view(), pattern, &mut proceed);
+        let mut decision = verdict.map(|verdict| verdict.decision);
+        let open = matches!(decision, Some(Decision::Undecided { .. }));
+        if open && self.problem.is_part_of_exact_problem() {
+            self.decided_jointly = true;
+            decision = self.problem.decide_jointly(pattern, &mut proceed).or(decision);
         }
-        self.decided_jointly = true;
-        self.problem.decide_jointly(pattern).unwrap_or(decision)
+        match monitor.stopped() {
+            Some(reason) => Err(reason),
+            None => decision.ok_or(StopReason::Cancelled),
+        }
     }
 
     /// Files a pattern by its decision.
@@ -68,11 +83,15 @@ impl<'a> Leaves<'a> {
 
     /// Files the only pattern that can have a solution. False, with nothing filed, if it is not certain to
     /// have it for all values within bounds.
-    pub(super) fn examine_only(&mut self, pattern: &[ContactState]) -> Result<bool, StopReason> {
+    pub(super) fn examine_only(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<bool, StopReason> {
         if !self.certify {
             return self.examine_within_tolerances(pattern).map(|()| true);
         }
-        let decision = self.decide(pattern);
+        let decision = self.decide(pattern, monitor)?;
         let certain = matches!(decision, Decision::Solution { .. } | Decision::Boundary { .. });
         if certain { self.file(pattern, decision).map(|()| true) } else { Ok(false) }
     }
