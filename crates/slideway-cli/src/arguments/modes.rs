@@ -26,7 +26,8 @@ Exit codes:
   0  solutions were found: one, several, infinitely many, or a state in a preload gap
   1  no solution, and the search was complete
   2  faulty input: the problem, the files or the arguments
-  3  unknown: nothing was found, but the search was not complete";
+  3  unknown: nothing was found, but the search was not complete
+  130  interrupted: what was found until then is written";
 
 /// Arguments of `slideway modes`.
 #[derive(Debug, Args)]
@@ -38,6 +39,10 @@ pub(crate) struct ModesArguments {
     /// Form of the answer; without it the ending of the output file tells (.json, .npz), else text.
     #[arg(long, value_enum)]
     format: Option<ModesFormat>,
+
+    /// List also what is part of a larger continuum: its ends and its faces.
+    #[arg(long)]
+    pub(crate) all_faces: bool,
 
     #[command(flatten)]
     pub(crate) search: SearchArguments,

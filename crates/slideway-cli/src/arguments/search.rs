@@ -2,7 +2,7 @@
 
 use super::values::duration;
 use clap::Args;
-use slideway::modes::SearchOptions;
+use slideway::modes::{Limits, SearchOptions};
 use std::time::Duration;
 
 /// What a search for solutions may cost, and how much of it is told.
@@ -16,6 +16,10 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N")]
     max_nodes: Option<u64>,
 
+    /// End the search once a group of contacts or unknowns has so many solutions; the answer is then partial.
+    #[arg(long, value_name = "N", default_value_t = Limits::default().solutions)]
+    max_found: usize,
+
     /// End the search after this time (30s, 500ms, 2min, 1.5h); the answer is then partial.
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time_limit: Option<Duration>,
@@ -25,6 +29,7 @@ impl SearchArguments {
     /// The options of the search.
     pub(crate) fn options(&self) -> SearchOptions {
         let defaults = SearchOptions::default();
-        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), ..defaults }
+        let limits = Limits { solutions: self.max_found, ..defaults.limits };
+        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
     }
 }

@@ -5,8 +5,10 @@ use crate::arguments::{ModesArguments, ModesFormat, SearchArguments};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Output;
-use crate::watch::Watch;
-use slideway::raw_problem::{RawFault, RawProblem, SIZE_LIMIT, solve, to_json, to_npz, to_text};
+use crate::watch::{Interruption, Watch};
+use slideway::raw_problem::{
+    Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_json, to_npz, to_text,
+};
 use slideway::report::Status;
 
 /// Finds and writes all solutions of a problem given by its matrices.
@@ -15,14 +17,22 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     let problem = read(arguments)?;
     let SearchArguments { max_solutions, time_limit, .. } = arguments.search;
     let mut watch = Watch::new(time_limit);
+    let interruption = Interruption::watch();
     let options = arguments.search.options();
-    let report = solve(&problem, &options, max_solutions, &mut |progress| watch.look(progress))
-        .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
+    let listing = Listing { most: max_solutions, all_faces: arguments.all_faces };
+    let report = solve_with(&problem, &options, listing, &mut |progress| {
+        interruption.flow()?;
+        watch.look(progress)
+    })
+    .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
     drop(watch);
     match arguments.format() {
         ModesFormat::Text => output.write(&to_text(&report, output.style()))?,
         ModesFormat::Json => output.write(&to_json(&report))?,
         ModesFormat::Npz => output.write_bytes(&to_npz(&report))?,
+    }
+    if interruption.is_requested() {
+        return Ok(Outcome::Interrupted);
     }
     Ok(match report.status {
         Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,

@@ -31,9 +31,11 @@
 
 mod answer;
 mod assemble;
+mod continuum;
 mod fault;
 mod json;
 mod kind;
+mod listing;
 mod npy;
 mod npz;
 mod report;
@@ -42,10 +44,13 @@ mod shape;
 mod tables;
 mod text;
 
-pub use answer::solve;
+pub use answer::{solve, solve_with};
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
-pub use report::{GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns, to_json};
+pub use listing::Listing;
+pub use report::{
+    ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns, to_json,
+};
 pub use shape::Shape;
 pub use tables::to_npz;
 pub use text::to_text;

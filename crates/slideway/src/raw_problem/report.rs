@@ -6,7 +6,7 @@ use super::kind::RawKind;
 use crate::report::Status;
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway/modes/1";
+pub const SCHEMA: &str = "slideway/modes/2";
 
 /// All solutions of a raw problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -26,13 +26,18 @@ pub struct RawReport {
     pub partial: bool,
     /// What remains open, in words; empty if `complete` is "proven".
     pub open: Vec<String>,
-    /// Number of solutions found, as decimal text: it may be beyond any integer type. Continua and
-    /// gap states are not among them.
+    /// Number of solutions found that are part of no continuum, as decimal text: it may be beyond any
+    /// integer type. Gap states are not among them.
     pub count: String,
     /// Number of states with an unknown in its preload gap, likewise.
     pub gap_state_count: String,
-    /// Number of continua, likewise.
+    /// Number of continua that are not part of larger ones, likewise.
     pub continuum_count: String,
+    /// What is part of a larger continuum.
+    pub faces: Faces,
+    /// How many solutions, gap states and continua there are to list.
+    #[serde(skip)]
+    pub(super) totals: [String; 3],
     /// The solutions, not more than was asked for.
     pub solutions: Vec<RawSolution>,
     /// States with an unknown in its preload gap, likewise (theory, section 3).
@@ -45,6 +50,20 @@ pub struct RawReport {
     pub nodes: u64,
     /// The groups of unknowns that were searched one by one.
     pub groups: Vec<RawGroup>,
+}
+
+/// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of other
+/// patterns.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Faces {
+    /// Number of solutions, as decimal text.
+    pub solutions: String,
+    /// Number of states in preload gaps, likewise.
+    pub gap_states: String,
+    /// Number of continua, likewise.
+    pub continua: String,
+    /// Whether they are listed with the others.
+    pub listed: bool,
 }
 
 /// The unknowns by the names that the problem's type has for them.
@@ -110,6 +129,8 @@ pub struct RawSolution {
     pub signs: Vec<i8>,
     /// Whether some sign is 0 outside of a gap: the solution is on the boundary between patterns.
     pub on_boundary: bool,
+    /// Whether it is part of no continuum.
+    pub maximal: bool,
     /// No unknown is farther than this from the exact solution of the numbers given; absent if that
     /// was not established.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,7 +138,7 @@ pub struct RawSolution {
     /// What is left over in the problem's equations, relative to the largest sum of sizes of terms
     /// in an equation.
     pub residual: f64,
-    /// The continuum of the list `continua`, from 0, of which this is a vertex; absent if there is none.
+    /// The first continuum of the list `continua`, from 0, of which this is an end; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_of_continuum: Option<usize>,
     /// Unknowns in their gap.
@@ -134,18 +155,31 @@ pub struct GapShare {
     pub lambda: f64,
 }
 
-/// Infinitely many solutions: all convex combinations of the vertices plus all non-negative multiples
-/// of the directions.
+/// Infinitely many solutions: the unknowns of each part are in its set, whatever those of the other parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RawContinuum {
     /// "+", "-" or "0" (in the gap) for every unknown.
     pub pattern: String,
-    /// The vertices: the ends of a segment, the end of a ray.
+    /// Whether it is not part of a larger continuum.
+    pub maximal: bool,
+    /// Its parts: unknowns that vary together, and last those that are fixed, if any.
+    pub parts: Vec<ContinuumPart>,
+}
+
+/// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of the
+/// directions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContinuumPart {
+    /// The unknowns, from 0; vertices and directions have one entry for each.
+    pub indices: Vec<usize>,
+    /// The vertices, not more than was asked for: the ends of a segment, the end of a ray.
     pub vertices: Vec<Unknowns>,
-    /// Directions in which the set is unbounded.
+    /// Directions in which the set is unbounded, likewise.
     pub directions: Vec<Unknowns>,
-    /// Whether all vertices are listed.
-    pub all_vertices: bool,
+    /// Number of all vertices.
+    pub vertex_count: usize,
+    /// Number of all directions.
+    pub direction_count: usize,
 }
 
 /// A group of unknowns that was searched by itself.
