@@ -28,11 +28,12 @@ enum Centre {
 }
 
 impl Findings<'_> {
-    /// Files a pattern by its decision.
+    /// Files a pattern by its decision. What is not decided yet is left open once `proceed` is false.
     pub(super) fn file_decision(
         &mut self,
         pattern: &[ContactState],
         decision: Decision,
+        proceed: &mut dyn FnMut() -> bool,
     ) -> Result<Filed, EnumerationError> {
         match decision {
             Decision::NoSolution { .. } => self.count_no_solution(pattern.contains(&ContactState::Gap)),
@@ -50,7 +51,7 @@ impl Findings<'_> {
                 self.file_admissible(pattern, candidate, certificate)?;
             }
             Decision::Singular { set: ExactSet::NotComputed } => {
-                self.examine_suspect(pattern)?;
+                self.examine_suspect(pattern, proceed)?;
                 return Ok(Filed::NotProven);
             }
             Decision::Singular { set } => {
@@ -58,7 +59,10 @@ impl Findings<'_> {
                 let support = Support::of_exact_set(pattern, &set, &self.problem.has_jump);
                 self.file_singular(pattern, (set.normal_forces(pattern), support), Certificate::Singular);
             }
-            Decision::Undecided { unknowns, in_doubt } => self.file_undecided(pattern, unknowns, in_doubt)?,
+            Decision::Undecided { unknowns, in_doubt } => {
+                let centre = self.centre(pattern, proceed);
+                self.file_undecided(pattern, unknowns, in_doubt, centre)?;
+            }
         }
         Ok(Filed::Proven)
     }
@@ -70,8 +74,9 @@ impl Findings<'_> {
         pattern: &[ContactState],
         unknowns: Option<Vec<Interval>>,
         in_doubt: Vec<usize>,
+        centre: Centre,
     ) -> Result<(), EnumerationError> {
-        match self.centre(pattern) {
+        match centre {
             Centre::Solution(candidate) => {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
                 self.file_admissible(pattern, candidate, certificate)
@@ -98,7 +103,7 @@ impl Findings<'_> {
     }
 
     /// What the pattern admits in the middle of the bounds, within tolerances.
-    fn centre(&mut self, pattern: &[ContactState]) -> Centre {
+    fn centre(&mut self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> Centre {
         let judged = |candidate: Candidate| {
             if candidate.admissible { Centre::Solution(candidate) } else { Centre::Nothing }
         };
@@ -110,7 +115,7 @@ impl Findings<'_> {
             return Centre::NotExamined;
         }
         self.examined += 1;
-        match examine(self.problem, pattern, &mut self.bases) {
+        match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => candidate.map_or(Centre::Nothing, judged),
             Examined::Singular(set) if set.vertices().is_empty() => Centre::Nothing,
             Examined::Singular(set) => Centre::Set(set),

@@ -136,7 +136,12 @@ impl<'a> Findings<'a> {
     }
 
     /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
-    pub(super) fn examine_leaf(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+    /// What a singular pattern admits is left open once `proceed` is false.
+    pub(super) fn examine_leaf(
+        &mut self,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(), EnumerationError> {
         match solve_pattern(self.problem, pattern) {
             Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
                 self.file_candidate(pattern, candidate)
@@ -145,14 +150,18 @@ impl<'a> Findings<'a> {
                 self.leave_unexamined(pattern, pattern.len());
                 Ok(())
             }
-            _ => self.examine_suspect(pattern),
+            _ => self.examine_suspect(pattern, proceed),
         }
     }
 
     /// A closer look at a pattern that may be singular.
-    pub(super) fn examine_suspect(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+    pub(super) fn examine_suspect(
+        &mut self,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(), EnumerationError> {
         self.examined += 1;
-        match examine(self.problem, pattern, &mut self.bases) {
+        match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => self.examine_candidate(pattern),
             Examined::Singular(set) => {
                 let support = Support::of_set(pattern, &set, &self.problem.has_jump);
@@ -255,7 +264,7 @@ impl<'a> Findings<'a> {
             }
             return Ok(());
         }
-        self.examine_suspect(pattern)
+        self.examine_suspect(pattern, &mut || true)
     }
 
     pub(super) fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {

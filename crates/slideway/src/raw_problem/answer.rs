@@ -6,12 +6,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::continuum;
 use super::listing::{Counts, Listing, Sort, list};
+use super::nearby;
 use super::report::{Faces, GapShare, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, Unknowns};
 use super::rounding::Proved;
 use super::{RawKind, RawProblem};
 use crate::modes::{
-    CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem,
-    ModeProblemError, Progress, SearchOptions, SearchResult, Side, SolutionProduct, StopReason, search,
+    CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem, ModeProblemError,
+    Progress, SearchOptions, SearchResult, Side, SolutionProduct, StopReason, search,
 };
 use crate::report::Status;
 
@@ -73,6 +74,7 @@ pub fn solve_with(
             continua: faces.continua.to_string(),
             listed: listing.all_faces,
         },
+        within_rounding: None,
         totals: [&listed.points, &listed.gaps, &listed.continua].map(ToString::to_string),
         solutions: Vec::new(),
         gap_states: Vec::new(),
@@ -84,6 +86,10 @@ pub fn solve_with(
     };
     let teller = Teller { raw, problem: &problem, proved: &proved };
     teller.list(&result.product, listed, listing, &mut report);
+    if report.status == Status::None {
+        let spent = (options, report.nodes);
+        report.within_rounding = nearby::within_rounding(raw, &problem, spent, progress);
+    }
     Ok(report)
 }
 
@@ -105,11 +111,7 @@ fn status(result: &SearchResult, counts: &Counts) -> Status {
 }
 
 /// What keeps the list from being proven complete.
-fn open(
-    (result, options): (&SearchResult, &SearchOptions),
-    proved: &Proved,
-    counts: &Counts,
-) -> Vec<String> {
+fn open((result, options): (&SearchResult, &SearchOptions), proved: &Proved, counts: &Counts) -> Vec<String> {
     let mut open = Vec::new();
     match result.completeness {
         Completeness::Proven => {}

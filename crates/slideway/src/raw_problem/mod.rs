@@ -36,6 +36,7 @@ mod fault;
 mod json;
 mod kind;
 mod listing;
+mod nearby;
 mod npy;
 mod npz;
 mod report;
@@ -49,7 +50,8 @@ pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
-    ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns, to_json,
+    ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns,
+    WithinRounding, to_json,
 };
 pub use shape::Shape;
 pub use tables::to_npz;

@@ -38,6 +38,10 @@ pub struct RawReport {
     /// How many solutions, gap states and continua there are to list.
     #[serde(skip)]
     pub(super) totals: [String; 3],
+    /// Whether there is a solution within rounding of the numbers; only if there is none for the numbers
+    /// themselves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within_rounding: Option<WithinRounding>,
     /// The solutions, not more than was asked for.
     pub solutions: Vec<RawSolution>,
     /// States with an unknown in its preload gap, likewise (theory, section 3).
@@ -117,6 +121,19 @@ impl Unknowns {
             Self::Modes { normal_forces, y } => vec![("normal_forces", normal_forces), ("y", y)],
         }
     }
+}
+
+/// What numbers that differ from those given by rounding alone have for solutions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WithinRounding {
+    /// Every number may differ by this part of its size.
+    pub relative: f64,
+    /// "solution": some such numbers have the solution that is told; "none": none have any, which is proven;
+    /// "unknown".
+    pub answer: &'static str,
+    /// The solution.
+    #[serde(flatten)]
+    pub unknowns: Option<Unknowns>,
 }
 
 /// One solution, or one state with an unknown in its gap.

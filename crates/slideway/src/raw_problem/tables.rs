@@ -35,6 +35,10 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
     archive.push("partial", npy::write_truths(&[], &[report.partial]));
     let open: Vec<&str> = report.open.iter().map(String::as_str).collect();
     archive.push("open", npy::write_texts(&[open.len()], &open));
+    if let Some(within) = &report.within_rounding {
+        archive.push("within_rounding", npy::write_texts(&[], &[within.answer]));
+        archive.unknowns(report, "within_rounding_", &within.unknowns.iter());
+    }
     archive.solutions(report);
     archive.gap_states(&report.gap_states);
     archive.continua(report);

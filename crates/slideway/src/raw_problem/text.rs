@@ -1,7 +1,7 @@
 //! The report of a raw problem as text for people.
 
 use super::RawKind;
-use super::report::{ContinuumPart, RawReport, RawShares, RawSolution, Unknowns};
+use super::report::{ContinuumPart, RawReport, RawShares, RawSolution, Unknowns, WithinRounding};
 use crate::report::number::{against, number};
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -19,6 +19,7 @@ pub fn to_text(report: &RawReport, style: Style) -> String {
     let mut text = Page::new(report, style);
     text.heading();
     text.verdict();
+    text.within_rounding();
     text.solutions("Solution", &report.totals[0], &report.solutions);
     text.solutions("Preload gap", &report.totals[1], &report.gap_states);
     text.continua();
@@ -70,6 +71,27 @@ impl Text<'_> {
         }
     }
 
+    /// What there is for numbers that differ by rounding alone.
+    fn within_rounding(&mut self) {
+        let Some(WithinRounding { relative, answer, unknowns }) = &self.report.within_rounding else {
+            return;
+        };
+        let rounding = format!("rounding of the numbers (relative {relative:e})");
+        let Some(unknowns) = unknowns else {
+            self.line(&if *answer == "none" {
+                format!("Within {rounding} there is none, either: proven.")
+            } else {
+                format!("Whether there is one within {rounding} is open.")
+            });
+            return;
+        };
+        self.line(&format!("Hint: within {rounding} there is one:"));
+        self.line("");
+        let indices: Vec<usize> = (0..self.report.size).collect();
+        let rows = labelled_rows(self.report.kind, &indices, &[unknowns], &[String::new()]);
+        self.out.push_str(&rows);
+    }
+
     /// What there is besides continua, and what is part of them.
     fn faces(&mut self, single: &str) {
         let report = self.report;
@@ -88,8 +110,7 @@ impl Text<'_> {
             .map(|(count, one, more)| format!("{count} {}", if *count == "1" { one } else { more }))
             .collect();
         if !words.is_empty() {
-            let listed =
-                if faces.listed { "which are listed, too" } else { "which --all-faces lists" };
+            let listed = if faces.listed { "which are listed, too" } else { "which --all-faces lists" };
             self.line(&format!("Part of this: {}, {listed}.", words.join(", ")));
         }
     }

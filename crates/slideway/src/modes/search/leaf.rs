@@ -33,7 +33,7 @@ impl<'a> Leaves<'a> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
         if !self.certify {
-            return self.examine_within_tolerances(pattern);
+            return self.examine_within_tolerances(pattern, monitor);
         }
         // Rational arithmetic on very many patterns takes too long.
         if self.findings.has_examined_enough() && self.findings.is_suspect(pattern) {
@@ -41,7 +41,7 @@ impl<'a> Leaves<'a> {
             return Ok(());
         }
         let decision = self.decide(pattern, monitor)?;
-        self.file(pattern, decision)
+        self.file(pattern, decision, monitor)
     }
 
     /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
@@ -66,19 +66,30 @@ impl<'a> Leaves<'a> {
     }
 
     /// Files a pattern by its decision.
-    fn file(&mut self, pattern: &[ContactState], decision: Decision) -> Result<(), StopReason> {
+    fn file(
+        &mut self,
+        pattern: &[ContactState],
+        decision: Decision,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         let undecided = matches!(decision, Decision::Undecided { .. });
         if undecided && self.problem.is_part_of_exact_problem() {
-            return self.examine_within_tolerances(pattern);
+            return self.examine_within_tolerances(pattern, monitor);
         }
-        let filed = self.findings.file_decision(pattern, decision).map_err(|_| StopReason::SolutionLimit)?;
+        let filed = self.findings.file_decision(pattern, decision, &mut || monitor.goes_on());
+        let filed = filed.map_err(|_| StopReason::SolutionLimit)?;
         self.unproven += u64::from(filed == Filed::NotProven);
         Ok(())
     }
 
-    fn examine_within_tolerances(&mut self, pattern: &[ContactState]) -> Result<(), StopReason> {
+    fn examine_within_tolerances(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         self.unproven += 1;
-        self.findings.examine_leaf(pattern).map_err(|_| StopReason::SolutionLimit)
+        let examined = self.findings.examine_leaf(pattern, &mut || monitor.goes_on());
+        examined.map_err(|_| StopReason::SolutionLimit)
     }
 
     /// Files the only pattern that can have a solution. False, with nothing filed, if it is not certain to
@@ -89,11 +100,11 @@ impl<'a> Leaves<'a> {
         monitor: &mut Monitor<'_>,
     ) -> Result<bool, StopReason> {
         if !self.certify {
-            return self.examine_within_tolerances(pattern).map(|()| true);
+            return self.examine_within_tolerances(pattern, monitor).map(|()| true);
         }
         let decision = self.decide(pattern, monitor)?;
         let certain = matches!(decision, Decision::Solution { .. } | Decision::Boundary { .. });
-        if certain { self.file(pattern, decision).map(|()| true) } else { Ok(false) }
+        if certain { self.file(pattern, decision, monitor).map(|()| true) } else { Ok(false) }
     }
 
     /// Counts a pattern that is proven to have no solution and `D != 0`.

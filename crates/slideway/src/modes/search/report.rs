@@ -58,7 +58,7 @@ impl Default for Arguments {
     }
 }
 
-/// What a search tells its caller at every node.
+/// What a search tells its caller at every node, and again in the midst of long work.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Nodes visited so far.

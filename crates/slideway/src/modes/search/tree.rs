@@ -141,8 +141,11 @@ impl<'a> Tree<'a> {
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
         let examined = leaves.examine(pattern, monitor);
         let shares = &mut self.report.shares;
-        let share =
-            if examined == Err(StopReason::Cancelled) { &mut shares.unexplored } else { &mut shares.examined };
+        let share = if examined == Err(StopReason::Cancelled) {
+            &mut shares.unexplored
+        } else {
+            &mut shares.examined
+        };
         *share += fraction_of_patterns(self.problem, &states);
         examined
     }
