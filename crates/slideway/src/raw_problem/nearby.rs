@@ -15,8 +15,8 @@ use super::RawProblem;
 use super::report::{Unknowns, WithinRounding};
 use crate::modes::certificate::{IntervalMatrix, IntervalModeProblem};
 use crate::modes::{
-    BySide, CombinedState, Completeness, GroupState, Limits, ModeProblem, Progress, SearchOptions, Side,
-    search,
+    Arguments, BySide, CombinedState, Completeness, GroupState, Limits, ModeProblem, Progress, SearchOptions,
+    Side, search,
 };
 
 /// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the rounding of
@@ -40,7 +40,9 @@ pub(super) fn within_rounding(
     let bounds = Bounds::new(raw, problem)?;
     let limits = Limits { solutions: STATES, ..options.limits };
     let nodes = options.nodes.min(nodes.saturating_add(MORE_NODES));
-    let options = SearchOptions { nodes, limits, keep_exclusions: false, ..*options };
+    // Relaxations exclude singular patterns for all numbers within bounds, decisions one by one do not.
+    let arguments = Arguments { every_pattern: false, ..options.arguments };
+    let options = SearchOptions { nodes, limits, arguments, keep_exclusions: false, ..*options };
     let result = search(&bounds.problem()?, &options, progress).ok()?;
     let size = problem.contacts();
     let candidates = result.product.states().take(STATES).flat_map(|state| points(&state, size));
