@@ -29,6 +29,8 @@ const STATES: usize = 64;
 const MORE_NODES: u64 = 1000;
 /// Of a state that is a continuum so many vertices are tried.
 const VERTICES: usize = 16;
+/// Candidates are tried in exact numbers only for so many unknowns.
+const LARGEST: usize = 200;
 
 /// What is to be told; none if the right-hand side jumps, or numbers are too large.
 pub(super) fn within_rounding(
@@ -46,6 +48,8 @@ pub(super) fn within_rounding(
     let result = search(&bounds.problem()?, &options, progress).ok()?;
     let size = problem.contacts();
     let candidates = result.product.states().take(STATES).flat_map(|state| points(&state, size));
+    let told = Progress { nodes: result.nodes(), fraction: 1.0, states_found: 0 };
+    let candidates = candidates.take_while(|_| size <= LARGEST && progress(&told).is_continue());
     let mut tried = candidates.flat_map(|point| [bounds.refined(&point), Some(point)]).flatten();
     let found = tried.find(|point| bounds.admits(point));
     let nothing = result.product.states().next().is_none();
