@@ -313,6 +313,7 @@ fn refusal(faults: &Faults) -> PointStatus {
             fault.kind,
             FaultKind::NotAssembled { .. }
                 | FaultKind::TooFar { .. }
+                | FaultKind::NotFollowed { .. }
                 | FaultKind::OverlapVanished { .. }
                 | FaultKind::TravelExceeded { .. }
                 | FaultKind::SingularPosition { .. }
