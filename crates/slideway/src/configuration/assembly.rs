@@ -1,6 +1,7 @@
 //! The closed drawing, and why a drawing or a state beyond it cannot be had.
 
-use super::following::{Halt, Leg, drawn, follow, way};
+use super::anchor::Anchor;
+use super::following::{Halt, Leg, drawn, follow};
 use super::joint_equations::JointEquations;
 use super::mobility::{
     Mobility, RANK_TOLERANCE, advance, least_squares, null_space_within, rank, regularity,
@@ -12,9 +13,6 @@ use crate::mechanism::{JointKind, Mechanism};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
 const CLOSED: f64 = 1e-12;
-/// A singular position is found where the way to it ends, to within this (sizes of the mechanism, or rad): following
-/// comes nearer than that by far.
-const AT_THE_END: f64 = 1e-6;
 /// Motions count as free at a singular position if their singular values are below this multiple of the least one ...
 const FREE: f64 = 10.0;
 /// ... and this multiple of the greatest one, where everything else is.
@@ -63,7 +61,8 @@ pub(super) fn way_fault(mechanism: &Mechanism, leg: &Leg, halt: &Halt, values: &
     if let Some(fault) = open_joint(mechanism, &closest, values, Some(&reached)) {
         return fault;
     }
-    if way(mechanism, &reached, values) < AT_THE_END {
+    let anchor = Anchor::new(mechanism, leg, halt.end, closest.clone());
+    if anchor.and_then(|anchor| anchor.tube(0.0)).is_none() {
         return singular_state(mechanism, &closest);
     }
     Fault::general(FaultKind::NotFollowed { state: wanted, reached: reached_in_words, steps: halt.steps })

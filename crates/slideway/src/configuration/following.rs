@@ -13,7 +13,7 @@ use crate::mechanism::Mechanism;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 /// Steps after which a place counts as too far away.
-const MOST_STEPS: usize = 10_000;
+const MOST_STEPS: usize = 5000;
 /// The way that is tried first (sizes of the mechanism, or rad).
 const FIRST_WAY: f64 = 0.1;
 /// Newton steps after which a state counts as not found; quadratic convergence needs far fewer.
@@ -144,6 +144,8 @@ impl Arrival {
 #[derive(Debug, Clone)]
 pub(super) struct Halt {
     pub(super) place: f64,
+    /// The place that was wanted.
+    pub(super) end: f64,
     pub(super) poses: Vec<Pose>,
     pub(super) steps: usize,
 }
@@ -165,7 +167,7 @@ pub(super) fn follow(
     let mut guess = FIRST_WAY;
     for steps in 1..=MOST_STEPS {
         let rest = end - place;
-        let halt = |poses: Vec<Pose>| Halt { place, poses, steps: steps - 1 };
+        let halt = |poses: Vec<Pose>| Halt { place, end, poses, steps: steps - 1 };
         let Some(anchor) = Anchor::new(mechanism, leg, place, poses.clone()) else { return Err(halt(poses)) };
         let longest = rest.abs().max(1.0);
         let Some((mut reach, mut tube)) = anchor.reach(guess, longest) else { return Err(halt(poses)) };
@@ -201,7 +203,7 @@ pub(super) fn follow(
         }
         (place, poses) = (next, settled.poses);
     }
-    Err(Halt { place, poses, steps: MOST_STEPS })
+    Err(Halt { place, end, poses, steps: MOST_STEPS })
 }
 
 /// Newton's method, from positions nearby.
@@ -256,6 +258,6 @@ pub(super) fn scale(mechanism: &Mechanism, coordinate: usize) -> f64 {
 }
 
 /// The greatest change of a coordinate, in sizes of the mechanism or rad.
-pub(super) fn way(mechanism: &Mechanism, from: &[f64], to: &[f64]) -> f64 {
+fn way(mechanism: &Mechanism, from: &[f64], to: &[f64]) -> f64 {
     (0..to.len()).map(|index| (to[index] - from[index]).abs() / scale(mechanism, index)).fold(0.0, f64::max)
 }
