@@ -336,11 +336,6 @@ impl Mechanism {
         Self::with_parameters(model, &[])
     }
 
-    /// Whether all coordinates have the values of the drawing.
-    pub(crate) fn is_in_drawing(&self) -> bool {
-        self.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at)
-    }
-
     /// [`Self::new`] with other values of some parameters, which are given by their numbers.
     ///
     /// # Errors

@@ -69,6 +69,10 @@ pub struct Report {
     pub state: Vec<CoordinateState>,
     /// Time of the state (s).
     pub time: f64,
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
+    /// if they are those of the drawing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_from_drawing: Option<usize>,
     /// The outcome of all sign patterns; absent if there are so many that not each was tried by itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub patterns: Option<PatternSummary>,

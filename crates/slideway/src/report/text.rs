@@ -94,6 +94,12 @@ impl Text<'_> {
         if self.report.time != 0.0 {
             self.line(&format!("t = {} s", number(self.report.time)));
         }
+        if let Some(steps) = self.report.steps_from_drawing {
+            let steps = count(steps, "step", "steps");
+            self.line(&format!(
+                "followed from the drawing in {steps}, proven to stay on its assembly branch"
+            ));
+        }
         self.line("");
     }
 

@@ -20,6 +20,7 @@ mod limits;
 mod limits_properties;
 mod loads;
 mod margins;
+mod positions;
 mod preload_gap;
 mod properties;
 mod standstill;
