@@ -423,7 +423,7 @@ fn tips_everywhere(mode: &SingularMode, cut: &SingularMode) -> bool {
 fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
     match (solutions, gaps, continua) {
         (_, _, 1..) => Status::Continuum,
-        (0, _, 0) if undecided => Status::Unknown,
+        (0, 0, 0) if undecided => Status::Unknown,
         (0, 0, 0) => Status::None,
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,
