@@ -69,7 +69,9 @@ impl EnclosedModeProblem {
         let preload =
             |side: Side| couple.influence_preload.get(side)[k] * influence.preload.get(side).entry(k, 0);
         let force = match state.side() {
-            Some(side) => couple.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side),
+            Some(side) => {
+                couple.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side)
+            }
             None => {
                 let [positive, negative] = Side::BOTH.map(preload);
                 negative + y * (positive - negative)

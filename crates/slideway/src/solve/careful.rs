@@ -37,6 +37,7 @@ pub(crate) fn careful_report(
     let problem = IntervalModeProblem::widened(&problem, KNOWN_TO).map_err(|_| overflow())?;
     let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))
         .map_err(|_| overflow())?;
-    let answer = Answer { mechanism, configuration, equations, influence, velocity_signs, jumps, enclosed: None };
+    let answer =
+        Answer { mechanism, configuration, equations, influence, velocity_signs, jumps, enclosed: None };
     answer.report(&Found { result: &result, rounded: None, most: MOST_STATES })
 }

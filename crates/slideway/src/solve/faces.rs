@@ -16,11 +16,15 @@ use super::state::{State, pattern};
 use crate::ids::{ContactId, JointId};
 use crate::interval::Interval;
 use crate::kinetics::Reaction;
+use crate::mechanism::Contact;
+use crate::model::PreloadLine;
 use crate::modes::{Certificate, ContactState};
 use nalgebra::{DMatrix, DVector};
 
 /// Shares closer to 0 or 1 than this are at the face.
 const AT_FACE: f64 = 1e-9;
+/// Changes of a couple below this multiple of the preload and the size of the mechanism are rounding.
+const NO_COUPLE: f64 = 1e-12;
 /// So many contacts whose share nothing tells take either face each; others keep theirs.
 const MOST_FREE: usize = 10;
 
@@ -64,7 +68,7 @@ impl Answer<'_> {
         };
         let free: Vec<usize> = (0..state.pattern.len()).filter(is_free).collect();
         let (guided, others): (Vec<usize>, Vec<usize>) =
-            free.iter().partition(|&&k| self.couple_of(k).is_some());
+            free.iter().partition(|&&k| self.couple_tells_share(k));
         let others = &others[..others.len().min(MOST_FREE)];
         let on_faces = |number: usize| {
             let mut states = state.pattern.to_vec();
@@ -88,13 +92,26 @@ impl Answer<'_> {
             let written = |other: &String| {
                 free.iter().all(|&k| other.as_bytes().get(k) == pattern(&states).as_bytes().get(k))
             };
-            let mut patterns: Vec<String> = state.patterns.iter().filter(|other| written(other)).cloned().collect();
+            let mut patterns: Vec<String> =
+                state.patterns.iter().filter(|other| written(other)).cloned().collect();
             if patterns.is_empty() {
                 patterns.push(pattern(&states));
             }
             Faces { states, shares, certificate, patterns }
         };
         (0..1_usize << others.len()).map(on_faces).collect()
+    }
+
+    /// Whether the friction of the contact's preload changes the couple of its guided slider when it changes the face.
+    fn couple_tells_share(&self, contact: usize) -> bool {
+        let Some(row) = self.couple_of(contact) else { return false };
+        let of_unit = [0, 1].map(|side| self.influence.columns[contact][side][row]);
+        let Contact { preload, preload_line, .. } = &self.mechanism.contacts[contact];
+        let at = |side: usize| match preload_line {
+            PreloadLine::Pressed => preload[side] * of_unit[side],
+            PreloadLine::Centre => preload[side] * f64::midpoint(of_unit[0], of_unit[1]),
+        };
+        (at(0) - at(1)).abs() > NO_COUPLE * preload[0].max(preload[1]) * self.mechanism.size
     }
 
     /// The couple of the guided slider that a contact belongs to, among the unknowns.

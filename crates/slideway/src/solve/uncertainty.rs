@@ -83,7 +83,9 @@ impl Answer<'_> {
             let proven = matches!(certificate, Certificate::Proven { .. });
             if tipping != Tipping::Always {
                 modes.insert(mode, Presence { certain: proven && tipping == Tipping::Never, unknowns });
-            } else if let Some((mode, bounds)) = unknowns.and_then(|bounds| self.in_gap(enclosed, mode, bounds)) {
+            } else if let Some((mode, bounds)) =
+                unknowns.and_then(|bounds| self.in_gap(enclosed, mode, bounds))
+            {
                 modes.insert(mode, Presence { certain: false, unknowns: Some(bounds) });
             }
         };
@@ -202,7 +204,6 @@ fn halves(part: &[Interval], whole: &[Interval]) -> Option<[Vec<Interval>; 2]> {
     };
     Some([half(part[longest].lower(), middle)?, half(middle, part[longest].upper())?])
 }
-
 
 /// Bounds of the signed normal forces; a `y_k` is not negative.
 fn forces(mode: &[ContactState], unknowns: &[Interval]) -> Vec<[f64; 2]> {

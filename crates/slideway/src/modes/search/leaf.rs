@@ -1,10 +1,10 @@
 //! The outcome of single patterns, and whether it is proven.
 
 use super::load::LoadedProblem;
-use super::relaxation::{Relaxation, Relaxed};
+use super::relaxation::Relaxation;
 use super::report::StopReason;
 use super::states::StateSet;
-use crate::modes::certificate::{Decision, decide};
+use crate::modes::certificate::{Decision, decide, proves_empty};
 use crate::modes::decided::Filed;
 use crate::modes::findings::Findings;
 use crate::modes::solutions::ContactState;
@@ -55,8 +55,10 @@ impl<'a> Leaves<'a> {
         let load_radius = problem.scaled_load_radius(&self.problem.right_hand_side_radius());
         let relaxation = Relaxation::new(problem, &load_radius, vec![f64::INFINITY; pattern.len()]);
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-        let (relaxed, _) = relaxation.solve(&states, &relaxation.first_basis(), &mut 0);
-        matches!(relaxed, Relaxed::Excluded(_))
+        let Some(farkas) = relaxation.farkas(&states) else { return false };
+        let decided: Vec<Option<ContactState>> = pattern.iter().copied().map(Some).collect();
+        let weights: Vec<f64> = problem.unscaled_rows(&farkas).iter().map(|entry| -entry).collect();
+        proves_empty(self.problem.view(), &decided, &weights)
     }
 
     /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
