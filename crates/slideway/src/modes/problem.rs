@@ -383,6 +383,11 @@ impl ModeProblem {
     pub fn has_jump(&self, contact: usize) -> bool {
         self.has_jump[contact]
     }
+
+    /// [`has_jump`](Self::has_jump) of every contact.
+    pub(crate) fn jumps_of_contacts(&self) -> Vec<bool> {
+        self.has_jump.clone()
+    }
 }
 
 fn jumps_differ(jumps: &BySide<DMatrix<f64>>, contact: usize) -> bool {

@@ -91,6 +91,16 @@ impl Certificate {
 }
 
 impl Certificate {
+    /// Replaces the bounds of the unknown of a contact, where there are bounds.
+    pub(crate) fn set_bounds(&mut self, contact: usize, bounds: Interval) {
+        if let Self::Proven { unknowns }
+        | Self::Boundary { unknowns, .. }
+        | Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), .. } = self
+        {
+            unknowns[contact] = bounds;
+        }
+    }
+
     /// Whether `D = 0` could not be ruled out for all values within bounds.
     pub fn has_open_determinant(&self) -> bool {
         matches!(self, Self::OnBoundaryWithinBounds { unknowns: None, .. })

@@ -14,6 +14,7 @@ mod design;
 mod enclosure;
 mod gallery;
 mod gallery_frictionless;
+mod gap_states;
 mod guided_slider;
 mod klepp_2002;
 mod limits;
