@@ -60,7 +60,7 @@ proptest! {
             let largest = z.iter().chain(w).fold(1.0_f64, |largest, value| largest.max(*value));
             let left = &m * DVector::from_column_slice(z) + &q - DVector::from_column_slice(w);
             prop_assert!(left.amax() <= 1e-12 * largest);
-            prop_assert!(solution.residual <= 1e-13);
+            prop_assert!(solution.residual.unwrap() <= 1e-13);
             prop_assert!(solution.enclosure_radius.is_some_and(|radius| radius <= 1e-8 * largest));
             for (z, w) in z.iter().zip(w) {
                 prop_assert!(*z >= 0.0 && *w >= 0.0 && z * w == 0.0);
@@ -102,7 +102,7 @@ proptest! {
         let report = solved(&problem);
         prop_assert!(!report.partial);
         for solution in &report.solutions {
-            prop_assert!(solution.residual <= 1e-14);
+            prop_assert!(solution.residual.unwrap() <= 1e-14);
         }
         for continuum in &report.continua {
             prop_assert!(!continuum.vertices.is_empty());
