@@ -238,8 +238,11 @@ fn a_column_that_scaling_loses_is_decided_exactly() {
         let problem = ModeProblem::new(columns.0, columns.1, none.clone(), none.clone(), dvector![3.0]);
         let answer = uniqueness(&problem.expect("shapes fit"), &UniquenessLimits::default());
         let [positive, negative] = Side::BOTH.map(|side| vec![side]);
-        let expected =
-            if unique { Uniqueness::Unique { sign: 1 } } else { Uniqueness::NotUnique { positive, negative } };
+        let expected = if unique {
+            Uniqueness::Unique { sign: 1 }
+        } else {
+            Uniqueness::NotUnique { positive, negative }
+        };
         assert_eq!(answer, expected);
     }
 }

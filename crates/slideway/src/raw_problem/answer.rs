@@ -33,7 +33,7 @@ const SAME: f64 = 1e-9;
 /// counts are those of all. `progress` is called at every node and ends the search when it breaks.
 ///
 /// # Errors
-/// [`ModeProblemError::NotFinite`] if numbers overflow.
+/// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
 pub fn solve(
     raw: &RawProblem,
     options: &SearchOptions,

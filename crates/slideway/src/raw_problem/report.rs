@@ -162,7 +162,8 @@ pub struct GapShare {
 }
 
 /// Infinitely many solutions: all convex combinations of the vertices plus all non-negative multiples
-/// of the directions.
+/// of the directions. NaN (in JSON `null`) is a value that is not zero and beyond the range of floating-point numbers,
+/// as of a [`BeyondRange`]; its sign is that of the pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RawContinuum {
     /// "+", "-" or "0" (in the gap) for every unknown.

@@ -87,12 +87,15 @@ impl Text<'_> {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
                 self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
             }
+            if !solution.beyond_range.is_empty() {
+                self.line("  Values that have an exponent beyond -308 or 308 have no floating-point number: 17 digits are shown");
+            }
             if let Some(radius) = solution.enclosure_radius {
                 let bound = power_of_ten_above(radius);
-                self.line(&if radius == 0.0 {
-                    "  exact".to_owned()
-                } else {
-                    format!("  proven to within {bound}")
+                self.line(&match radius {
+                    0.0 if solution.beyond_range.is_empty() => "  exact".to_owned(),
+                    0.0 => "  all others: exact".to_owned(),
+                    _ => format!("  proven to within {bound}"),
                 });
             }
         }
