@@ -168,7 +168,7 @@ pub struct ModeProblem {
     jumps: BySide<DMatrix<f64>>,
     right_hand_side: DVector<f64>,
     has_jump: Vec<bool>,
-    remainder: Option<Remainder>,
+    remainder: Option<Box<Remainder>>,
 }
 
 /// What rounding took from columns that are sums: the exact columns are `columns + remainder`.
@@ -181,12 +181,12 @@ pub(super) struct Remainder {
 
 impl Remainder {
     /// None if nothing was lost.
-    fn new(columns: BySide<DMatrix<f64>>) -> Option<Self> {
+    fn new(columns: BySide<DMatrix<f64>>) -> Option<Box<Self>> {
         let radii = Radii {
             columns: BySide { positive: columns.positive.abs(), negative: columns.negative.abs() },
             ..Radii::zero(columns.positive.nrows())
         };
-        (!radii.are_zero()).then_some(Self { columns, radii })
+        (!radii.are_zero()).then(|| Box::new(Self { columns, radii }))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::modes::{ContactState, ModeProblem};
 /// The most unknowns that are solved together for an exact value.
 const TOGETHER: usize = 48;
 /// Digits of a value that is told as text: as many as tell floating-point numbers apart.
-const DIGITS: usize = 17;
+const DIGITS: u8 = 17;
 
 /// Whether a rounded value has the precision of floating-point numbers: zero, or neither infinite nor subnormal.
 pub(super) fn in_range(value: f64) -> bool {
@@ -53,10 +53,11 @@ fn decimal(value: &RBig) -> String {
     let size = size.unwrap_or_default();
     // log10 of the value, or one less.
     let bits = size.bit_len() as f64 - denominator.bit_len() as f64;
+    #[expect(clippy::cast_possible_truncation, reason = "numbers of a problem have some thousand bits each")]
     let mut exponent = (bits * std::f64::consts::LOG10_2).floor() as i32 - 1;
     let digits = loop {
-        let digits = rounded_quotient(&size, denominator, DIGITS as i32 - 1 - exponent).to_string();
-        if digits.len() <= DIGITS {
+        let digits = rounded_quotient(&size, denominator, i32::from(DIGITS) - 1 - exponent).to_string();
+        if digits.len() <= usize::from(DIGITS) {
             break digits;
         }
         exponent += 1;

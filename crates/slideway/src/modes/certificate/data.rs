@@ -199,7 +199,7 @@ pub(in crate::modes) struct Column<'a> {
     remainder: Option<&'a [f64]>,
 }
 
-impl<'a> Column<'a> {
+impl Column<'_> {
     /// The terms that add up to the column: one, or two where it is exact but rounded in its middle.
     pub(super) fn terms(self) -> impl Iterator<Item = Self> {
         let radius = self.radius.filter(|_| self.remainder.is_none());
