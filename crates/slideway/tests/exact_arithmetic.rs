@@ -67,6 +67,7 @@ fn random_numbers() {
 /// `FROM` and `COUNT` choose the instances of each family.
 #[test]
 #[ignore = "a long campaign"]
+#[expect(clippy::print_stdout, reason = "it tells what it met")]
 fn long_campaign() {
     let number = |name: &str, default| std::env::var(name).map_or(default, |text| text.parse().unwrap());
     let (from, count) = (number("FROM", 1_000_000), number("COUNT", 10_000));

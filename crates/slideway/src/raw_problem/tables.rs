@@ -92,7 +92,8 @@ impl Archive {
             return;
         }
         let rows: Vec<i64> = all.iter().map(|(row, _)| *row).collect();
-        let index: Vec<i64> = all.iter().map(|(_, one)| i64::try_from(one.index).unwrap_or(i64::MAX)).collect();
+        let index: Vec<i64> =
+            all.iter().map(|(_, one)| i64::try_from(one.index).unwrap_or(i64::MAX)).collect();
         let names: Vec<&str> = all.iter().map(|(_, one)| one.name).collect();
         let values: Vec<&str> = all.iter().map(|(_, one)| one.value.as_str()).collect();
         let size = [all.len()];

@@ -151,7 +151,7 @@ fn decimal(text: &str) -> RBig {
     let (mantissa, exponent) = text.split_once('e').unwrap_or_else(|| panic!("{text}"));
     let (whole, rest) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let digits: IBig = format!("{whole}{rest}").parse().unwrap();
-    let power = exponent.parse::<i64>().unwrap() - rest.len() as i64;
+    let power = exponent.parse::<i64>().unwrap() - i64::try_from(rest.len()).unwrap();
     let factor = RBig::from(IBig::from(10).pow(usize::try_from(power.unsigned_abs()).unwrap()));
     if power < 0 { RBig::from(digits) / factor } else { RBig::from(digits) * factor }
 }
