@@ -26,9 +26,9 @@ enum Outcome {
     NoSolution = 1,
     /// The input makes no sense.
     Refused = 2,
-    /// The search was incomplete and found nothing.
+    /// The search was incomplete and found nothing, or time was up.
     Unknown = 3,
-    /// It was interrupted; what was done until then is kept.
+    /// It was interrupted.
     Interrupted = 130,
 }
 
@@ -67,8 +67,5 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 
 fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
     output::complain(&failure.to_string(), color);
-    if matches!(failure, Failure::Interrupted { .. }) {
-        return Outcome::Interrupted;
-    }
-    Outcome::Refused
+    failure.outcome()
 }

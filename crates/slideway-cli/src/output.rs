@@ -196,7 +196,14 @@ impl ProgressLine {
 impl Drop for ProgressLine {
     fn drop(&mut self) {
         if self.written {
-            let _ = write!(io::stderr(), "\r\x1b[K");
+            clear_progress();
         }
+    }
+}
+
+/// Takes the line of progress away.
+pub(crate) fn clear_progress() {
+    if io::stderr().is_terminal() {
+        let _ = write!(io::stderr(), "\r\x1b[K");
     }
 }

@@ -26,6 +26,7 @@ pub use report::{MapAxis, MapClass, MapReport, SCHEMA, to_json};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{ShownIn, Varied, given_range};
 use crate::model::Model;
+use crate::progress::Callback;
 use class::ClassKey;
 use evaluate::Evaluator;
 use refine::{Grid, Raster};
@@ -83,15 +84,6 @@ impl MapOptions {
     }
 }
 
-/// How far a map is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MapProgress {
-    /// Points that were solved.
-    pub points: usize,
-    /// Pixels of the map.
-    pub pixels: usize,
-}
-
 /// An axis while the map is computed.
 struct Axis {
     varied: Varied,
@@ -145,7 +137,7 @@ pub fn map(model: &Model, options: &MapOptions) -> Result<MapReport, Faults> {
 pub fn map_with(
     model: &Model,
     options: &MapOptions,
-    progress: &mut dyn FnMut(MapProgress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<Option<MapReport>, Faults> {
     let axes = axes(model, options)?;
     let [width, height] = [options.width, options.height].map(|size| size.clamp(1, GREATEST_SIZE));

@@ -64,6 +64,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::progress::Callback;
 use run::Run;
 use std::ops::ControlFlow;
 
@@ -79,8 +80,8 @@ pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Fau
     simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told the time after every
-/// step, and ends the simulation when it breaks.
+/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told after every
+/// step how much of the time is over, and ends the simulation when it breaks.
 ///
 /// # Errors
 /// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
@@ -89,7 +90,7 @@ pub fn simulate_with(
     configuration: &Configuration,
     options: &SimulateOptions,
     decisions: &mut dyn Decisions,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<History, Faults> {
     check(options)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
