@@ -16,8 +16,9 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
-use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How far a computation has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +42,7 @@ impl Progress {
 }
 
 /// Told of the progress; breaks to end the work.
-pub type Callback<'c> = dyn FnMut(&Progress) -> ControlFlow<()> + 'c;
+pub type Callback<'c> = dyn FnMut(&Progress) -> ControlFlow<()> + Send + 'c;
 
 /// The result of work that nobody ends.
 pub(crate) fn undisturbed<T>(compute: impl FnOnce(Work<'_>) -> T) -> T {
@@ -59,21 +60,33 @@ pub(crate) fn watched<T, E>(
     callback: &mut Callback<'_>,
     compute: impl FnOnce(Work<'_>) -> Result<T, E>,
 ) -> Result<Option<T>, E> {
-    let (callback, flow) = (RefCell::new(callback), Cell::new(ControlFlow::Continue(())));
-    let tell = |progress: &Progress| {
-        if flow.get().is_continue() {
-            flow.set((callback.borrow_mut())(progress));
+    let has_ended = AtomicBool::new(false);
+    let caller = Mutex::new((callback, Progress::of("pieces", 0, 1)));
+    let tell = |progress: Option<&Progress>| {
+        if has_ended.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
         }
-        flow.get()
+        // A callback that has panicked in another thread has ended the work.
+        let Ok(mut caller) = caller.lock() else { return ControlFlow::Break(()) };
+        let (callback, last) = &mut *caller;
+        *last = *progress.unwrap_or(last);
+        let flow = callback(last);
+        if flow.is_break() {
+            has_ended.store(true, Ordering::Relaxed);
+        }
+        flow
     };
     let result = compute(Work::new(&tell));
-    if flow.get().is_break() { Ok(None) } else { result.map(Some) }
+    if has_ended.load(Ordering::Relaxed) { Ok(None) } else { result.map(Some) }
 }
+
+/// Takes the progress, or repeats the last one; breaks if the work is to end.
+type Tell<'w> = &'w (dyn Fn(Option<&Progress>) -> ControlFlow<()> + Sync);
 
 /// A computation, or a part of it.
 #[derive(Clone, Copy)]
 pub(crate) struct Work<'w> {
-    tell: &'w dyn Fn(&Progress) -> ControlFlow<()>,
+    tell: Tell<'w>,
     /// The outermost pieces are counted: what they are called, and how many are done.
     piece: Option<(&'static str, usize)>,
     from: f64,
@@ -82,7 +95,7 @@ pub(crate) struct Work<'w> {
 
 impl<'w> Work<'w> {
     /// The whole.
-    fn new(tell: &'w dyn Fn(&Progress) -> ControlFlow<()>) -> Self {
+    fn new(tell: Tell<'w>) -> Self {
         Self { tell, piece: None, from: 0.0, to: 1.0 }
     }
 
@@ -97,29 +110,24 @@ impl<'w> Work<'w> {
     /// Breaks if the work is to end.
     pub(crate) fn piece(self, counted: &'static str, index: usize, all: usize) -> ControlFlow<(), Self> {
         let piece = Self { piece: self.piece.or(Some((counted, index))), ..self.part(index, all) };
-        match (self.tell)(&piece.progress()) {
+        match piece.tell(&Progress { fraction: Some(0.0), ..Progress::of(counted, index as u64, 1) }) {
             ControlFlow::Continue(()) => ControlFlow::Continue(piece),
             ControlFlow::Break(()) => ControlFlow::Break(()),
         }
     }
 
-    /// Tells of a part that counts its own pieces.
+    /// Tells how far this part is; breaks if the work is to end.
     pub(crate) fn tell(self, inner: &Progress) -> ControlFlow<()> {
-        let fraction = Some(self.from + (self.to - self.from) * inner.fraction.unwrap_or(0.0));
-        match self.piece {
-            Some(_) => (self.tell)(&Progress { fraction, ..self.progress() }),
-            None => (self.tell)(&Progress { fraction, ..*inner }),
-        }
+        let fraction = inner.fraction.map(|fraction| self.from + (self.to - self.from) * fraction);
+        let (counted, done) =
+            self.piece.map_or((inner.counted, inner.done), |(counted, done)| (counted, done as u64));
+        let found = inner.found.filter(|_| self.piece.is_none());
+        (self.tell)(Some(&Progress { counted, done, fraction, found }))
     }
 
-    /// Whether the work is to end, asked within a piece.
+    /// Whether the work is to end.
     pub(crate) fn is_over(self) -> bool {
-        (self.tell)(&self.progress()).is_break()
-    }
-
-    fn progress(self) -> Progress {
-        let (counted, done) = self.piece.unwrap_or(("pieces", 0));
-        Progress { counted, done: done as u64, fraction: Some(self.from), found: None }
+        (self.tell)(None).is_break()
     }
 }
 
@@ -144,10 +152,10 @@ mod tests {
             Ok::<_, ()>(7)
         });
         assert_eq!(found, Ok(Some(7)));
-        let expected = [0.5, 0.625, 0.75, 0.875, 0.5].map(Some);
+        let expected = [0.5, 0.625, 0.75, 0.875, 0.875].map(Some);
         assert_eq!(told.iter().map(|(.., fraction)| *fraction).collect::<Vec<_>>(), expected);
-        assert!(told[..4].iter().all(|(counted, ..)| *counted == "values"));
-        assert_eq!(told[..4].iter().map(|(_, done, _)| *done).collect::<Vec<_>>(), [0, 0, 1, 1]);
+        assert!(told.iter().all(|(counted, ..)| *counted == "values"));
+        assert_eq!(told.iter().map(|(_, done, _)| *done).collect::<Vec<_>>(), [0, 0, 1, 1, 1]);
     }
 
     #[test]
