@@ -8,6 +8,7 @@ mod input;
 mod output;
 mod picture;
 mod table;
+mod threads;
 mod time_series;
 mod watch;
 
@@ -41,6 +42,7 @@ impl From<Outcome> for ExitCode {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let color = arguments.color.into();
+    threads::bound(color);
     let outcome = run(&arguments.command, &Output::standard(color));
     outcome.unwrap_or_else(|failure| refuse(&failure, color)).into()
 }

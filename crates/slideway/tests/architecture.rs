@@ -19,7 +19,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("influence", &["ids", "kinetics"]),
     ("modes", &["interval", "progress"]),
     ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
-    ("report", &[]),
+    ("report", &["fault"]),
     ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
     ("raw_problem", &["fault", "modes", "progress", "report"]),
     ("gallery", &[]),

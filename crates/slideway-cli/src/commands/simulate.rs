@@ -12,11 +12,12 @@ use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
 use crate::watch::{self, Halt, Watch};
 use slideway::configuration::Configuration;
-use slideway::fault::{Fault, FaultKind};
+use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
 use slideway::progress::Progress;
+use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, GifFault, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
 use std::ops::ControlFlow;
@@ -42,7 +43,8 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
     let told = if arguments.all_branches {
         let most = (&mut Thorough as &mut dyn motion::Decisions, arguments.max_motions);
         let tree = motion::simulate_all(&mechanism, &configuration, &options, most, &mut progress);
-        Told::all(arguments, &tree.map_err(|faults| input.refused(faults))?, &options, output)
+        let tree = tree.map_err(|faults| input.refused(faults))?;
+        Told::all(arguments, &tree, &options, output)
     } else {
         let history =
             motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
@@ -50,6 +52,7 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
+    let told = told.map_err(|faults| input.refused(faults))?;
     let halt = watch.finish();
     output.write(&told.text)?;
     Ok(watch::outcome(halt, told.outcome))
@@ -67,13 +70,13 @@ impl Told {
         history: &History,
         options: &SimulateOptions,
         output: &Output,
-    ) -> Self {
-        let report = motion::report(history, options);
+    ) -> Result<Self, Faults> {
+        let report = finite(motion::report(history, options))?;
         let text = match arguments.format {
             CheckFormat::Text => motion::to_text(&report, output.style(), arguments.all_events),
             CheckFormat::Json => motion::to_json(&report),
         };
-        Self { text, outcome: outcome(&history.end) }
+        Ok(Self { text, outcome: outcome(&history.end) })
     }
 
     fn all(
@@ -81,15 +84,16 @@ impl Told {
         tree: &motion::Tree,
         options: &SimulateOptions,
         output: &Output,
-    ) -> Self {
-        let report = motion::tree_report(tree, options);
+    ) -> Result<Self, Faults> {
+        let report = finite(motion::tree_report(tree, options))?;
         let text = match arguments.format {
             CheckFormat::Text => motion::tree_to_text(&report, output.style(), arguments.all_events),
             CheckFormat::Json => motion::tree_to_json(&report),
         };
         // The best that any motion comes to.
         let outcomes = tree.histories.iter().map(|branching| outcome(&branching.history.end));
-        Self { text, outcome: outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown) }
+        let outcome = outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown);
+        Ok(Self { text, outcome })
     }
 }
 

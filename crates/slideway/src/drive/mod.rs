@@ -43,6 +43,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, VariedQuantity, backwards, given_range};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use crate::size::usual_range;
 
 /// The most rows of a table that are computed.
@@ -111,7 +112,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         conclusion: Vec::new(),
     };
     report.conclusion = text::conclusion(&report);
-    Ok(report)
+    finite(report)
 }
 
 fn course([model, reversed]: [&Model; 2], vary: &str, rows: usize, work: Work<'_>) -> Result<Course, Faults> {

@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::modes::existence::{EndCause, ModeInterval};
 use crate::modes::{ContactState, Side};
 use crate::progress::{Callback, Work, undisturbed, watched};
-use crate::report::Verdict;
+use crate::report::{Verdict, finite};
 use crate::solve::{Parts, friction, mode_problem, velocity_signs};
 use nalgebra::DVector;
 
@@ -132,7 +132,7 @@ fn curves_of(
     };
     let forwards = curves(&analysis.varied, &analysis.found);
     let reversed = analysis.reversed.as_ref().map(|(varied, found)| curves(varied, found));
-    let report = analysis.report(&naming);
+    let report = finite(analysis.report(&naming))?;
     Ok((report, Curves { quantity, shown_in: analysis.shown_in, series, forwards, reversed }))
 }
 

@@ -37,6 +37,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes, counts};
 use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use crate::solve::{Parts, Stages};
 use scan::{STEPS, Scanner};
 
@@ -102,7 +103,7 @@ pub fn limits_with(
 
 fn limits_of(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<LimitsReport, Faults> {
     let analysis = Analysis::new(model, options, work)?;
-    Ok(analysis.report(&Naming::new(model)?))
+    finite(analysis.report(&Naming::new(model)?))
 }
 
 /// What is varied, over which range, and the modes of both directions.

@@ -27,6 +27,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{ShownIn, Varied, given_range};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use class::ClassKey;
 use evaluate::Evaluator;
 use refine::{Grid, Raster};
@@ -151,7 +152,7 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
     let grid = Grid { width, height, probe: options.probe.max(1) };
     let raster = Raster::<ClassKey>::new(grid, &classes, &mut |progress| work.tell(progress));
     let Some(raster) = raster else { return Ok(MapReport::default()) };
-    Ok(report::report(model, options, &axes, &evaluator, &raster))
+    finite(report::report(model, options, &axes, &evaluator, &raster))
 }
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {

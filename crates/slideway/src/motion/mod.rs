@@ -60,7 +60,7 @@ pub use series::{Column, Series};
 pub use text::{to_text, tree_to_text};
 pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report, tree_to_json};
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -93,7 +93,27 @@ pub fn simulate_with(
     progress: &mut Callback<'_>,
 ) -> Result<History, Faults> {
     check(options)?;
+    check_tolerance(mechanism, configuration, options.tolerance)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
+}
+
+/// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more accurate than
+/// that: of positions in relation to the size of the mechanism, of angles to one radian.
+///
+/// # Errors
+/// A smaller tolerance.
+fn check_tolerance(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    tolerance: f64,
+) -> Result<(), Faults> {
+    let magnitude = |pose: &Pose| (pose.position.amax() / mechanism.size).max(pose.angle.abs());
+    let greatest = configuration.poses.iter().map(magnitude).fold(1.0, f64::max);
+    let least = f64::EPSILON * greatest;
+    if tolerance < least {
+        return Err(Fault::general(FaultKind::ToleranceTooSmall { tolerance, least }).into());
+    }
+    Ok(())
 }
 
 fn check(options: &SimulateOptions) -> Result<(), Faults> {

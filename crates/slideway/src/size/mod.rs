@@ -32,6 +32,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, backwards, given_range, linear};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use margin::{Margin, Question};
 use search::Search;
 
@@ -127,7 +128,7 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
     let found = Search { question: &question, wanted: options.margin, range, steps, work }.run();
-    Ok(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
+    finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
 }
 
 /// The margin in the model; nothing where it has no position, which other values may have.

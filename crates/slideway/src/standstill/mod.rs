@@ -52,6 +52,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use nalgebra::{DMatrix, DVector};
 use rest::Over;
 use setup::Setup;
@@ -119,7 +120,7 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
         Verdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
-    Ok(HoldReport {
+    finite(HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
         verdict,
