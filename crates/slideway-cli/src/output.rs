@@ -184,6 +184,11 @@ impl ProgressLine {
         Self { on_terminal: io::stderr().is_terminal(), written: false }
     }
 
+    /// Nothing is written from now on.
+    pub(crate) fn hush(&mut self) {
+        self.on_terminal = false;
+    }
+
     /// Puts this in the place of what stood there.
     pub(crate) fn show(&mut self, text: &str) {
         if self.on_terminal {

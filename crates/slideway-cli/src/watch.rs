@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::output::{ProgressLine, clear_progress};
 use slideway::progress::Progress;
 use std::fmt::Write;
+use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -84,6 +85,15 @@ impl Watch {
         WATCHED.store(true, Ordering::Relaxed);
         let (start, shown) = (Instant::now(), Duration::ZERO);
         Self { start, shown, limit, first: None, line: ProgressLine::new(), halt: None }
+    }
+
+    /// The same without progress, where the answer itself appears bit by bit on the terminal.
+    pub(crate) fn beside_rows(limit: Option<Duration>) -> Self {
+        let mut watch = Self::new(limit);
+        if io::stdout().is_terminal() {
+            watch.line.hush();
+        }
+        watch
     }
 
     /// Tells of the progress; breaks when time is up or someone interrupts.

@@ -198,7 +198,7 @@ fn stream(arguments: &SweepArguments, mut work: Work<'_>, output: &Output) -> Re
     let mut result = target.write_all(&work.encoder.head());
     let mut state = work.sweep.start();
     let points = work.sweep.points();
-    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut watch = Watch::beside_rows(arguments.time.time_limit);
     if result.is_ok() {
         work.run(&mut state, &mut |rows, state| {
             result = rows.iter().try_for_each(|rows| target.write_all(rows));

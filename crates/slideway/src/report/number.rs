@@ -5,7 +5,6 @@ const NOISE: f64 = 1e-13;
 
 /// A number with five significant digits; scientific where it is very large or small.
 pub(crate) fn number(value: f64) -> String {
-    debug_assert!(value.is_finite(), "only finite numbers are told");
     if value == 0.0 {
         return "0".to_owned();
     }
