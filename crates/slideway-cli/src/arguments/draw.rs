@@ -12,9 +12,9 @@ Examples:
   slideway draw drawer.toml --theme dark --output drawer.png
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the files or the arguments
-  3  nothing was found within --time-limit
+  0    done
+  2    faulty input: the model, the settings, the files or the arguments
+  3    nothing was found within --time-limit
   130  interrupted (Ctrl-C)
 
 What was found until the time limit or the interruption is drawn, and the drawing says that it is partial.";

@@ -16,10 +16,10 @@ where the load pushes and the drives brake it is the inverse. Without a range th
 by `slideway size`.
 
 Exit codes:
-  0  done
-  1  no effort moves it as in the model: friction locks it
-  2  faulty input: the model has no drives, the settings, the name or the range, the arguments
-  3  not done within --time-limit: nothing is written
+  0    done
+  1    no effort moves it as in the model: friction locks it
+  2    faulty input: the model has no drives, the settings, the name or the range, the arguments
+  3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway drive`.

@@ -16,11 +16,11 @@ model; all that is told besides holds for the factor 1. The name of a drive stan
 and all that is told besides holds without it. A load comes before a drive of the same name.
 
 Exit codes:
-  0  it can stay at rest
-  1  it cannot stay at rest
-  2  faulty input: the model, the settings, the files or the arguments
-  3  unknown: no state of rest was found, but not every state could be decided; or
-     not done within --time-limit: nothing is written
+  0    it can stay at rest
+  1    it cannot stay at rest
+  2    faulty input: the model, the settings, the files or the arguments
+  3    unknown: no state of rest was found, but not every state could be decided; or
+       not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway hold`.

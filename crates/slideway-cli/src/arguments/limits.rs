@@ -15,9 +15,9 @@ Examples:
   slideway limits klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions --plot figures-4-5.svg
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the name or the range, the arguments
-  3  not done within --time-limit: nothing is written
+  0    done
+  2    faulty input: the model, the settings, the name or the range, the arguments
+  3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway limits`.

@@ -13,9 +13,9 @@ Examples:
   slideway map slider-crank.toml --x phi=\"-180 deg..180 deg\" --y mu=0..1 --colour-by jam --output crank.json
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the names or the ranges, the arguments
-  3  not done within --time-limit: nothing is written
+  0    done
+  2    faulty input: the model, the settings, the names or the ranges, the arguments
+  3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway map`.

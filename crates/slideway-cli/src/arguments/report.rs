@@ -10,9 +10,9 @@ Examples:
   slideway report drawer.toml --output drawer.html --force
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the name or the range, the files or the arguments
-  3  not done within --time-limit: nothing is written
+  0    done
+  2    faulty input: the model, the settings, the name or the range, the files or the arguments
+  3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway report`.

@@ -14,10 +14,10 @@ Examples:
   slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 --all-branches
 
 Exit codes:
-  0  followed to the end, to an event that ends it, or to a limit of travel
-  1  friction locks the mechanism: it cannot go on
-  2  faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
-  3  not followed to the end: too many steps or events, no time left, or what follows cannot be decided
+  0    followed to the end, to an event that ends it, or to a limit of travel
+  1    friction locks the mechanism: it cannot go on
+  2    faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
+  3    not followed to the end: too many steps or events, no time left, or what follows cannot be decided
   130  interrupted (Ctrl-C)
 
 What was computed until then is told and written in any case, unless the motion cannot begin.

@@ -22,10 +22,10 @@ smaller. Without a range a coefficient of friction goes from 0 to 1 or twice its
 from 0 to 10, any other parameter from a fifth of its value to five times it.
 
 Exit codes:
-  0  the margin is met somewhere in the range
-  1  it is met nowhere in the range
-  2  faulty input: the model, the settings, the name or the range, the arguments
-  3  not done within --time-limit: nothing is written
+  0    the margin is met somewhere in the range
+  1    it is met nowhere in the range
+  2    faulty input: the model, the settings, the name or the range, the arguments
+  3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway size`.
