@@ -234,6 +234,10 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error(
+        "the tolerance {tolerance:e} is less than what numbers resolve: positions of this mechanism are rounded to {least:.1e} of its size"
+    )]
+    ToleranceTooSmall { tolerance: f64, least: f64 },
     #[error("`{text}` is no value or range of {name}")]
     MalformedRange { text: String, name: String },
     #[error("{what} needs a range: {name}=FROM..TO")]

@@ -1,7 +1,5 @@
 //! From a problem to its report: the search, and what is told of it.
 
-use std::ops::ControlFlow;
-
 use nalgebra::DVector;
 
 use super::range::in_range;
@@ -12,8 +10,9 @@ use super::{RawKind, RawProblem};
 use crate::modes::certificate::{Decision, Interval, decide};
 use crate::modes::{
     BigCount, CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem,
-    ModeProblemError, Progress, SearchOptions, SearchResult, SolutionProduct, StopReason, search,
+    ModeProblemError, SearchOptions, SearchResult, SolutionProduct, StopReason, search,
 };
+use crate::progress::Callback;
 use crate::report::Status;
 
 /// The most vertices of one continuum that are told.
@@ -38,7 +37,7 @@ pub fn solve(
     raw: &RawProblem,
     options: &SearchOptions,
     listed: usize,
-    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<RawReport, ModeProblemError> {
     let problem = raw.mode_problem()?;
     let result = search(&problem, options, progress)?;
@@ -375,6 +374,7 @@ fn character(state: ContactState) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::ops::ControlFlow;
 
     #[test]
     fn a_ray_is_told_with_its_end_and_direction() {

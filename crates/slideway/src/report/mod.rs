@@ -5,6 +5,7 @@
 
 mod attainability;
 mod csv;
+mod finite;
 mod json;
 pub(crate) mod number;
 pub(crate) mod page;
@@ -13,6 +14,7 @@ mod text;
 
 pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
 pub use csv::to_csv;
+pub use finite::finite;
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
 pub use number::precise;

@@ -9,7 +9,7 @@ use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedModeProblem, Tipping};
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::ids::{BodyId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, Reaction};
@@ -19,7 +19,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Report, Status};
+use crate::report::{self, Report, Status, finite};
 use nalgebra::DVector;
 
 /// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping.
@@ -112,8 +112,7 @@ impl<'a> Answer<'a> {
             influence: self.influence_summary(),
             condition: self.equations.condition(),
         };
-        check_finite(&report)?;
-        Ok(report)
+        finite(report)
     }
 
     /// Files the states of the mechanism that a state of the mode problem stands for, unless a guided slider would tip.
@@ -471,38 +470,4 @@ fn pattern_summary(outcomes: &PatternOutcomes, rejected: u64) -> report::Pattern
         rejected,
         gap_patterns: outcomes.gap_counts.total(),
     }
-}
-
-/// No number that is printed may be infinite or undefined.
-fn check_finite(report: &Report) -> Result<(), Faults> {
-    let mut faults = Faults::default();
-    let closest = report.closest_modes.iter().flat_map(|mode| mode.absolute_normal_forces.iter().copied());
-    let continua =
-        report.continua.iter().flat_map(|set| set.vertices.iter().chain(&set.directions)).flatten();
-    let influence = &report.influence;
-    let eta = influence.eta_positive.iter().chain(&influence.eta_negative).flatten();
-    let frictionless = influence.coordinate_accelerations.iter().chain(&influence.normal_forces);
-    let mut all = closest.chain(continua.chain(eta).chain(frictionless).copied()).chain([report.condition]);
-    if !all.all(f64::is_finite) {
-        let quantity = "an influence coefficient or a normal force".to_owned();
-        faults.push(Fault::general(FaultKind::Overflow { quantity }));
-    }
-    for solution in report.solutions.iter().chain(&report.preload_gap_states) {
-        let forces = solution
-            .contacts
-            .iter()
-            .flat_map(|c| [c.normal_force, c.friction_force, c.couple.unwrap_or(0.0)]);
-        let accelerations = solution
-            .bodies
-            .iter()
-            .flat_map(|b| [b.acceleration[0], b.acceleration[1], b.angular_acceleration]);
-        let hinges = solution.hinges.iter().flat_map(|hinge| hinge.force);
-        let drives = solution.drives.iter().map(|drive| drive.effort);
-        let mut all = forces.chain(accelerations).chain(hinges).chain(drives).chain([solution.determinant]);
-        if !all.all(f64::is_finite) {
-            let quantity = format!("a force or acceleration of the mode {}", solution.pattern);
-            faults.push(Fault::general(FaultKind::Overflow { quantity }));
-        }
-    }
-    faults.or(())
 }

@@ -53,7 +53,8 @@ use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
-use crate::modes::{Progress, SearchOptions, search};
+use crate::modes::{SearchOptions, search};
+use crate::progress::Callback;
 use crate::report::Report;
 use std::ops::ControlFlow;
 
@@ -94,7 +95,7 @@ pub fn solve(model: &Model) -> Result<Report, Faults> {
 pub fn solve_with(
     model: &Model,
     options: &SolveOptions,
-    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<Report, Faults> {
     let mechanism = Mechanism::new(model)?;
     check_size(&mechanism)?;

@@ -10,10 +10,10 @@ use super::state::{pattern, pressed, signs};
 use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosure};
 use crate::interval::Interval;
 use crate::model::{Model, ParameterRange};
-use crate::modes::{Certificate, Completeness, ContactState, Progress, SearchResult, StateLists, search};
+use crate::modes::{Certificate, Completeness, ContactState, SearchResult, StateLists, search};
+use crate::progress::Callback;
 use crate::report::{self, Persistence};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 /// The most boxes that are searched.
 const BOXES: usize = 255;
@@ -42,7 +42,7 @@ impl Answer<'_> {
         model: &Model,
         ranges: &[ParameterRange],
         options: &SolveOptions,
-        progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+        progress: &mut Callback<'_>,
     ) -> Option<report::Uncertainty> {
         if ranges.is_empty() {
             return None;

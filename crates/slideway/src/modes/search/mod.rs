@@ -72,19 +72,18 @@ mod test_problems;
 mod tree;
 mod uniqueness;
 
-use std::ops::ControlFlow;
-
 pub use count::BigCount;
 pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
 pub use report::{
     Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternOutcomes,
-    PatternShares, Progress, SearchOptions, StopReason,
+    PatternShares, SearchOptions, StopReason,
 };
 pub use result::{SearchResult, StateLists};
 pub use states::StateSet;
 
 use super::certificate::ProblemView;
 use super::problem::ModeProblemError;
+use crate::progress::Callback;
 use composition::Composer;
 use monitor::Monitor;
 
@@ -117,7 +116,7 @@ use monitor::Monitor;
 pub fn search<'a>(
     problem: impl Into<ProblemView<'a>>,
     options: &SearchOptions,
-    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<SearchResult, ModeProblemError> {
     let problem = problem.into().without_zero_radii();
     let mut monitor = Monitor::new(options.nodes, progress);
