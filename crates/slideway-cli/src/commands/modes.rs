@@ -5,7 +5,7 @@ use crate::arguments::{ModesArguments, ModesFormat, SearchArguments};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Output;
-use crate::watch::{Interruption, Watch};
+use crate::watch::{Watch, outcome};
 use slideway::raw_problem::{
     Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_json, to_npz, to_text,
 };
@@ -15,30 +15,26 @@ use slideway::report::Status;
 pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination)?;
     let problem = read(arguments)?;
-    let SearchArguments { max_solutions, time_limit, .. } = arguments.search;
-    let mut watch = Watch::new(time_limit);
-    let interruption = Interruption::watch();
+    let SearchArguments { max_solutions, time, .. } = &arguments.search;
+    let mut watch = Watch::new(time.time_limit);
     let options = arguments.search.options();
-    let listing = Listing { most: max_solutions, all_faces: arguments.all_faces };
-    let report = solve_with(&problem, &options, listing, &mut |progress| {
-        interruption.flow()?;
-        watch.look(progress)
-    })
-    .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
-    drop(watch);
+    let listing = Listing { most: *max_solutions, all_faces: arguments.all_faces };
+    let report = solve_with(&problem, &options, listing, &mut |progress| watch.look(progress))
+        .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
+    let halt = watch.finish();
     match arguments.format() {
         ModesFormat::Text => output.write(&to_text(&report, output.style()))?,
         ModesFormat::Json => output.write(&to_json(&report))?,
         ModesFormat::Npz => output.write_bytes(&to_npz(&report))?,
     }
-    if interruption.is_requested() {
-        return Ok(Outcome::Interrupted);
-    }
-    Ok(match report.status {
-        Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
-        Status::None => Outcome::NoSolution,
-        Status::Unknown => Outcome::Unknown,
-    })
+    Ok(outcome(
+        halt,
+        match report.status {
+            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
+            Status::None => Outcome::NoSolution,
+            Status::Unknown => Outcome::Unknown,
+        },
+    ))
 }
 
 fn read(arguments: &ModesArguments) -> Result<RawProblem, Failure> {

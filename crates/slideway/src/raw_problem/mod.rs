@@ -27,7 +27,8 @@
 //!
 //! # Numbers
 //! Every number is a 64-bit floating-point number; decimal fractions and large integers are rounded
-//! to the nearest one. Proofs refer to these numbers, taken as exact.
+//! to the nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
+//! unknown whose value is beyond the range of such numbers has none, and is told as text: [`BeyondRange`].
 
 mod answer;
 mod assemble;
@@ -39,19 +40,21 @@ mod listing;
 mod nearby;
 mod npy;
 mod npz;
+mod range;
 mod report;
-mod rounding;
+mod residual;
 mod shape;
 mod tables;
 mod text;
+mod values;
 
 pub use answer::{solve, solve_with};
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
-    ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns,
-    WithinRounding, to_json,
+    BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA,
+    Unknowns, WithinRounding, to_json,
 };
 pub use shape::Shape;
 pub use tables::to_npz;

@@ -6,8 +6,6 @@
 //! (Oettli and Prager, 1964). The search within the bounds excludes what has no solution for any of these numbers, and
 //! finds candidates for this criterion, which is evaluated in exact numbers.
 
-use std::ops::ControlFlow;
-
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 
@@ -15,9 +13,10 @@ use super::RawProblem;
 use super::report::{Unknowns, WithinRounding};
 use crate::modes::certificate::{IntervalMatrix, IntervalModeProblem};
 use crate::modes::{
-    Arguments, BySide, CombinedState, Completeness, GroupState, Limits, ModeProblem, Progress, SearchOptions,
-    Side, search,
+    Arguments, BySide, CombinedState, Completeness, GroupState, Limits, ModeProblem, SearchOptions, Side,
+    search,
 };
+use crate::progress::{Callback, Progress};
 
 /// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the rounding of
 /// `A + B` and `B - A`.
@@ -37,7 +36,7 @@ pub(super) fn within_rounding(
     raw: &RawProblem,
     problem: &ModeProblem,
     (options, nodes): (&SearchOptions, u64),
-    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Option<WithinRounding> {
     let bounds = Bounds::new(raw, problem)?;
     let limits = Limits { solutions: STATES, ..options.limits };
@@ -48,7 +47,7 @@ pub(super) fn within_rounding(
     let result = search(&bounds.problem()?, &options, progress).ok()?;
     let size = problem.contacts();
     let candidates = result.product.states().take(STATES).flat_map(|state| points(&state, size));
-    let told = Progress { nodes: result.nodes(), fraction: 1.0, states_found: 0 };
+    let told = Progress { counted: "nodes", done: result.nodes(), fraction: Some(1.0), found: None };
     let candidates = candidates.take_while(|_| size <= LARGEST && progress(&told).is_continue());
     let mut tried = candidates.flat_map(|point| [bounds.refined(&point), Some(point)]).flatten();
     let found = tried.find(|point| bounds.admits(point));

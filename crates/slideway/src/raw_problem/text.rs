@@ -1,8 +1,10 @@
 //! The report of a raw problem as text for people.
 
 use super::RawKind;
-use super::report::{ContinuumPart, RawReport, RawShares, RawSolution, Unknowns, WithinRounding};
-use crate::report::number::{against, number};
+use super::report::{
+    BeyondRange, ContinuumPart, RawReport, RawShares, RawSolution, Unknowns, WithinRounding,
+};
+use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Status, Style, count};
@@ -48,9 +50,10 @@ impl Text<'_> {
         let single = format!("{single}{found}");
         let verdict = match report.status {
             Status::None => "No solution.".to_owned(),
-            Status::Unknown => {
+            Status::Unknown if report.partial => {
                 "Nothing found, but not every pattern of signs could be dealt with.".to_owned()
             }
+            Status::Unknown => "Nothing found, but that is not proven.".to_owned(),
             Status::Continuum => {
                 let continua = match report.continuum_count.as_str() {
                     "1" => "one continuum".to_owned(),
@@ -58,7 +61,10 @@ impl Text<'_> {
                 };
                 format!("Infinitely many solutions: {continua}{found}.")
             }
-            Status::PreloadGap => "No solution, but a state with an unknown in its preload gap.".to_owned(),
+            Status::PreloadGap => {
+                let none = if report.open.is_empty() { "No solution" } else { "No solution found" };
+                format!("{none}, but a state with an unknown in its preload gap.")
+            }
             Status::One | Status::Several => format!("{single}."),
         };
         self.line(&self.style.verdict(report.status, &verdict));
@@ -87,9 +93,7 @@ impl Text<'_> {
         };
         self.line(&format!("Hint: within {rounding} there is one:"));
         self.line("");
-        let indices: Vec<usize> = (0..self.report.size).collect();
-        let rows = labelled_rows(self.report.kind, &indices, &[unknowns], &[String::new()]);
-        self.out.push_str(&rows);
+        self.out.push_str(&rows(self.report.kind, unknowns, &[]));
     }
 
     /// What there is besides continua, and what is part of them.
@@ -125,18 +129,20 @@ impl Text<'_> {
             if let Some(continuum) = solution.end_of_continuum {
                 self.line(&format!("  An end of continuum {}", continuum + 1));
             }
-            let indices: Vec<usize> = (0..self.report.size).collect();
-            let rows = labelled_rows(self.report.kind, &indices, &[&solution.unknowns], &[String::new()]);
-            self.out.push_str(&rows);
+            self.out.push_str(&rows(self.report.kind, &solution.unknowns, &solution.beyond_range));
             for gap in &solution.gaps {
-                self.line(&format!("  N_{} is in its gap, share {}", gap.index + 1, number(gap.lambda)));
+                let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
+                self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
+            }
+            if !solution.beyond_range.is_empty() {
+                self.line("  Values that have an exponent beyond -308 or 308 have no floating-point number: 17 digits are shown");
             }
             if let Some(radius) = solution.enclosure_radius {
                 let bound = power_of_ten_above(radius);
-                self.line(&if radius == 0.0 {
-                    "  exact".to_owned()
-                } else {
-                    format!("  proven to within {bound}")
+                self.line(&match radius {
+                    0.0 if solution.beyond_range.is_empty() => "  exact".to_owned(),
+                    0.0 => "  all others: exact".to_owned(),
+                    _ => format!("  proven to within {bound}"),
                 });
             }
         }
@@ -208,7 +214,7 @@ impl Text<'_> {
                 number => format!("direction {}", number - points + 1),
             };
             let labels: Vec<String> = (0..chunk.len()).map(label).collect();
-            self.out.push_str(&labelled_rows(self.report.kind, &part.indices, chunk, &labels));
+            self.out.push_str(&labelled_rows(self.report.kind, (&part.indices, chunk), &labels, &[]));
         }
         let more = part.vertex_count - points + part.direction_count - part.directions.len();
         if more > 0 {
@@ -260,19 +266,41 @@ fn shape(part: &ContinuumPart) -> String {
     }
 }
 
+/// The unknowns of one solution.
+fn rows(kind: RawKind, unknowns: &Unknowns, beyond_range: &[BeyondRange]) -> String {
+    let size = unknowns.named().first().map_or(0, |(_, values)| values.len());
+    let indices: Vec<usize> = (0..size).collect();
+    labelled_rows(kind, (&indices, &[unknowns]), &[String::new()], beyond_range)
+}
+
+/// A value as text; of an unknown, by name and number, that has none as it is told beside.
+fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
+    let is_it = |one: &&BeyondRange| one.name == name && one.index == index;
+    match beyond_range.iter().find(is_it) {
+        Some(one) => one.value.clone(),
+        None if value.is_nan() => "beyond the range of numbers".to_owned(),
+        None => number(value),
+    }
+}
+
 /// One row for each index, with the unknowns of each column.
-fn labelled_rows(kind: RawKind, indices: &[usize], columns: &[&Unknowns], labels: &[String]) -> String {
+fn labelled_rows(
+    kind: RawKind,
+    (indices, columns): (&[usize], &[&Unknowns]),
+    labels: &[String],
+    beyond_range: &[BeyondRange],
+) -> String {
     let named: Vec<_> = columns.iter().map(|unknowns| shown(kind, unknowns)).collect();
     let mut header = vec!["k".to_owned()];
     for (column, label) in named.iter().zip(labels) {
-        header.extend(column.iter().map(|(name, _)| format!("{name} {label}").trim_end().to_owned()));
+        header.extend(
+            column.iter().map(|(name, _)| format!("{} {label}", shown_as(name)).trim_end().to_owned()),
+        );
     }
-    let scale = |values: &[f64]| values.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
     let row = |(at, index): (usize, &usize)| {
         let mut row = vec![(index + 1).to_string()];
         for column in &named {
-            let scale = column.iter().map(|(_, values)| scale(values)).fold(0.0, f64::max);
-            row.extend(column.iter().map(|(_, values)| against(values[at], scale)));
+            row.extend(column.iter().map(|(name, values)| value(values[at], (name, at), beyond_range)));
         }
         row
     };
@@ -283,7 +311,11 @@ fn labelled_rows(kind: RawKind, indices: &[usize], columns: &[&Unknowns], labels
 /// What a person wants to see: of a mode problem the normal forces alone, whose sizes are the `y`.
 fn shown(kind: RawKind, unknowns: &Unknowns) -> Vec<(&'static str, &[f64])> {
     let named = unknowns.named();
-    if kind == RawKind::Modes { vec![("N", named[0].1)] } else { named }
+    if kind == RawKind::Modes { named[..1].to_vec() } else { named }
+}
+
+fn shown_as(name: &str) -> &str {
+    if name == "normal_forces" { "N" } else { name }
 }
 
 /// "75 % excluded by interval propagation, 25 % solved one by one"

@@ -167,7 +167,7 @@ pub(in crate::modes) fn decide_while(
             }
         }
     }
-    if problem.radii.is_none() {
+    if problem.exact {
         let decision = decide_exactly(problem, pattern, proceed)?;
         return Some(Verdict { decision, precision: Precision::Rational });
     }

@@ -1,12 +1,11 @@
 //! Limits, progress and cancellation of a search.
 
-use std::ops::ControlFlow;
-
-use super::report::{Progress, StopReason};
+use super::report::StopReason;
+use crate::progress::{Callback, Progress};
 
 /// Counts nodes, tells the caller, and notes why the search ends early.
 pub(super) struct Monitor<'a> {
-    progress: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &'a mut Callback<'a>,
     node_limit: u64,
     nodes: u64,
     states_found: u64,
@@ -19,8 +18,8 @@ pub(super) struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
-    pub(super) fn new(node_limit: u64, progress: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Self {
-        let told = Progress { nodes: 0, fraction: 0.0, states_found: 0 };
+    pub(super) fn new(node_limit: u64, progress: &'a mut Callback<'a>) -> Self {
+        let told = Progress { counted: "nodes", done: 0, fraction: Some(0.0), found: Some(0) };
         Self { progress, node_limit, nodes: 0, states_found: 0, done: 0.0, share: 1.0, told, stopped: None }
     }
 
@@ -54,9 +53,11 @@ impl<'a> Monitor<'a> {
         }
         self.nodes += 1;
         self.told = Progress {
-            nodes: self.nodes,
-            fraction: (self.done + self.share * fraction).min(1.0),
-            states_found: self.states_found + found_in_group as u64,
+            counted: "nodes",
+            done: self.nodes,
+            // Of the pattern space within a group of contacts, and of the contacts over all groups.
+            fraction: Some((self.done + self.share * fraction).min(1.0)),
+            found: Some(self.states_found + found_in_group as u64),
         };
         self.goes_on()
     }
