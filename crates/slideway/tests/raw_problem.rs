@@ -259,7 +259,9 @@ fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
     let report =
         solution_of(r#"{"type": "lcp", "M": [[1e-300, -1e-300], [-1e-300, 1e-300]], "q": [-1e10, 1e10]}"#);
     assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
-    let Unknowns::Complementary { z, .. } = &report.continua[0].vertices[0] else { panic!("z and w") };
+    let Unknowns::Complementary { z, .. } = &report.continua[0].parts[0].vertices[0] else {
+        panic!("z and w")
+    };
     assert!(z[0].is_nan() && z[1] == 0.0, "{z:?}");
     assert!(to_text(&report, Style::Plain).contains("beyond the range of numbers"));
 }

@@ -1,7 +1,5 @@
 //! From a problem to its report: the search, and what is told of it.
 
-use nalgebra::DVector;
-
 use super::continuum;
 use super::listing::{Counts, Listing, Sort, list};
 use super::nearby;
