@@ -20,6 +20,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         vary: arguments.vary.clone(),
         max_reaction: arguments.max_reaction,
         both_directions: arguments.both_directions,
+        effort: arguments.effort,
     };
     let report = if let Some((picture, file)) = plot {
         let (report, curves) = limits::limits_with_curves(&model, &options, arguments.quantity.into())

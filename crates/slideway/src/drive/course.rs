@@ -4,7 +4,7 @@ use super::efforts::Efforts;
 use super::report::{BlowUp, CourseDirection, CourseRow};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{Found, LimitsOptions, Varied, find, guarantee};
+use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, find, guarantee};
 use crate::solve::{Stages, pattern};
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
@@ -28,16 +28,15 @@ pub(super) fn direction(
     steps: usize,
     direction: &'static str,
 ) -> Result<(String, CourseDirection), Faults> {
-    let found = find(varied, range, &LimitsOptions::of(&varied.name))?;
+    let found = find(varied, range, &LimitsOptions { effort: 0, ..LimitsOptions::of(&varied.name) })?;
     let stages = Stages::new(varied.model())?;
     let mut blow_ups = growing_ends(&found.existence, &stages, |value| Efforts::at(varied, value).ok());
     blow_ups.extend(poles(varied, range, &found));
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
     let course = Tabulated { varied, range, found: &found, blow_ups: &blow_ups };
     let rows = course.rows(steps);
-    let gaps = found.gaps.clone();
-    let guarantee = guarantee(&found, range);
-    Ok((guarantee, CourseDirection { direction, rows, blow_ups, without_mode_problem: gaps }))
+    let without_mode_problem = RangeWithoutProblem::of(&found);
+    Ok((guarantee(&found), CourseDirection { direction, rows, blow_ups, without_mode_problem }))
 }
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign

@@ -40,7 +40,7 @@ pub use report::{
 pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, VariedQuantity, backwards, given_range};
+use crate::limits::{Varied, VariedQuantity, given_range};
 use crate::model::{Effort, Model};
 use crate::size::usual_range;
 
@@ -73,7 +73,7 @@ pub fn drive(model: &Model, options: &DriveOptions) -> Result<DriveReport, Fault
         let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
         return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
     }
-    let reversed = backwards(model)?;
+    let reversed = model.reversed();
     let course =
         options.vary.as_ref().map(|vary| course(model, &reversed, vary, options.rows)).transpose()?;
     let drives = model.drives.iter().map(|drive| DriveName {

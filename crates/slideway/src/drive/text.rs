@@ -3,6 +3,7 @@
 use super::report::{
     BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
 };
+use crate::limits::RangeWithoutProblem;
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
@@ -168,8 +169,9 @@ impl Page<'_, DriveReport> {
                     course.vary.unit
                 ));
             }
-            for [from, to] in direction.without_mode_problem.iter().map(|gap| gap.map(precise)) {
-                self.line(&format!("  From {from} to {to} the mechanism cannot be assembled or solved."));
+            for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
+                let [from, to] = [*from, *to].map(precise);
+                self.line(&format!("  From {from} to {to} there is no answer, which is no locking: {reason}."));
             }
         }
         self.line("");

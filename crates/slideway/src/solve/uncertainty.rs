@@ -177,6 +177,37 @@ fn presences(enclosed: &EnclosedModeProblem, result: &SearchResult, options: &So
     Ok(modes)
 }
 
+/// The numbers of solutions and of preload-gap states, where they are proven to be the same for all values within the
+/// bounds; states in which a normal force exceeds `greatest` do not count.
+pub(crate) fn certain_counts(
+    enclosed: &EnclosedModeProblem,
+    result: &SearchResult,
+    options: &SolveOptions,
+    greatest: Option<f64>,
+) -> Option<[usize; 2]> {
+    if result.completeness != Completeness::Proven {
+        return None;
+    }
+    let mut counts = [0; 2];
+    for (mode, presence) in presences(enclosed, result, options).ok()? {
+        let pressed = |(state, _): &(&ContactState, &Interval)| **state != ContactState::Gap;
+        let forces: Option<Vec<&Interval>> = presence.unknowns.as_ref().map(|unknowns| {
+            mode.iter().zip(unknowns).filter(pressed).map(|(_, force)| force).collect()
+        });
+        let greatest = greatest.unwrap_or(f64::INFINITY);
+        if forces.as_ref().is_some_and(|forces| forces.iter().any(|force| force.lower() > greatest)) {
+            continue;
+        }
+        let stays = greatest.is_infinite()
+            || forces.is_some_and(|forces| forces.iter().all(|force| force.upper() <= greatest));
+        if !presence.certain || !stays {
+            return None;
+        }
+        counts[usize::from(mode.contains(&ContactState::Gap))] += 1;
+    }
+    Some(counts)
+}
+
 /// Bounds of the signed normal forces; a `y_k` is not negative.
 fn forces(mode: &[ContactState], unknowns: &[Interval]) -> Vec<[f64; 2]> {
     let one = |(state, y): (&ContactState, &Interval)| match state {
