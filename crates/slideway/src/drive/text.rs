@@ -3,7 +3,7 @@
 use super::report::{
     BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
 };
-use crate::limits::RangeWithoutProblem;
+use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
@@ -170,8 +170,7 @@ impl Page<'_, DriveReport> {
                 ));
             }
             for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
-                let [from, to] = [*from, *to].map(precise);
-                self.line(&format!("  From {from} to {to} there is no answer, which is no locking: {reason}."));
+                self.line(&no_answer([*from, *to], reason));
             }
         }
         self.line("");

@@ -4,7 +4,7 @@
 use super::find::{Elsewhere, Found, Knowledge, Method};
 use super::varied::Varied;
 use crate::modes::SearchOptions;
-use crate::modes::existence::ExistenceOptions;
+use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, cells};
 use crate::solve::SolveOptions;
 use std::collections::VecDeque;
 
@@ -18,8 +18,8 @@ const NODES: u64 = 64;
 const GREATEST_NODES: u64 = 100_000;
 /// A part whose ends differ by more than this factor is cut at their geometric mean.
 const WIDE: f64 = 8.0;
-/// Parts that stay open, in the middle of which the number of solutions is asked for.
-const CHECKED: usize = 16;
+/// Where in a part that stays open the number of solutions is asked for.
+const CHECKED: [f64; 8] = [0.5, 0.05, 0.95, 0.27, 0.73, 0.003, 0.997, 0.61];
 
 /// Proves numbers of solutions.
 pub(super) struct Examiner<'v> {
@@ -45,9 +45,7 @@ impl<'v> Examiner<'v> {
             let share = self.left / (intervals - index as u64);
             let rest = self.left - share;
             self.left = share;
-            let wanted = [interval.solutions, interval.gap_states];
-            let part = self.inside(interval.from, interval.to);
-            let outcome = self.prove(part, [interval.from, interval.to], wanted);
+            let outcome = self.interval(interval, &found.existence);
             self.left += rest;
             contradicted.extend(outcome.contradicted);
             let elsewhere = match found.method {
@@ -56,20 +54,50 @@ impl<'v> Examiner<'v> {
                 Method::Bracketing => Elsewhere::Sampled(spacing(&found.tried, [interval.from, interval.to])),
                 Method::ClosedForm | Method::Same { .. } => Elsewhere::ClosedForm,
             };
-            found.known[index] = Knowledge { proven: outcome.proven, elsewhere };
+            found.known[index] = Knowledge { proven: outcome.longest(), elsewhere };
         }
         contradicted
     }
 
-    /// An interval without what is next to ends at which the number of solutions changes.
-    fn inside(&self, from: f64, to: f64) -> [f64; 2] {
-        let margin = |end: f64| if self.options.range.contains(&end) { 0.0 } else { margin(end, [from, to]) };
-        [from + margin(from), to - margin(to)]
+    /// An interval, cell by cell between the ends of modes; what is next to these belongs to the cells on both sides.
+    fn interval(&mut self, interval: &CountInterval, existence: &Existence) -> Outcome {
+        let wanted = [interval.solutions, interval.gap_states];
+        let whole = [interval.from, interval.to];
+        let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
+        let inside = ends.filter(|end| whole[0] < *end && *end < whole[1]);
+        let near = |next: f64, kept: f64| next - kept <= MARGIN * margin(kept, whole);
+        let cells = cells(inside.chain(whole), near);
+        let mut outcome = Outcome { is_whole: true, ..Outcome::default() };
+        for (index, &[from, to]) in cells.iter().enumerate() {
+            let room = |end: f64| if self.options.range.contains(&end) { 0.0 } else { margin(end, [from, to]) };
+            let part = [from + room(from), to - room(to)];
+            let rest = self.left - self.left / (cells.len() - index) as u64;
+            self.left -= rest;
+            let mut of_cell = self.prove(part, [from, to], wanted);
+            self.left += rest;
+            if of_cell.contradicted.is_some() {
+                return of_cell;
+            }
+            // Stretches on both sides of an end between modes are one, but for what is next to it.
+            if let (Some(last), Some(first)) = (outcome.proven.last_mut(), of_cell.proven.first())
+                && last[1] >= from - margin(from, whole)
+                && first[0] <= part[0]
+            {
+                last[1] = first[1];
+                of_cell.proven.remove(0);
+            }
+            outcome.proven.extend(of_cell.proven);
+            outcome.is_whole &= of_cell.is_whole;
+        }
+        outcome
     }
 
     fn prove(&mut self, whole: [f64; 2], interval: [f64; 2], wanted: [usize; 2]) -> Outcome {
-        let mut waiting = VecDeque::from([whole]);
         let (mut proven, mut open) = (Vec::new(), Vec::new());
+        let mut waiting = if self.is_within_reach(whole) { VecDeque::from([whole]) } else { VecDeque::new() };
+        if waiting.is_empty() {
+            open.push(whole);
+        }
         while let Some(part) = waiting.pop_front() {
             match self.counts(part) {
                 Some(counts) if counts == wanted => proven.push(part),
@@ -80,19 +108,32 @@ impl<'v> Examiner<'v> {
                 },
             }
         }
-        // What stays open is asked for in its middle.
-        let step = open.len().div_ceil(CHECKED).max(1);
-        for part in open.iter().step_by(step) {
-            let at = middle(*part);
+        // What stays open is asked for at some values.
+        let checked: Vec<f64> = match &open[..] {
+            [only] => CHECKED.map(|share| only[0] + share * (only[1] - only[0])).to_vec(),
+            many => many.iter().step_by(many.len().div_ceil(CHECKED.len()).max(1)).map(|&part| middle(part)).collect(),
+        };
+        for at in checked {
             if self.counts([at, at]).is_some_and(|counts| counts != wanted) {
                 return Outcome::contradiction(at);
             }
         }
-        let stretches = joined(proven);
-        let longest = stretches.iter().copied().max_by(|one, other| {
-            (one[1] - one[0]).total_cmp(&(other[1] - other[0]))
-        });
-        Outcome { proven: longest, is_whole: open.is_empty() && !stretches.is_empty(), contradicted: None }
+        let is_whole = open.is_empty() && !proven.is_empty();
+        Outcome { proven: joined(proven), is_whole, contradicted: None }
+    }
+
+    /// Whether parts as long as can be proven in the middle of a cell cover it with the searches that are left.
+    fn is_within_reach(&mut self, [from, to]: [f64; 2]) -> bool {
+        let at = middle([from, to]);
+        let mut reach = (at - from).min(to - at);
+        let mut parts = 1;
+        while parts <= 2 * self.left {
+            if self.counts([at - reach, at + reach]).is_some() {
+                return true;
+            }
+            (reach, parts) = (0.25 * reach, 4 * parts);
+        }
+        false
     }
 
     /// The numbers of solutions and gap states that are proven for all values of a part.
@@ -108,15 +149,21 @@ impl<'v> Examiner<'v> {
 }
 
 /// What was proven of an interval.
+#[derive(Default)]
 struct Outcome {
-    proven: Option<[f64; 2]>,
+    /// Stretches, in their order.
+    proven: Vec<[f64; 2]>,
     is_whole: bool,
     contradicted: Option<f64>,
 }
 
 impl Outcome {
     fn contradiction(at: f64) -> Self {
-        Self { proven: None, is_whole: false, contradicted: Some(at) }
+        Self { contradicted: Some(at), ..Self::default() }
+    }
+
+    fn longest(&self) -> Option<[f64; 2]> {
+        self.proven.iter().copied().max_by(|one, other| (one[1] - one[0]).total_cmp(&(other[1] - other[0])))
     }
 }
 

@@ -35,6 +35,7 @@ pub use report::{
     VariedQuantity, to_json,
 };
 pub(crate) use scan::bisect;
+pub(crate) use text::no_answer;
 pub use text::to_text;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};

@@ -52,10 +52,18 @@ impl Page<'_, LimitsReport> {
         let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
         self.out.push_str(&table(&["from", "to", "solutions", "preload gaps", "known"], &rows, 0));
         for RangeWithoutProblem { from, to, reason } in gaps {
-            let [from, to] = [*from, *to].map(precise);
-            self.line(&format!("  From {from} to {to} there is no answer, which is no locking: {reason}."));
+            self.line(&no_answer([*from, *to], reason));
         }
     }
+}
+
+/// Where there is no mode problem, and why.
+pub(crate) fn no_answer([from, to]: [f64; 2], reason: &str) -> String {
+    let place = match [from, to].map(precise) {
+        [from, to] if from == to => format!("At {from}"),
+        [from, to] => format!("From {from} to {to}"),
+    };
+    format!("  {place} there is no answer, which is no locking: {reason}.")
 }
 
 fn mode_row(mode: &ModeLimits) -> Vec<String> {

@@ -13,7 +13,7 @@
 //! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is constant.
 
 use super::{ForceValue, Gravity, Inertia, JointKind, LoadKind, Model, Moment};
-use crate::expression::{Degree, Symbol};
+use crate::expression::{Degree, Symbol, Values};
 use crate::ids::FormulaId;
 use std::collections::BTreeSet;
 
@@ -43,9 +43,32 @@ impl Model {
         }
     }
 
-    /// How a formula depends on a parameter, by way of other parameters if need be.
-    pub(crate) fn degree(&self, formula: FormulaId, parameter: usize) -> Degree {
-        Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() }.degree(formula)
+    /// The constant and the slope of a formula that does not depend on the motion and is affine in a parameter `p`,
+    /// `constant + slope p`; none if it is not affine.
+    pub(crate) fn line_of(&self, formula: FormulaId, parameter: usize) -> Option<[f64; 2]> {
+        let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
+        if places.degree(formula) == Degree::Other {
+            return None;
+        }
+        let [at_zero, at_one] = [0.0, 1.0].map(|value| self.value_at(formula, parameter, value));
+        let constant = at_zero?;
+        Some([constant, at_one? - constant])
+    }
+
+    /// The value that a formula of parameters would have with a value of one of them, whether or not it is allowed.
+    fn value_at(&self, formula: FormulaId, parameter: usize, value: f64) -> Option<f64> {
+        let mut parameters = vec![0.0; self.parameters.len()];
+        let evaluate = |id: FormulaId, parameters: &[f64]| {
+            let values = Values { parameters, coordinates: &[], rates: &[], time: 0.0 };
+            self.formula(id).expression.evaluate(&values)
+        };
+        for &index in &self.evaluation_order {
+            let own = self.parameters[index].value;
+            // One without a value is not used, or has been refused before.
+            let following = || evaluate(own, &parameters).unwrap_or(f64::NAN);
+            parameters[index] = if index == parameter { value } else { following() };
+        }
+        evaluate(formula, &parameters).ok()
     }
 
     /// How all parameters depend on one.

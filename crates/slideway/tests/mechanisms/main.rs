@@ -17,6 +17,7 @@ mod gallery_frictionless;
 mod guided_slider;
 mod klepp_2002;
 mod limits;
+mod limits_known;
 mod limits_properties;
 mod loads;
 mod margins;

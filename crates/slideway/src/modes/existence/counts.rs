@@ -7,8 +7,6 @@ use crate::modes::solutions::ContactState;
 
 /// Ends closer than this share of the larger one are the same.
 const SAME_END: f64 = 1e-10;
-/// Solutions that differ by less than this share of the largest force are the same.
-const SAME_SOLUTION: f64 = 1e-8;
 
 /// An interval of the parameter with the same number of solutions throughout.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,18 +73,21 @@ fn middle([from, to]: [f64; 2]) -> f64 {
 
 impl ModeProblemLine {
     /// Number of different solutions of some modes at a parameter where all of them exist.
+    ///
+    /// Two patterns have the same solution only if the normal forces of all contacts in which they differ vanish in both, that
+    /// is, within their own rounding errors, however small they are beside others.
     pub fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
         if modes.len() < 2 {
             return modes.len();
         }
-        let mut known: Vec<DVector<f64>> = Vec::with_capacity(modes.len());
+        let mut known: Vec<(&[ContactState], Vec<bool>)> = Vec::with_capacity(modes.len());
         for mode in modes {
-            let Some(force) = self.normal_force(&mode.pattern, at) else { continue };
-            let same = |other: &DVector<f64>| {
-                (other - &force).amax() <= SAME_SOLUTION * force.amax().max(other.amax())
+            let Some(vanishes) = self.line(&mode.pattern).vanishes(at) else { continue };
+            let same = |(pattern, other): &(&[ContactState], Vec<bool>)| {
+                (0..pattern.len()).all(|k| pattern[k] == mode.pattern[k] || other[k] && vanishes[k])
             };
             if !known.iter().any(same) {
-                known.push(force);
+                known.push((&mode.pattern, vanishes));
             }
         }
         known.len()

@@ -193,6 +193,16 @@ impl Line {
         self.matrix_at(at).lu().solve(&self.right_hand_side_at(at))
     }
 
+    /// Which unknowns are zero within rounding, at a parameter where the equations are regular: no greater than the tolerance
+    /// times `|A^-1| (|A| |z| + |b|)`, the size of what they are the sum of.
+    pub(super) fn vanishes(&self, at: f64) -> Option<Vec<bool>> {
+        let (matrix, right) = (self.matrix_at(at), self.right_hand_side_at(at));
+        let solution = self.solution(at)?;
+        let terms = matrix.abs() * solution.abs() + right.abs();
+        let size = matrix.try_inverse()?.abs() * terms;
+        Some(solution.iter().zip(&size).map(|(value, size)| value.abs() <= TOLERANCE * size).collect())
+    }
+
     /// What every unknown does towards the end of a part, whose other end is given.
     pub(super) fn limits(&self, end: &End, other: f64) -> Option<Vec<Limit>> {
         if end.at.is_infinite() {
