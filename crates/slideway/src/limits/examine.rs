@@ -8,8 +8,8 @@ use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, cells}
 use crate::solve::SolveOptions;
 use std::collections::VecDeque;
 
-/// Nothing is proven nearer than this to an end between two numbers of solutions, relative to the interval and to the end.
-pub(super) const MARGIN: f64 = 1e-6;
+/// Nothing is proven nearer than this to an end of a mode, relative to the interval up to the next end and to the end itself.
+pub(super) const MARGIN: f64 = 1e-4;
 /// Parts narrower than this share of the margin are not halved.
 const NARROW: f64 = 0.25;
 /// A search that visits more nodes than this counts as several.
@@ -30,6 +30,19 @@ pub(super) struct Examiner<'v> {
     left: u64,
 }
 
+/// What lies between neighbouring ends of modes, and what is proven of it.
+struct Cell {
+    /// The interval of equal numbers to which it belongs.
+    interval: usize,
+    wanted: [usize; 2],
+    bounds: [f64; 2],
+    /// What is to be proven: all but what is next to the ends of modes.
+    part: [f64; 2],
+    proven: Vec<[f64; 2]>,
+    open: Vec<[f64; 2]>,
+    contradicted: Option<f64>,
+}
+
 impl<'v> Examiner<'v> {
     pub(super) fn new(varied: &'v Varied, options: &ExistenceOptions, effort: u64) -> Self {
         let search = SearchOptions { nodes: GREATEST_NODES, ..SearchOptions::default() };
@@ -39,94 +52,83 @@ impl<'v> Examiner<'v> {
 
     /// Says of every interval of `found` how its number of solutions is known. Returns values at which another number is proven.
     pub(super) fn examine(&mut self, found: &mut Found) -> Vec<f64> {
-        let mut contradicted = Vec::new();
-        let intervals = found.counts.len() as u64;
+        let intervals = found.counts.iter().enumerate();
+        let mut cells: Vec<Cell> =
+            intervals.flat_map(|(index, interval)| self.cells(index, interval, &found.existence)).collect();
+        // What is asked for where nothing could be proven.
+        let reserved = self.left.min((cells.len() * CHECKED.len()) as u64);
+        self.left -= reserved;
+        self.prove(&mut cells);
+        self.left += reserved;
+        cells.iter_mut().for_each(|cell| self.check(cell));
         for (index, interval) in found.counts.iter().enumerate() {
-            let share = self.left / (intervals - index as u64);
-            let rest = self.left - share;
-            self.left = share;
-            let outcome = self.interval(interval, &found.existence);
-            self.left += rest;
-            contradicted.extend(outcome.contradicted);
-            let elsewhere = match found.method {
-                _ if outcome.contradicted.is_some() => Elsewhere::Contradicted,
-                _ if outcome.is_whole => Elsewhere::Nothing,
-                Method::Bracketing => Elsewhere::Sampled(spacing(&found.tried, [interval.from, interval.to])),
-                Method::ClosedForm | Method::Same { .. } => Elsewhere::ClosedForm,
+            let own = || cells.iter().filter(|cell| cell.interval == index);
+            let elsewhere = if own().any(|cell| cell.contradicted.is_some()) {
+                Elsewhere::Contradicted
+            } else if own().all(|cell| cell.open.is_empty()) {
+                Elsewhere::Nothing
+            } else if found.method == Method::Bracketing {
+                Elsewhere::Sampled(spacing(&found.tried, [interval.from, interval.to]))
+            } else {
+                Elsewhere::ClosedForm
             };
-            found.known[index] = Knowledge { proven: outcome.longest(), elsewhere };
+            let proven = longest(own());
+            found.known[index] = Knowledge { proven, elsewhere };
         }
-        contradicted
+        cells.iter().filter_map(|cell| cell.contradicted).collect()
     }
 
-    /// An interval, cell by cell between the ends of modes; what is next to these belongs to the cells on both sides.
-    fn interval(&mut self, interval: &CountInterval, existence: &Existence) -> Outcome {
-        let wanted = [interval.solutions, interval.gap_states];
+    /// The cells of an interval between the ends of modes.
+    fn cells(&self, index: usize, interval: &CountInterval, existence: &Existence) -> Vec<Cell> {
         let whole = [interval.from, interval.to];
         let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
         let inside = ends.filter(|end| whole[0] < *end && *end < whole[1]);
         let near = |next: f64, kept: f64| next - kept <= MARGIN * margin(kept, whole);
-        let cells = cells(inside.chain(whole), near);
-        let mut outcome = Outcome { is_whole: true, ..Outcome::default() };
-        for (index, &[from, to]) in cells.iter().enumerate() {
-            let room = |end: f64| if self.options.range.contains(&end) { 0.0 } else { margin(end, [from, to]) };
-            let part = [from + room(from), to - room(to)];
-            let rest = self.left - self.left / (cells.len() - index) as u64;
-            self.left -= rest;
-            let mut of_cell = self.prove(part, [from, to], wanted);
-            self.left += rest;
-            if of_cell.contradicted.is_some() {
-                return of_cell;
+        let cell = |bounds: [f64; 2]| {
+            let room = |end: f64| if self.options.range.contains(&end) { 0.0 } else { margin(end, bounds) };
+            Cell {
+                interval: index,
+                wanted: [interval.solutions, interval.gap_states],
+                bounds,
+                part: [bounds[0] + room(bounds[0]), bounds[1] - room(bounds[1])],
+                proven: Vec::new(),
+                open: Vec::new(),
+                contradicted: None,
             }
-            // Stretches on both sides of an end between modes are one, but for what is next to it.
-            if let (Some(last), Some(first)) = (outcome.proven.last_mut(), of_cell.proven.first())
-                && last[1] >= from - margin(from, whole)
-                && first[0] <= part[0]
-            {
-                last[1] = first[1];
-                of_cell.proven.remove(0);
-            }
-            outcome.proven.extend(of_cell.proven);
-            outcome.is_whole &= of_cell.is_whole;
-        }
-        outcome
+        };
+        cells(inside.chain(whole), near).into_iter().map(cell).collect()
     }
 
-    fn prove(&mut self, whole: [f64; 2], interval: [f64; 2], wanted: [usize; 2]) -> Outcome {
-        let (mut proven, mut open) = (Vec::new(), Vec::new());
-        let mut waiting = if self.is_within_reach(whole) { VecDeque::from([whole]) } else { VecDeque::new() };
-        if waiting.is_empty() {
-            open.push(whole);
+    /// Searches the cells, then halves of what is left open, and so on.
+    fn prove(&mut self, cells: &mut [Cell]) {
+        let mut waiting = VecDeque::new();
+        for (index, cell) in cells.iter_mut().enumerate() {
+            if self.is_within_reach(cell.part) {
+                waiting.push_back((index, cell.part));
+            } else {
+                cell.open.push(cell.part);
+            }
         }
-        while let Some(part) = waiting.pop_front() {
+        while let Some((index, part)) = waiting.pop_front() {
+            let cell = &mut cells[index];
+            if cell.contradicted.is_some() {
+                continue;
+            }
             match self.counts(part) {
-                Some(counts) if counts == wanted => proven.push(part),
-                Some(_) => return Outcome::contradiction(middle(part)),
-                None => match halves(part, interval).filter(|_| self.left > 0) {
-                    Some(halves) => waiting.extend(halves),
-                    None => open.push(part),
+                Some(counts) if counts == cell.wanted => cell.proven.push(part),
+                Some(_) => cell.contradicted = Some(middle(part)),
+                None => match halves(part, cell.bounds).filter(|_| self.left > 0) {
+                    Some(halves) => waiting.extend(halves.map(|half| (index, half))),
+                    None => cell.open.push(part),
                 },
             }
         }
-        // What stays open is asked for at some values.
-        let checked: Vec<f64> = match &open[..] {
-            [only] => CHECKED.map(|share| only[0] + share * (only[1] - only[0])).to_vec(),
-            many => many.iter().step_by(many.len().div_ceil(CHECKED.len()).max(1)).map(|&part| middle(part)).collect(),
-        };
-        for at in checked {
-            if self.counts([at, at]).is_some_and(|counts| counts != wanted) {
-                return Outcome::contradiction(at);
-            }
-        }
-        let is_whole = open.is_empty() && !proven.is_empty();
-        Outcome { proven: joined(proven), is_whole, contradicted: None }
     }
 
     /// Whether parts as long as can be proven in the middle of a cell cover it with the searches that are left.
     fn is_within_reach(&mut self, [from, to]: [f64; 2]) -> bool {
         let at = middle([from, to]);
-        let mut reach = (at - from).min(to - at);
-        let mut parts = 1;
+        let (mut reach, mut parts) = ((at - from).min(to - at), 1);
         while parts <= 2 * self.left {
             if self.counts([at - reach, at + reach]).is_some() {
                 return true;
@@ -134,6 +136,19 @@ impl<'v> Examiner<'v> {
             (reach, parts) = (0.25 * reach, 4 * parts);
         }
         false
+    }
+
+    /// Asks at some values of what stays open.
+    fn check(&mut self, cell: &mut Cell) {
+        let values: Vec<f64> = match &cell.open[..] {
+            [only] => CHECKED.map(|share| only[0] + share * (only[1] - only[0])).to_vec(),
+            many => {
+                let step = many.len().div_ceil(CHECKED.len()).max(1);
+                many.iter().step_by(step).map(|&part| middle(part)).collect()
+            }
+        };
+        let differs = |at: &f64| self.counts([*at, *at]).is_some_and(|counts| counts != cell.wanted);
+        cell.contradicted = cell.contradicted.or(values.into_iter().find(differs));
     }
 
     /// The numbers of solutions and gap states that are proven for all values of a part.
@@ -148,23 +163,23 @@ impl<'v> Examiner<'v> {
     }
 }
 
-/// What was proven of an interval.
-#[derive(Default)]
-struct Outcome {
-    /// Stretches, in their order.
-    proven: Vec<[f64; 2]>,
-    is_whole: bool,
-    contradicted: Option<f64>,
-}
-
-impl Outcome {
-    fn contradiction(at: f64) -> Self {
-        Self { contradicted: Some(at), ..Self::default() }
+/// The longest proven stretch of some cells in their order; what is next to an end between two of them does not interrupt it.
+fn longest<'c>(cells: impl Iterator<Item = &'c Cell>) -> Option<[f64; 2]> {
+    let mut stretches: Vec<[f64; 2]> = Vec::new();
+    let mut is_to_its_end = false;
+    for cell in cells {
+        let mut proven = cell.proven.clone();
+        proven.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        for part in proven {
+            let goes_on = is_to_its_end && part[0] == cell.part[0];
+            match stretches.last_mut() {
+                Some(last) if goes_on || last[1] == part[0] => last[1] = part[1],
+                _ => stretches.push(part),
+            }
+        }
+        is_to_its_end = stretches.last().is_some_and(|last| last[1] == cell.part[1]);
     }
-
-    fn longest(&self) -> Option<[f64; 2]> {
-        self.proven.iter().copied().max_by(|one, other| (one[1] - one[0]).total_cmp(&(other[1] - other[0])))
-    }
+    stretches.into_iter().max_by(|one, other| (one[1] - one[0]).total_cmp(&(other[1] - other[0])))
 }
 
 /// How near to an end of an interval nothing is proven.
@@ -189,19 +204,6 @@ fn halves(part: [f64; 2], interval: [f64; 2]) -> Option<[[f64; 2]; 2]> {
     let cut = middle(part);
     let is_worth_it = part[1] - part[0] > least && part[0] < cut && cut < part[1];
     is_worth_it.then_some([[part[0], cut], [cut, part[1]]])
-}
-
-/// Parts that touch each other as one.
-fn joined(mut parts: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    parts.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let mut joined: Vec<[f64; 2]> = Vec::new();
-    for part in parts {
-        match joined.last_mut() {
-            Some(last) if last[1] == part[0] => last[1] = part[1],
-            _ => joined.push(part),
-        }
-    }
-    joined
 }
 
 /// The greatest distance between neighbouring values in an interval.

@@ -40,7 +40,7 @@ fn knowledge(found: &Found) -> Option<String> {
     }
     if found.known.iter().all(|known| known.elsewhere == Elsewhere::Nothing) {
         return Some(format!(
-            "The numbers of solutions are proven, but for a millionth of each interval next to its ends{}.",
+            "The numbers of solutions are proven, but for a ten-thousandth of what lies between two ends of modes, next to these{}.",
             if matches!(found.method, Method::Bracketing) { ", which come from rounded numbers" } else { "" }
         ));
     }

@@ -45,7 +45,7 @@ use crate::mechanism::MAGNITUDES;
 use crate::model::Model;
 
 /// Certified searches that are made by default to prove numbers of solutions.
-pub const EFFORT: u64 = 1000;
+pub const EFFORT: u64 = 800;
 /// Without a range the factor of all coefficients of friction is varied from 0 to this.
 const USUAL_FACTOR: f64 = 10.0;
 /// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.

@@ -133,7 +133,7 @@ pub struct CountLimits {
     /// How these numbers are known.
     pub known: Known,
     /// The longest stretch for all values of which they are proven; null where there is none. If `known` is `proven` that is all
-    /// of the interval, but for a millionth next to ends at which they change.
+    /// of the interval, but for a ten-thousandth of what lies between two ends of modes, next to these.
     pub proven: Option<[f64; 2]>,
     /// Where they were sampled: the greatest distance between neighbouring values; else null.
     pub spacing: Option<f64>,
@@ -143,7 +143,7 @@ pub struct CountLimits {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
-    /// By the certified search for all values between its ends, but for a millionth of it next to ends at which they change.
+    /// By the certified search for all values, but for a ten-thousandth of what lies between two ends of modes, next to these.
     Proven,
     /// Outside [`CountLimits::proven`] by zeros of determinants, which were computed in rounded numbers.
     ClosedForm,

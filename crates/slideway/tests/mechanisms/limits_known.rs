@@ -59,7 +59,6 @@ fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
     for (vary, expected) in [
         ("F_20=0 N..20 N", "closed form"),
         ("P=-5 N..5 N", "closed form"),
-        ("k=0 N/m..10 N/m", "nothing depends on it"),
         ("c=0 N s/m..10 N s/m", "closed form"),
         ("g=1 m/s^2..20 m/s^2", "closed form"),
         ("m=1 kg..2 kg", "bracketing"),
@@ -119,11 +118,11 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let proven = with_effort(&drawer, "mu=0..1", 400);
     assert!(proven.counts.iter().all(|count| count.known == Known::Proven), "{:?}", proven.counts);
     let [moves, locked] = &proven.counts[..] else { panic!("{:?}", proven.counts) };
-    // mu = L / (2 a), and no nearer to it than a millionth.
+    // mu = L / (2 a), and no nearer to it than a ten-thousandth of both intervals.
     let locking: f64 = 2.0 / 3.0;
     let [stretch, beyond] = [moves, locked].map(|count| count.proven.expect("proven"));
     assert!(stretch[0] == 0.0 && beyond[1] == 1.0);
-    assert!(stretch[1] < locking && locking - stretch[1] < 2e-6 && beyond[0] > locking && beyond[0] - locking < 2e-6);
+    assert!(stretch[1] < locking && locking - stretch[1] < 1e-4 && beyond[0] > locking && beyond[0] - locking < 1e-4);
     assert_eq!(of(&drawer, "mu=0..1").counts[0].known, Known::ClosedForm);
 }
 
@@ -196,13 +195,13 @@ fn ranges_that_make_no_sense_are_refused() {
 fn a_threshold_follows_the_formula_of_static_friction() {
     let text = gallery::find("bracket-on-pole").expect("in the gallery").text;
     let of = |formula: &str| {
-        let text = text.replace("[points]", "p = 0.3\n[points]");
+        let text = text.replace("\nmu = 0.2 ", "\np = 0.3\nmu = 0.05 ");
         let text = text.replace("mu_static = \"mu_static\"", &format!("mu_static = \"{formula}\""));
         let options = HoldOptions { load: Some("W".into()), vary: Some("p".into()), ..HoldOptions::default() };
         hold(&Model::parse(&text).expect("sound"), &options)
     };
     for (formula, expected) in [("p", 0.25), ("2*p + 0.05", 0.1)] {
-        let threshold = of(formula).expect("sound").threshold.expect("asked for");
+        let threshold = of(formula).expect("sound").load.expect("it is varied").threshold;
         assert!((threshold.value.expect("reached") - expected).abs() < 1e-10, "{formula}");
         assert_eq!(threshold.present, 0.3);
     }
