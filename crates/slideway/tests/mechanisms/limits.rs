@@ -173,7 +173,7 @@ fn positions_that_cannot_be_assembled_are_no_locking() {
     let report = of("slider-crank", &[], "r=20 mm..400 mm");
     assert!(!report.without_mode_problem.is_empty(), "{report:#?}");
     let covered: f64 = report.counts.iter().map(|count| count.to - count.from).sum();
-    let gaps: f64 = report.without_mode_problem.iter().map(|gap| gap[1] - gap[0]).sum();
+    let gaps: f64 = report.without_mode_problem.iter().map(|gap| gap.to - gap.from).sum();
     assert!((covered + gaps - 0.38).abs() < 1e-6);
 }
 

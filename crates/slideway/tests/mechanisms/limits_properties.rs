@@ -133,6 +133,22 @@ fn numbers<'v>(value: &'v mut Value, found: &mut Vec<&'v mut Value>) {
     }
 }
 
+/// A value as TOML on one line.
+fn inline(value: &Value) -> String {
+    match value {
+        Value::Table(table) => {
+            let entries = table.iter().map(|(key, value)| format!("{key} = {}", inline(value)));
+            format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
+        }
+        Value::Array(list) => format!("[{}]", list.iter().map(inline).collect::<Vec<_>>().join(", ")),
+        Value::String(text) => format!("{text:?}"),
+        Value::Float(number) => format!("{number:?}"),
+        Value::Integer(number) => number.to_string(),
+        Value::Boolean(truth) => truth.to_string(),
+        Value::Datetime(_) => panic!("no model has a date"),
+    }
+}
+
 /// A mechanism, what is varied in it, and over which range: any number of the file, the value of a coordinate, or all friction.
 fn varied(drawing: &Drawing, choice: f64) -> Option<(Model, String)> {
     let mut file: Value = toml::from_str(&drawing.text()).expect("TOML");
@@ -155,7 +171,8 @@ fn varied(drawing: &Drawing, choice: f64) -> Option<(Model, String)> {
     *place = Value::String("p".to_owned());
     let ends = [0.6 * number, 1.5 * number];
     let [from, to] = if number > 0.0 { ends } else { [ends[1], ends[0]] };
-    let text = format!("parameters.p = {number:?}\n{}", toml::to_string(&file).expect("TOML"));
+    let sections = file.as_table().expect("sections").iter().map(|(key, value)| format!("{key} = {}", inline(value)));
+    let text = format!("parameters = {{ p = {number:?} }}\n{}", sections.collect::<Vec<_>>().join("\n"));
     Some((Model::parse(&text).expect("sound"), format!("p={from:e}..{to:e}")))
 }
 
