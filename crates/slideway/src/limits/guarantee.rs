@@ -9,9 +9,9 @@ pub(crate) fn guarantee(found: &Found) -> String {
         Method::ClosedForm => {
             "The mode problem depends linearly on it, so that all ends are zeros of determinants.".to_owned()
         }
-        Method::Same { at_rest: false } => "Nothing that moves depends on it.".to_owned(),
+        Method::Same { at_rest: false } => "The mode problem does not depend on it.".to_owned(),
         Method::Same { at_rest: true } => {
-            "Nothing that moves depends on it: static friction counts at rest (`slideway hold`).".to_owned()
+            "The mode problem does not depend on it: static friction counts at rest (`slideway hold`).".to_owned()
         }
         Method::Bracketing => format!(
             "{} values were tried, and what changes between them was bisected to machine precision.",

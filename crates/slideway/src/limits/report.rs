@@ -27,7 +27,7 @@ pub struct LimitsReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
-    /// "closed form", "bracketing", or "nothing depends on it".
+    /// "closed form", "bracketing", or "independent".
     pub method: &'static str,
     /// What the method can miss, in words.
     pub guarantee: String,
@@ -307,7 +307,7 @@ pub(super) fn report(
         vary: VariedQuantity::new(varied, range, value),
         method: match found.method {
             Method::ClosedForm => "closed form",
-            Method::Same { .. } => "nothing depends on it",
+            Method::Same { .. } => "independent",
             Method::Bracketing => "bracketing",
         },
         guarantee,

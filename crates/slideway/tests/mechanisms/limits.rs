@@ -208,7 +208,7 @@ fn a_parameter_on_which_nothing_depends_has_the_same_limits_everywhere() {
         .replace("[parameters]", "[parameters]\nidle = 1");
     let model = Model::parse(&text).expect("sound");
     let report = limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("idle=0..1") }).expect("sound");
-    assert_eq!(report.method, "nothing depends on it");
+    assert_eq!(report.method, "independent");
     assert_eq!(report.counts.len(), 1);
     assert!(report.conclusion[0].contains("the same in the whole range: one solution"));
 }

@@ -58,13 +58,13 @@ fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
     let klepp = gallery::find("klepp-2002").expect("in the gallery").text;
     for (vary, expected) in [
         ("F_20=0 N..20 N", "closed form"),
-        ("P=-5 N..5 N", "closed form"),
+        ("P=-5 N..5 N", "independent"),
         ("c=0 N s/m..10 N s/m", "closed form"),
         ("g=1 m/s^2..20 m/s^2", "closed form"),
         ("m=1 kg..2 kg", "bracketing"),
         ("alpha=70 deg..80 deg", "bracketing"),
     ] {
-        // The preload `m*g` follows from both.
+        // The preload `m*g` follows from both. A horizontal force accelerates the bar, but presses it nowhere.
         assert_eq!(method(klepp, vary), expected, "{vary}");
     }
     let formulas = [("2*x/4 + 0.1", "closed form"), ("max(x, 0.3)", "bracketing"), ("x*x/x", "bracketing")];
@@ -134,7 +134,7 @@ fn wide_ranges_have_the_ends_of_narrow_ones() {
     let [narrow, wide] = ["mu_1=0..3", "mu_1=0..1e9"].map(|vary| of(&klepp, vary));
     assert_eq!(narrow.counts.len(), wide.counts.len(), "{:?}", wide.counts);
     for (one, other) in narrow.counts.iter().zip(&wide.counts) {
-        assert!((one.from - other.from).abs() < 1e-9 * one.from.abs(), "{one:?} {other:?}");
+        assert!((one.from - other.from).abs() <= 1e-9 * one.from.abs(), "{one:?} {other:?}");
         assert_eq!((one.solutions, one.preload_gap_states), (other.solutions, other.preload_gap_states));
     }
     assert_eq!(at(&wide, 989_884_816.0).solutions, 2);
@@ -170,7 +170,7 @@ fn reasons_are_the_true_ones() {
     assert_eq!([gap.from, gap.to], [0.3, 1.0]);
     assert!(gap.reason.contains("static friction"), "{}", gap.reason);
     let report = of(&file("sash"), "mu_s=0.25..1");
-    assert_eq!(report.method, "nothing depends on it");
+    assert_eq!(report.method, "independent");
     assert!(report.guarantee.contains("hold"), "{}", report.guarantee);
     assert!(report.conclusion[0].contains("the same in the whole range: one solution"), "{:?}", report.conclusion);
 }
