@@ -96,16 +96,14 @@ fn found(varied: &Varied, options: &ExistenceOptions, effort: u64) -> Result<Fou
         None => scanner.scan(&[])?,
     };
     let mut places = Vec::new();
-    for _ in 0..ROUNDS {
-        let mut examiner = Examiner::new(varied, options, effort);
-        let contradicted = examiner.examine(&mut found);
-        if contradicted.is_empty() {
+    for round in 0..=ROUNDS {
+        let contradicted = Examiner::new(varied, options, effort).examine(&mut found);
+        if contradicted.is_empty() || round == ROUNDS {
             break;
         }
         places.extend(contradicted);
         found = scanner.scan(&places)?;
     }
-    Examiner::new(varied, options, effort).examine(&mut found);
     if varied.dependence().problem == Degree::Constant && found.method == Method::Bracketing {
         found.method = Method::Same { at_rest: varied.dependence().at_rest };
     }
