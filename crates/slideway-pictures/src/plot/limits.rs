@@ -1,7 +1,9 @@
 //! The figure of limits: a quantity along every mode over what is varied.
 
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
-use slideway::limits::{self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem};
+use slideway::limits::{
+    self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem,
+};
 use slideway::report::{Verdict, precise};
 
 /// Values closer than this share of the range are one value in a plot.
@@ -207,9 +209,9 @@ fn zones(
     [first, last]: [f64; 2],
     scale: f64,
 ) -> Vec<Zone> {
-    let locked = counts.iter().filter(|count| {
-        count.solutions + count.preload_gap_states == 0 && count.known != Known::Undecided
-    });
+    let locked = counts
+        .iter()
+        .filter(|count| count.solutions + count.preload_gap_states == 0 && count.known != Known::Undecided);
     let zone = |[from, to]: [f64; 2], hatching: Hatching, meaning: &str| Zone {
         from: from / scale,
         to: to / scale,

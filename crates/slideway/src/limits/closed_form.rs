@@ -62,7 +62,8 @@ pub(super) fn closed_form(
 /// The interval of values that the model allows within a range; none if it has no extent or was not found.
 fn allowed(varied: &Varied, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let is_allowed = |at: f64| varied.parts(at).is_ok();
-    let value = |step: usize| if step == TRIED { to } else { from + (to - from) * step as f64 / TRIED as f64 };
+    let value =
+        |step: usize| if step == TRIED { to } else { from + (to - from) * step as f64 / TRIED as f64 };
     let even = (0..=TRIED).map(value);
     let present = varied.present().ok().filter(|value| (from..=to).contains(value));
     let inside = even.chain(present).find(|&at| is_allowed(at))?;
@@ -94,7 +95,8 @@ fn pieces(varied: &Varied, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let Some(scale) = scale.filter(|scale| *scale > 0.0) else { return vec![[from, to]] };
     let shares = std::iter::successors(Some(REACH * scale), |share| Some(share * REACH));
     let inner = shares.take_while(|share| *share < 0.5).take(PIECES);
-    let mut cuts: Vec<f64> = [anchor, far].into_iter().chain(inner.map(|share| anchor + share * (far - anchor))).collect();
+    let mut cuts: Vec<f64> =
+        [anchor, far].into_iter().chain(inner.map(|share| anchor + share * (far - anchor))).collect();
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
     cuts.windows(2).map(|pair| [pair[0], pair[1]]).collect()
@@ -127,9 +129,9 @@ fn append(all: &mut Vec<CountInterval>, more: Vec<CountInterval>) {
 
 /// Joins modes that go on in the next piece, and sorts them. One that ends exactly where a piece does has not been understood.
 fn join(existence: &mut Existence, [from, to]: [f64; 2]) {
-    existence.modes.sort_by(|one, other| {
-        one.pattern.cmp(&other.pattern).then(one.from.at.total_cmp(&other.from.at))
-    });
+    existence
+        .modes
+        .sort_by(|one, other| one.pattern.cmp(&other.pattern).then(one.from.at.total_cmp(&other.from.at)));
     let mut joined: Vec<ModeInterval> = Vec::with_capacity(existence.modes.len());
     for mode in existence.modes.drain(..) {
         match joined.last_mut() {

@@ -78,11 +78,8 @@ impl Gap {
 /// # Errors
 /// Too many modes.
 pub(crate) fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
-    let existence = ExistenceOptions {
-        range,
-        greatest_normal_force: options.max_reaction,
-        patterns: PATTERNS,
-    };
+    let existence =
+        ExistenceOptions { range, greatest_normal_force: options.max_reaction, patterns: PATTERNS };
     let found = found(varied, &existence, options.effort);
     found.map_err(|TooManyModes { contacts, limit, .. }| {
         Fault::general(FaultKind::TooManyModes { contacts, limit }).into()

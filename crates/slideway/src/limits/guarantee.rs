@@ -11,7 +11,8 @@ pub(crate) fn guarantee(found: &Found) -> String {
         }
         Method::Same { at_rest: false } => "The mode problem does not depend on it.".to_owned(),
         Method::Same { at_rest: true } => {
-            "The mode problem does not depend on it: static friction counts at rest (`slideway hold`).".to_owned()
+            "The mode problem does not depend on it: static friction counts at rest (`slideway hold`)."
+                .to_owned()
         }
         Method::Bracketing => format!(
             "{} values were tried, and what changes between them was bisected to machine precision.",
@@ -31,7 +32,8 @@ pub(crate) fn guarantee(found: &Found) -> String {
 /// How the numbers of solutions are known.
 fn knowledge(found: &Found) -> Option<String> {
     let known = found.known.iter().map(|known| known.elsewhere);
-    let sampled = known.clone().filter_map(|one| if let Elsewhere::Sampled(by) = one { Some(by) } else { None });
+    let sampled =
+        known.clone().filter_map(|one| if let Elsewhere::Sampled(by) = one { Some(by) } else { None });
     let spacing = sampled.fold(0.0, f64::max);
     let is_any = |wanted: Elsewhere| found.known.iter().any(|known| known.elsewhere == wanted);
     let is_proven = found.known.iter().any(|known| known.proven.is_some());
@@ -59,7 +61,9 @@ fn knowledge(found: &Found) -> Option<String> {
         ));
     }
     if is_any(Elsewhere::Contradicted) {
-        parts.push("intervals that are not decided contain a value with another number of solutions".to_owned());
+        parts.push(
+            "intervals that are not decided contain a value with another number of solutions".to_owned(),
+        );
     }
     let mut text = parts.join("; ");
     if let Some(first) = text.get_mut(..1) {

@@ -1,9 +1,9 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::conclusion::conclusion;
-use super::varied::Varied;
 use super::find::{Elsewhere, Found, Knowledge, Method};
 use super::guarantee::guarantee;
+use super::varied::Varied;
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;

@@ -51,9 +51,8 @@ impl Scanner<'_> {
     /// More patterns than the options allow.
     pub(super) fn scan(&self, further: &[f64]) -> Result<Found, TooManyModes> {
         let [from, to] = self.options.range;
-        let even = (0..=STEPS).map(|step| {
-            if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 }
-        });
+        let even = (0..=STEPS)
+            .map(|step| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 });
         let mut places = Vec::new();
         self.add(&mut places, even.chain(further.iter().copied()))?;
         let edges = self.edges(&places);
@@ -74,7 +73,8 @@ impl Scanner<'_> {
             let middle = f64::midpoint(*from, *to);
             !gaps.iter().any(|gap| gap.from < middle && middle < gap.to)
         };
-        let cells: Vec<[f64; 2]> = self.cells(&existence.modes, &gaps).into_iter().filter(is_covered).collect();
+        let cells: Vec<[f64; 2]> =
+            self.cells(&existence.modes, &gaps).into_iter().filter(is_covered).collect();
         let counts = counts_in(&existence, &cells, &|modes, at| {
             self.line(at).map_or(modes.len(), |line| line.distinct(modes, 0.0))
         });

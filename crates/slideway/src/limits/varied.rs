@@ -105,7 +105,8 @@ impl Varied {
     /// A factor of friction: a plain number, not below zero.
     fn factor(&self, text: &str) -> Result<f64, Faults> {
         let text = text.trim();
-        let fault = |problem| Fault::general(FaultKind::Axis { text: format!("{}={text}", self.name), problem });
+        let fault =
+            |problem| Fault::general(FaultKind::Axis { text: format!("{}={text}", self.name), problem });
         match text.parse::<f64>() {
             Ok(value) if value < 0.0 => Err(fault(AxisProblem::NegativeFriction { value }).into()),
             Ok(value) if value.is_finite() => Ok(value),

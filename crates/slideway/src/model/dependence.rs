@@ -36,11 +36,7 @@ impl Model {
         let at_rest = places.static_friction();
         let conditions = at_rest.max(places.conditions());
         let elsewhere = if places.others() == Degree::Constant { Degree::Constant } else { Degree::Other };
-        Dependence {
-            problem: affine.max(elsewhere),
-            conditions,
-            at_rest: at_rest != Degree::Constant,
-        }
+        Dependence { problem: affine.max(elsewhere), conditions, at_rest: at_rest != Degree::Constant }
     }
 
     /// The constant and the slope of a formula that does not depend on the motion and is affine in a parameter `p`,
@@ -113,14 +109,18 @@ impl Places<'_> {
 
     fn friction(&mut self) -> Degree {
         let contacts = self.model.contacts();
-        let ids = contacts.flat_map(|contact| contact.mu.into_iter().chain(contact.preload.into_iter().flatten()));
+        let ids =
+            contacts.flat_map(|contact| contact.mu.into_iter().chain(contact.preload.into_iter().flatten()));
         self.greatest(ids.collect::<Vec<_>>())
     }
 
     fn static_friction(&mut self) -> Degree {
         let own = |contact: &super::Contact| {
             let pairs = contact.mu_static.into_iter().zip(contact.mu);
-            pairs.filter(|(mu_static, mu)| mu_static != mu).map(|(mu_static, _)| mu_static).collect::<Vec<_>>()
+            pairs
+                .filter(|(mu_static, mu)| mu_static != mu)
+                .map(|(mu_static, _)| mu_static)
+                .collect::<Vec<_>>()
         };
         self.greatest(self.model.contacts().flat_map(own).collect::<Vec<_>>())
     }
@@ -134,7 +134,9 @@ impl Places<'_> {
             LoadKind::Force { force: ForceValue::Components(components), .. } => self.greatest(*components),
             LoadKind::Force { force: ForceValue::Along(magnitude, _), .. } => self.degree(*magnitude),
             LoadKind::Torque { moment, .. } => self.degree(*moment),
-            LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => self.degree(*damping),
+            LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => {
+                self.degree(*damping)
+            }
             LoadKind::Spring { stiffness, free_length: free, .. }
             | LoadKind::TorsionalSpring { stiffness, free_angle: free, .. } => {
                 let stiffness = self.degree(*stiffness);

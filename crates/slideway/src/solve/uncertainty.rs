@@ -191,9 +191,10 @@ pub(crate) fn certain_counts(
     let mut counts = [0; 2];
     for (mode, presence) in presences(enclosed, result, options).ok()? {
         let pressed = |(state, _): &(&ContactState, &Interval)| **state != ContactState::Gap;
-        let forces: Option<Vec<&Interval>> = presence.unknowns.as_ref().map(|unknowns| {
-            mode.iter().zip(unknowns).filter(pressed).map(|(_, force)| force).collect()
-        });
+        let forces: Option<Vec<&Interval>> = presence
+            .unknowns
+            .as_ref()
+            .map(|unknowns| mode.iter().zip(unknowns).filter(pressed).map(|(_, force)| force).collect());
         let greatest = greatest.unwrap_or(f64::INFINITY);
         if forces.as_ref().is_some_and(|forces| forces.iter().any(|force| force.lower() > greatest)) {
             continue;

@@ -36,7 +36,8 @@ struct Interval {
 
 fn of(name: &str, list: &[(&str, &str)], vary: &str) -> LimitsReport {
     let model = model(name).with(&parameters(list)).expect("sound settings");
-    limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of(vary) }).unwrap_or_else(|faults| panic!("{faults}"))
+    limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of(vary) })
+        .unwrap_or_else(|faults| panic!("{faults}"))
 }
 
 fn pressed(report: &LimitsReport) -> Vec<&ModeLimits> {
@@ -156,7 +157,8 @@ fn what_is_not_linear_is_bracketed_to_the_same_ends() {
     let text = gallery::find("klepp-2002").expect("in the gallery").text;
     let squared = text.replace("\nmu_1 = 0.5 ", "\nx = 0.7\nmu_1 = \"x^2\" ");
     let model = Model::parse(&squared).expect("sound");
-    let report = limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0..0.9") }).expect("sound");
+    let report =
+        limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0..0.9") }).expect("sound");
     assert_eq!(report.method, "bracketing");
     let straight = of("klepp-2002", &[], "mu_1=0..0.81");
     assert_eq!(report.modes.len(), straight.modes.len());
@@ -178,7 +180,9 @@ fn positions_that_cannot_be_assembled_are_no_locking() {
 }
 
 fn fault(vary: &str) -> FaultKind {
-    let faults: Faults = limits(&model("klepp-2002"), &LimitsOptions { effort: 0, ..LimitsOptions::of(vary) }).expect_err("a fault");
+    let faults: Faults =
+        limits(&model("klepp-2002"), &LimitsOptions { effort: 0, ..LimitsOptions::of(vary) })
+            .expect_err("a fault");
     faults.sorted()[0].kind.clone()
 }
 
@@ -207,7 +211,8 @@ fn a_parameter_on_which_nothing_depends_has_the_same_limits_everywhere() {
         .text
         .replace("[parameters]", "[parameters]\nidle = 1");
     let model = Model::parse(&text).expect("sound");
-    let report = limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("idle=0..1") }).expect("sound");
+    let report =
+        limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("idle=0..1") }).expect("sound");
     assert_eq!(report.method, "independent");
     assert_eq!(report.counts.len(), 1);
     assert!(report.conclusion[0].contains("the same in the whole range: one solution"));

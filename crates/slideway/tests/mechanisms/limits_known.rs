@@ -113,7 +113,9 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let drawer = model("drawer");
     let sampled = of(&drawer, "L=0.2 m..0.5 m");
     assert!(sampled.counts.iter().all(|count| count.known == Known::Sampled && count.proven.is_none()));
-    assert!(sampled.counts.iter().all(|count| count.spacing.is_some_and(|spacing| spacing <= 0.0006 + 1e-12)));
+    assert!(
+        sampled.counts.iter().all(|count| count.spacing.is_some_and(|spacing| spacing <= 0.0006 + 1e-12))
+    );
     assert!(sampled.conclusion[0].ends_with("(sampled)."), "{:?}", sampled.conclusion);
     let proven = with_effort(&drawer, "mu=0..1", 400);
     assert!(proven.counts.iter().all(|count| count.known == Known::Proven), "{:?}", proven.counts);
@@ -122,7 +124,12 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let locking: f64 = 2.0 / 3.0;
     let [stretch, beyond] = [moves, locked].map(|count| count.proven.expect("proven"));
     assert!(stretch[0] == 0.0 && beyond[1] == 1.0);
-    assert!(stretch[1] < locking && locking - stretch[1] < 1e-4 && beyond[0] > locking && beyond[0] - locking < 1e-4);
+    assert!(
+        stretch[1] < locking
+            && locking - stretch[1] < 1e-4
+            && beyond[0] > locking
+            && beyond[0] - locking < 1e-4
+    );
     assert_eq!(of(&drawer, "mu=0..1").counts[0].known, Known::ClosedForm);
 }
 
@@ -172,13 +179,18 @@ fn reasons_are_the_true_ones() {
     let report = of(&file("sash"), "mu_s=0.25..1");
     assert_eq!(report.method, "independent");
     assert!(report.guarantee.contains("hold"), "{}", report.guarantee);
-    assert!(report.conclusion[0].contains("the same in the whole range: one solution"), "{:?}", report.conclusion);
+    assert!(
+        report.conclusion[0].contains("the same in the whole range: one solution"),
+        "{:?}",
+        report.conclusion
+    );
 }
 
 #[test]
 fn ranges_that_make_no_sense_are_refused() {
     let drawer = model("drawer");
-    let fault = |vary: &str| limits(&drawer, &LimitsOptions::of(vary)).expect_err(vary).sorted()[0].kind.clone();
+    let fault =
+        |vary: &str| limits(&drawer, &LimitsOptions::of(vary)).expect_err(vary).sorted()[0].kind.clone();
     for vary in ["friction=nan..1", "friction=0..inf", "friction=0..1e400"] {
         assert!(matches!(fault(vary), FaultKind::Axis { problem: AxisProblem::Value { .. }, .. }), "{vary}");
     }
@@ -197,7 +209,8 @@ fn a_threshold_follows_the_formula_of_static_friction() {
     let of = |formula: &str| {
         let text = text.replace("\nmu = 0.2 ", "\np = 0.3\nmu = 0.05 ");
         let text = text.replace("mu_static = \"mu_static\"", &format!("mu_static = \"{formula}\""));
-        let options = HoldOptions { load: Some("W".into()), vary: Some("p".into()), ..HoldOptions::default() };
+        let options =
+            HoldOptions { load: Some("W".into()), vary: Some("p".into()), ..HoldOptions::default() };
         hold(&Model::parse(&text).expect("sound"), &options)
     };
     for (formula, expected) in [("p", 0.25), ("2*p + 0.05", 0.1)] {

@@ -171,7 +171,8 @@ fn varied(drawing: &Drawing, choice: f64) -> Option<(Model, String)> {
     *place = Value::String("p".to_owned());
     let ends = [0.6 * number, 1.5 * number];
     let [from, to] = if number > 0.0 { ends } else { [ends[1], ends[0]] };
-    let sections = file.as_table().expect("sections").iter().map(|(key, value)| format!("{key} = {}", inline(value)));
+    let sections =
+        file.as_table().expect("sections").iter().map(|(key, value)| format!("{key} = {}", inline(value)));
     let text = format!("parameters = {{ p = {number:?} }}\n{}", sections.collect::<Vec<_>>().join("\n"));
     Some((Model::parse(&text).expect("sound"), format!("p={from:e}..{to:e}")))
 }
@@ -211,7 +212,14 @@ fn agrees(drawing: &Drawing, choice: f64, shares: &[f64], effort: u64) -> Result
                 continue;
             }
             let Some(solved) = solved(&model, &vary, value) else { continue };
-            prop_assert_eq!(solved, [count.solutions, count.preload_gap_states], "{} at {:e}: {:?}", vary, value, count);
+            prop_assert_eq!(
+                solved,
+                [count.solutions, count.preload_gap_states],
+                "{} at {:e}: {:?}",
+                vary,
+                value,
+                count
+            );
             compared += 1;
         }
     }
