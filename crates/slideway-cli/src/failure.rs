@@ -1,9 +1,11 @@
 //! Why a command could not do what it was asked to do.
 
+use crate::Outcome;
 use crate::arguments::TableFormat;
 use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
 use crate::time_series::SeriesFormat;
+use crate::watch::Halt;
 use clap::ValueEnum;
 use slideway::raw_problem::RawFaults;
 use std::fmt;
@@ -55,8 +57,10 @@ pub(crate) enum Failure {
     NoLine,
     /// A plot of a quantity that the model has none of.
     NothingToPlot,
-    /// A sweep was interrupted.
-    Interrupted { done: u64, points: u64, path: PathBuf },
+    /// The work was ended before there was an answer, or this file.
+    Halted { halt: Halt, path: Option<PathBuf> },
+    /// A sweep was ended before it was done; what is done is kept if it goes to a file.
+    Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
@@ -81,6 +85,14 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
+    /// The exit code.
+    pub(crate) fn outcome(&self) -> Outcome {
+        match self {
+            Self::Halted { halt, .. } | Self::Unswept { halt, .. } => halt.outcome(),
+            _ => Outcome::Refused,
+        }
+    }
+
     /// What is wrong, where it is not the model itself.
     fn message(&self) -> String {
         match self {
@@ -121,8 +133,19 @@ impl Failure {
                 "a plot needs one varied quantity with ascending values, and no samples".to_owned()
             }
             Self::NothingToPlot => "the model has nothing of the quantity that is to be plotted".to_owned(),
-            Self::Interrupted { done, points, path } => {
-                format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
+            Self::Halted { halt, path: None } => {
+                format!("{} before there was an answer; nothing is written", halt.in_words())
+            }
+            Self::Halted { halt, path: Some(path) } => {
+                format!("{} before `{}` was done; it is not written", halt.in_words(), path.display())
+            }
+            Self::Unswept { halt, done, points, path: Some(path) } => format!(
+                "{} after {done} of {points} points; they are kept in `{}`",
+                halt.in_words(),
+                path.display()
+            ),
+            Self::Unswept { halt, done, points, path: None } => {
+                format!("{} after {done} of {points} points", halt.in_words())
             }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
@@ -195,7 +218,13 @@ impl Failure {
                 Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
             }
             Self::NoStream => Some("name a file with --output, or use --format csv".to_owned()),
-            Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
+            Self::Halted { halt: Halt::TimeLimit(_), .. } => Some(
+                "a longer --time-limit, or a question that takes less work, such as a smaller range"
+                    .to_owned(),
+            ),
+            Self::Unswept { path: Some(_), .. } => {
+                Some("the same command with --resume goes on from there".to_owned())
+            }
             _ => None,
         }
     }

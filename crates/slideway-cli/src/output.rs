@@ -184,6 +184,11 @@ impl ProgressLine {
         Self { on_terminal: io::stderr().is_terminal(), written: false }
     }
 
+    /// Nothing is written from now on.
+    pub(crate) fn hush(&mut self) {
+        self.on_terminal = false;
+    }
+
     /// Puts this in the place of what stood there.
     pub(crate) fn show(&mut self, text: &str) {
         if self.on_terminal {
@@ -196,7 +201,14 @@ impl ProgressLine {
 impl Drop for ProgressLine {
     fn drop(&mut self) {
         if self.written {
-            let _ = write!(io::stderr(), "\r\x1b[K");
+            clear_progress();
         }
+    }
+}
+
+/// Takes the line of progress away.
+pub(crate) fn clear_progress() {
+    if io::stderr().is_terminal() {
+        let _ = write!(io::stderr(), "\r\x1b[K");
     }
 }

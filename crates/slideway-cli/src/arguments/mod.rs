@@ -17,6 +17,7 @@ mod simulate;
 mod size;
 mod solve;
 mod sweep;
+mod time;
 mod values;
 
 pub(crate) use check::CheckArguments;
@@ -36,6 +37,7 @@ pub(crate) use simulate::{Preference, SimulateArguments};
 pub(crate) use size::SizeArguments;
 pub(crate) use solve::SolveArguments;
 pub(crate) use sweep::{SweepArguments, TableFormat};
+pub(crate) use time::TimeArguments;
 
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -73,7 +75,8 @@ Examples:
   slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
   slideway modes problem.json                   all solutions of an LCP or the like
 
-Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided.";
+Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided or out of time,
+130 interrupted.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]

@@ -10,14 +10,17 @@ use crate::table::Metadata;
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
-use crate::watch::{Interruption, Watch};
+use crate::watch::{self, Halt, Watch};
 use slideway::configuration::Configuration;
-use slideway::fault::{Fault, FaultKind};
+use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
-use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway::progress::Progress;
+use slideway::report::finite;
+use slideway_pictures::motion::{AnimationOptions, GifFault, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// Rows of a table that are too many to be meant.
@@ -35,17 +38,13 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
     let step = question.step(&options)?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
 
-    let until = mechanism.time + options.duration;
-    let mut watch = Watch::new(arguments.time_limit);
-    let interruption = Interruption::watch();
-    let mut progress = |time| {
-        interruption.flow()?;
-        watch.follow(time, [mechanism.time, until])
-    };
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut progress = |progress: &Progress| watch.look(progress);
     let told = if arguments.all_branches {
         let most = (&mut Thorough as &mut dyn motion::Decisions, arguments.max_motions);
         let tree = motion::simulate_all(&mechanism, &configuration, &options, most, &mut progress);
-        Told::all(arguments, &tree.map_err(|faults| input.refused(faults))?, &options, output)
+        let tree = tree.map_err(|faults| input.refused(faults))?;
+        Told::all(arguments, &tree, &options, output)
     } else {
         let history =
             motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
@@ -53,9 +52,10 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
-    drop(watch);
+    let told = told.map_err(|faults| input.refused(faults))?;
+    let halt = watch.finish();
     output.write(&told.text)?;
-    Ok(if interruption.is_requested() { Outcome::Interrupted } else { told.outcome })
+    Ok(watch::outcome(halt, told.outcome))
 }
 
 /// The answer on standard output.
@@ -70,13 +70,13 @@ impl Told {
         history: &History,
         options: &SimulateOptions,
         output: &Output,
-    ) -> Self {
-        let report = motion::report(history, options);
+    ) -> Result<Self, Faults> {
+        let report = finite(motion::report(history, options))?;
         let text = match arguments.format {
             CheckFormat::Text => motion::to_text(&report, output.style(), arguments.all_events),
             CheckFormat::Json => motion::to_json(&report),
         };
-        Self { text, outcome: outcome(&history.end) }
+        Ok(Self { text, outcome: outcome(&history.end) })
     }
 
     fn all(
@@ -84,15 +84,16 @@ impl Told {
         tree: &motion::Tree,
         options: &SimulateOptions,
         output: &Output,
-    ) -> Self {
-        let report = motion::tree_report(tree, options);
+    ) -> Result<Self, Faults> {
+        let report = finite(motion::tree_report(tree, options))?;
         let text = match arguments.format {
             CheckFormat::Text => motion::tree_to_text(&report, output.style(), arguments.all_events),
             CheckFormat::Json => motion::tree_to_json(&report),
         };
         // The best that any motion comes to.
         let outcomes = tree.histories.iter().map(|branching| outcome(&branching.history.end));
-        Self { text, outcome: outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown) }
+        let outcome = outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown);
+        Ok(Self { text, outcome })
     }
 }
 
@@ -254,13 +255,26 @@ impl<'a> Files<'a> {
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
             let animation = animation(history, &options, theme);
-            let mut progress = |part| watch.animate(part);
+            // What was simulated until an interruption is shown whole.
+            let is_halted = watch.halt().is_some();
+            let mut progress = |progress: &Progress| {
+                if is_halted {
+                    watch.tell(progress);
+                    return ControlFlow::Continue(());
+                }
+                watch.look(progress)
+            };
             let bytes = match format {
                 AnimationFormat::Html => animation.to_html().into_bytes(),
                 AnimationFormat::Svg => animation.to_svg().into_bytes(),
-                AnimationFormat::Gif => animation
-                    .to_gif(&mut progress)
-                    .map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
+                AnimationFormat::Gif => match animation.to_gif(&mut progress) {
+                    Ok(bytes) => bytes,
+                    Err(GifFault::Ended) => {
+                        let (halt, path) = (watch.halt().unwrap_or(Halt::Interrupted), output.path());
+                        return Err(Failure::Halted { halt, path });
+                    }
+                    Err(fault) => return Err(Failure::Picture { reason: fault.to_string() }),
+                },
             };
             output.write_bytes(&bytes)?;
         }

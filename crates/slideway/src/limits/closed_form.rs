@@ -8,6 +8,7 @@ use super::find::{Elsewhere, Found, Gap, Knowledge, Method};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
+use crate::progress::Work;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, TooManyModes, counts,
 };
@@ -23,6 +24,7 @@ const PIECES: usize = 40;
 pub(super) fn closed_form(
     varied: &Varied,
     options: &ExistenceOptions,
+    work: Work<'_>,
 ) -> Result<Option<Found>, TooManyModes> {
     let dependence = varied.dependence();
     if dependence.problem.max(dependence.conditions) == Degree::Other {
@@ -33,12 +35,15 @@ pub(super) fn closed_form(
     let mut all = Existence::default();
     let mut numbers: Vec<CountInterval> = Vec::new();
     let mut changes = false;
-    for &piece in &pieces {
+    for (index, &piece) in pieces.iter().enumerate() {
         let ends = piece.map(|at| varied.parts(at));
         let [Ok(start), Ok(end)] = ends else { return Ok(None) };
         changes |= start != end;
         let line = start.line_to(&end);
-        let mut found = line.existence(&ExistenceOptions { range: [0.0, 1.0], ..*options })?;
+        let work = work.part(index, pieces.len());
+        let options = ExistenceOptions { range: [0.0, 1.0], ..*options };
+        let found = line.existence_with(&options, &mut |progress| work.tell(progress))?;
+        let mut found = found.unwrap_or_default();
         let mut intervals = counts(&line, &found, [0.0, 1.0]);
         stretch(&mut found, &mut intervals, piece);
         all.modes.extend(found.modes);

@@ -5,6 +5,7 @@ use super::find::{Elsewhere, Found, Knowledge, Method};
 use super::varied::Varied;
 use crate::modes::SearchOptions;
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, cells};
+use crate::progress::{Progress, Work};
 use crate::solve::SolveOptions;
 use std::collections::VecDeque;
 
@@ -26,8 +27,10 @@ pub(super) struct Examiner<'v> {
     varied: &'v Varied,
     options: ExistenceOptions,
     solve: SolveOptions,
-    /// Searches that may still be made.
+    /// Searches that may be made, and those that still may.
+    effort: u64,
     left: u64,
+    work: Work<'v>,
 }
 
 /// What lies between neighbouring ends of modes, and what is proven of it.
@@ -44,10 +47,15 @@ struct Cell {
 }
 
 impl<'v> Examiner<'v> {
-    pub(super) fn new(varied: &'v Varied, options: &ExistenceOptions, effort: u64) -> Self {
+    pub(super) fn new(
+        varied: &'v Varied,
+        options: &ExistenceOptions,
+        effort: u64,
+        work: Work<'v>,
+    ) -> Self {
         let search = SearchOptions { nodes: GREATEST_NODES, ..SearchOptions::default() };
         let solve = SolveOptions { search, margins: false, ..SolveOptions::default() };
-        Self { varied, options: *options, solve, left: effort }
+        Self { varied, options: *options, solve, effort, left: effort, work }
     }
 
     /// Says of every interval of `found` how its number of solutions is known. Returns values at which another number is proven.
@@ -153,7 +161,9 @@ impl<'v> Examiner<'v> {
 
     /// The numbers of solutions and gap states that are proven for all values of a part.
     fn counts(&mut self, part: [f64; 2]) -> Option<[usize; 2]> {
-        if self.left == 0 {
+        let done = self.effort - self.left;
+        if self.left == 0 || self.work.tell(&Progress::of("searches", done, self.effort)).is_break() {
+            self.left = 0;
             return None;
         }
         let greatest = self.options.greatest_normal_force;

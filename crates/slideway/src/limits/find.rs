@@ -8,6 +8,7 @@ use super::varied::Varied;
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes};
+use crate::progress::Work;
 
 /// The most patterns whose limits are computed.
 const PATTERNS: u64 = 1 << 14;
@@ -77,24 +78,34 @@ impl Gap {
 ///
 /// # Errors
 /// Too many modes.
-pub(crate) fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
+pub(crate) fn find(
+    varied: &Varied,
+    range: [f64; 2],
+    options: &LimitsOptions,
+    work: Work<'_>,
+) -> Result<Found, Faults> {
     let existence =
         ExistenceOptions { range, greatest_normal_force: options.max_reaction, patterns: PATTERNS };
-    let found = found(varied, &existence, options.effort);
+    let found = found(varied, &existence, options.effort, work);
     found.map_err(|TooManyModes { contacts, limit, .. }| {
         Fault::general(FaultKind::TooManyModes { contacts, limit }).into()
     })
 }
 
-fn found(varied: &Varied, options: &ExistenceOptions, effort: u64) -> Result<Found, TooManyModes> {
-    let scanner = Scanner { varied, options: *options };
-    let mut found = match closed_form(varied, options)? {
+fn found(
+    varied: &Varied,
+    options: &ExistenceOptions,
+    effort: u64,
+    work: Work<'_>,
+) -> Result<Found, TooManyModes> {
+    let scanner = Scanner { varied, options: *options, work: work.part(0, 2) };
+    let mut found = match closed_form(varied, options, work.part(0, 2))? {
         Some(found) => found,
         None => scanner.scan(&[])?,
     };
     let mut places = Vec::new();
     for round in 0..=ROUNDS {
-        let contradicted = Examiner::new(varied, options, effort).examine(&mut found);
+        let contradicted = Examiner::new(varied, options, effort, work.part(1, 2)).examine(&mut found);
         if contradicted.is_empty() || round == ROUNDS {
             break;
         }

@@ -26,7 +26,7 @@ mod scan;
 mod text;
 mod varied;
 
-pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, limits_with_curves};
+pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
 pub(crate) use find::{Found, find};
 pub(crate) use guarantee::guarantee;
 pub(crate) use report::Naming;
@@ -43,6 +43,8 @@ pub(crate) use varied::{Varied, mechanism_with};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
 use crate::model::Model;
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 
 /// Certified searches that are made by default to prove numbers of solutions.
 pub const EFFORT: u64 = 800;
@@ -83,8 +85,24 @@ impl LimitsOptions {
 /// # Errors
 /// Whatever `solve` refuses; an unknown name, an empty, reversed or infinite range, negative factors of friction.
 pub fn limits(model: &Model, options: &LimitsOptions) -> Result<LimitsReport, Faults> {
-    let analysis = Analysis::new(model, options)?;
-    Ok(analysis.report(&Naming::new(model)?))
+    undisturbed(|work| limits_of(model, options, work))
+}
+
+/// [`limits`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`limits`].
+pub fn limits_with(
+    model: &Model,
+    options: &LimitsOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<LimitsReport>, Faults> {
+    watched(callback, |work| limits_of(model, options, work))
+}
+
+fn limits_of(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<LimitsReport, Faults> {
+    let analysis = Analysis::new(model, options, work)?;
+    finite(analysis.report(&Naming::new(model)?))
 }
 
 /// What is varied, over which range, and the modes of both directions.
@@ -97,7 +115,7 @@ struct Analysis {
 }
 
 impl Analysis {
-    fn new(model: &Model, options: &LimitsOptions) -> Result<Self, Faults> {
+    fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
         let (name, range) = match options.vary.split_once('=') {
             Some((name, range)) => (name.trim(), Some(range)),
             None => (options.vary.trim(), None),
@@ -108,10 +126,11 @@ impl Analysis {
             Some(text) => given_range(&varied, text)?,
             None => usual_range(model, &varied)?,
         };
-        let found = find(&varied, range, options)?;
+        let directions = 1 + usize::from(options.both_directions);
+        let found = find(&varied, range, options, work.part(0, directions))?;
         let reversed = if options.both_directions {
             let varied = Varied::new(&model.reversed(), name)?;
-            let found = find(&varied, range, options)?;
+            let found = find(&varied, range, options, work.part(1, directions))?;
             Some((varied, found))
         } else {
             None

@@ -12,7 +12,9 @@ use crate::modes::existence::{
     EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine, TooManyModes,
     cells, counts_in,
 };
+use crate::progress::Work;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 /// Steps of the evenly spaced values.
 const STEPS: usize = 500;
@@ -42,6 +44,7 @@ type Ends = BTreeMap<(Vec<ContactState>, u64, u64), ModeEnd>;
 pub(super) struct Scanner<'v> {
     pub(super) varied: &'v Varied,
     pub(super) options: ExistenceOptions,
+    pub(super) work: Work<'v>,
 }
 
 impl Scanner<'_> {
@@ -91,8 +94,12 @@ impl Scanner<'_> {
 
     /// Adds places, in their order.
     fn add(&self, places: &mut Vec<Place>, values: impl Iterator<Item = f64>) -> Result<(), TooManyModes> {
-        for at in values {
-            places.push(self.place(at)?);
+        let values: Vec<f64> = values.collect();
+        for (index, &at) in values.iter().enumerate() {
+            match self.work.part(0, 2).piece("values", index, values.len()) {
+                ControlFlow::Continue(_) => places.push(self.place(at)?),
+                ControlFlow::Break(()) => break,
+            }
         }
         places.sort_by(|one, other| one.at.total_cmp(&other.at));
         places.dedup_by(|next, kept| next.at == kept.at);
@@ -106,6 +113,9 @@ impl Scanner<'_> {
     }
 
     fn line(&self, at: f64) -> Option<ModeProblemLine> {
+        if self.work.part(1, 2).is_over() {
+            return None;
+        }
         self.varied.parts(at).ok().map(|parts| parts.line_to(&parts))
     }
 

@@ -157,11 +157,10 @@ impl Page<'_, SimulateReport> {
         let (error, part) = (report.energy.error, report.energy.relative_error);
         self.line(&match part {
             _ if error == 0.0 => "The balance of energy closes.".to_owned(),
-            // Nothing but rounding is moved where a part is greater than the whole.
-            0.0..=1.0 => {
+            Some(part) => {
                 format!("The balance of energy closes to {error:.1e} J, {part:.1e} of the greatest of them.")
             }
-            _ => format!("The balance of energy closes to {error:.1e} J."),
+            None => format!("The balance of energy closes to {error:.1e} J."),
         });
         self.line(&format!(
             "Joints were off by at most {:.1e} of the size of the mechanism before each correction.",

@@ -10,6 +10,7 @@ pub fn to_json(report: &Report) -> String {
 
 /// Any report as indented JSON, ending in a line end.
 pub(crate) fn indented<T: Serialize>(report: &T) -> String {
+    debug_assert!(super::finite(report).is_ok(), "{:?}", super::finite(report).err());
     let mut text =
         serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
     text.push('\n');
