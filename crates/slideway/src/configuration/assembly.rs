@@ -47,6 +47,7 @@ pub(super) fn assemble(mechanism: &Mechanism) -> Result<Configuration, Faults> {
         coordinates: values,
         rates: mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
         time: mechanism.time,
+        pieces: None,
     };
     check_position(mechanism, &configuration)?;
     Ok(configuration)

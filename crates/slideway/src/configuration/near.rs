@@ -40,6 +40,7 @@ pub(super) fn near(mechanism: &Mechanism, earlier: &[Configuration]) -> Option<C
                 coordinates,
                 rates: mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
                 time: mechanism.time,
+        pieces: None,
             };
             return check_position(mechanism, &configuration).is_ok().then_some(configuration);
         }

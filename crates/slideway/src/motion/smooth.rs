@@ -8,6 +8,7 @@ use super::phase::{JointPhase, Phase};
 use super::root::{dip, falling_root};
 use super::rules::{Decisions, Hold};
 use super::stepper::{DENSE, StepControl, Stepper, within};
+use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
 
@@ -61,6 +62,7 @@ pub(super) struct Smooth<'o, 'm> {
     /// Of all bodies (kg).
     mass: f64,
     watch: Watch<'o>,
+    switching: Switching<'m>,
     options: &'o SimulateOptions,
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
@@ -90,6 +92,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             energy: 0.0,
             mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
+            switching: Switching::new(equations.mechanism, &equations.configuration),
             options,
             values: Default::default(),
             inside: vec![0.0; size],
@@ -97,6 +100,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             state,
             equations,
         };
+        smooth.equations.configuration.pieces = smooth.switching.pieces();
         smooth.notice_velocity();
         smooth
     }
@@ -117,7 +121,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Equations that cannot be solved.
     pub(super) fn enter(&mut self, phase: &Phase, decisions: &mut dyn Decisions) -> Result<(), Failure> {
         self.equations.enter(phase, self.time, &self.state)?;
-        self.watch.begin(phase, &self.equations);
+        self.watch.begin(phase, &self.equations, &self.switching);
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
         self.hold = None;
@@ -195,6 +199,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
         history: &mut History,
     ) -> Option<Ended> {
         self.set_scale();
+        let due = self.due();
+        if !due.is_empty() {
+            return Some(self.switch(&due, Vec::new()));
+        }
         let (step, error) = match self.accepted_step(phase, decisions, history) {
             Ok(accepted) => accepted,
             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -208,14 +216,26 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 self.values.swap(0, 3);
                 None
             }
-            Ok(Some((fraction, causes))) => {
+            Ok(Some((mut fraction, watched))) => {
                 history.dense.truncate(first);
                 self.next = step;
+                let causes = self.causes(&watched);
+                if fraction > 1.0 - SAME_INSTANT {
+                    // It happens where the step was to end in any case.
+                    fraction = 1.0;
+                }
                 match self.stop_at(fraction * step, history) {
                     Ok(()) if fraction > 0.0 && self.still_slides(phase, &causes) => {
                         self.go_on(fraction * step, phase, decisions)
                     }
-                    Ok(()) => Some(Ended::Event(causes)),
+                    Ok(()) => {
+                        let mut switches = self.due();
+                        switches.extend(watched.iter().filter_map(|watched| match watched {
+                            Watched::Relation(switch) => Some(*switch),
+                            _ => None,
+                        }));
+                        Some(self.switch(&switches, causes))
+                    }
                     Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
                     Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
                 }
@@ -231,6 +251,42 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
     }
 
+    /// What the watched functions that have passed zero are the causes of.
+    fn causes(&self, watched: &[Watched]) -> Vec<Cause> {
+        let name = |index: usize| self.options.events[index].name.clone();
+        watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
+    }
+
+    /// Puts relations on their next pieces; the loads and drives that jump there are causes of the event.
+    fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
+        causes.extend(self.switching.switch(switches).into_iter().map(Cause::LoadJumps));
+        self.equations.configuration.pieces = self.switching.pieces();
+        Ended::Event(causes)
+    }
+
+    /// The relations that leave their pieces now, at a time that was known.
+    fn due(&mut self) -> Vec<Switch> {
+        let horizon = self.horizon();
+        let is_now = self.switching.next(self.time, horizon) - self.time <= self.least_step();
+        if is_now { self.switching.due() } else { Vec::new() }
+    }
+
+    /// Until when a step may go: to the end, or where a load or drive jumps or has a kink at a time that is known.
+    fn until(&mut self) -> f64 {
+        let horizon = self.horizon();
+        self.end.min(self.switching.next(self.time, horizon))
+    }
+
+    /// No step goes beyond it.
+    fn horizon(&self) -> f64 {
+        self.end.min(self.time + 2.0 * self.longest)
+    }
+
+    /// The shortest step that changes the time.
+    fn least_step(&self) -> f64 {
+        4.0 * f64::EPSILON * self.time.abs().max(self.end.abs())
+    }
+
     /// Tries steps until one is accurate, projects its end, evaluates what is watched there, and describes it.
     fn accepted_step(
         &mut self,
@@ -239,7 +295,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         history: &mut History,
     ) -> Result<(f64, f64), Failure> {
         loop {
-            let rest = self.end - self.time;
+            let rest = self.until() - self.time;
             let wanted = self.next.min(self.longest);
             // No tiny last step.
             let step = if wanted >= rest {
@@ -249,7 +305,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             } else {
                 wanted
             };
-            let least = 4.0 * f64::EPSILON * self.time.abs().max(self.end.abs());
+            let least = self.least_step();
             let attempt = self.try_step(step, phase, decisions, history);
             match attempt {
                 Ok(error) if error <= 1.0 => {
@@ -329,8 +385,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     fn advance(&mut self, step: f64) {
-        let rest = self.end - self.time;
-        self.time = if step >= rest { self.end } else { self.time + step };
+        let until = self.until();
+        self.time = if step >= until - self.time { until } else { self.time + step };
         self.stepper.advance(&mut self.state);
         self.notice_velocity();
     }
@@ -357,6 +413,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
     ) -> Result<f64, Failure> {
         let equations = &self.equations;
+        if let Watched::Relation(switch) = watched {
+            return Ok(self.switching.margin(&equations.configuration, switch));
+        }
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
             let margin = match &mut self.hold {
@@ -375,7 +434,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         dense: &[f64],
         step: f64,
-    ) -> Result<Option<(f64, Vec<Cause>)>, Failure> {
+    ) -> Result<Option<(f64, Vec<Watched>)>, Failure> {
         let mut places = SAMPLES;
         let mut falls = Vec::new();
         for part in 0..SAMPLES.len() - 1 {
@@ -453,7 +512,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Whether a function is below zero at the end, beyond rounding where it was not above zero before.
     fn is_below(&self, fall: &Fall) -> bool {
         let [before, after] = fall.values;
-        if let Watched::User(..) = self.watch.list[fall.index] {
+        if let Watched::User(..) | Watched::Relation(_) = self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
             return after <= 0.0 && before > USER_ZERO * after.abs();
         }
@@ -468,7 +527,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         (dense, step): (&[f64], f64),
         falls: &[Fall],
-    ) -> Result<(f64, Vec<Cause>), Failure> {
+    ) -> Result<(f64, Vec<Watched>), Failure> {
         let mut zeros = Vec::with_capacity(falls.len());
         for &Fall { index, ends, values } in falls {
             let watched = self.watch.list[index];
@@ -491,8 +550,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
         let first = zeros.iter().map(|(zero, _)| *zero).fold(f64::INFINITY, f64::min);
         let same = zeros.iter().filter(|(zero, _)| *zero <= first + SAME_INSTANT);
-        let name = |index: usize| self.options.events[index].name.clone();
-        Ok((first, same.map(|(_, watched)| Cause::of(*watched, &self.equations.sliders, name)).collect()))
+        Ok((first, same.map(|(_, watched)| *watched).collect()))
     }
 
     /// Puts the equations at a fraction of the step.
@@ -541,6 +599,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if change <= permitted * self.watch.magnitudes.velocity {
             self.state = settled;
         }
+        self.equations.place(self.time, &self.state);
+        self.switching.settle(&self.equations.configuration);
+        self.equations.configuration.pieces = self.switching.pieces();
     }
 
     /// Velocities after an impulse.
@@ -549,6 +610,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
         self.equations.place(self.time, &self.state);
+        self.switching.jump(&self.equations.configuration);
+        self.equations.configuration.pieces = self.switching.pieces();
     }
 }
 
