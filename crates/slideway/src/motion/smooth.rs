@@ -11,6 +11,7 @@ use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
+use crate::fault::Faults;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -67,8 +68,12 @@ pub(super) struct Smooth<'o, 'm> {
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
-    /// What computes the margin of sticking while the whole mechanism stands still.
+    /// What knows when sticking ends while the whole mechanism stands still, ...
     hold: Option<Box<dyn Hold + 'm>>,
+    /// ... until when it has been asked, and when something slips.
+    held: (f64, Option<f64>),
+    /// No step goes beyond this time.
+    stop: f64,
 }
 
 impl<'o, 'm> Smooth<'o, 'm> {
@@ -97,6 +102,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
             values: Default::default(),
             inside: vec![0.0; size],
             hold: None,
+            held: (f64::NEG_INFINITY, None),
+            stop: time,
             state,
             equations,
         };
@@ -125,6 +132,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
         self.hold = None;
+        self.held = (f64::NEG_INFINITY, None);
         if self.equations.stands_still(REST * self.greatest_velocity()) {
             let configuration = &self.equations.configuration;
             let hold = decisions.hold(self.equations.mechanism, configuration, phase);
@@ -203,6 +211,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if !due.is_empty() {
             return Some(self.switch(&due, Vec::new()));
         }
+        match self.slips() {
+            Ok(slips) if slips - self.time <= self.least_step() => {
+                return Some(Ended::Event(vec![Cause::Slips]));
+            }
+            Ok(slips) => self.stop = self.known_time().min(slips),
+            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
+        }
         let (step, error) = match self.accepted_step(phase, decisions, history) {
             Ok(accepted) => accepted,
             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -271,10 +286,23 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if is_now { self.switching.due() } else { Vec::new() }
     }
 
-    /// Until when a step may go: to the end, or where a load or drive jumps or has a kink at a time that is known.
-    fn until(&mut self) -> f64 {
+    /// The end, or the next time at which a load or drive jumps or has a kink, if that is known in advance.
+    fn known_time(&mut self) -> f64 {
         let horizon = self.horizon();
         self.end.min(self.switching.next(self.time, horizon))
+    }
+
+    /// When something slips that stands still with all else; infinite if nothing does before the next step ends.
+    fn slips(&mut self) -> Result<f64, Faults> {
+        let until = self.known_time().min(self.horizon());
+        let Some(hold) = &mut self.hold else { return Ok(f64::INFINITY) };
+        let (asked, slips) = self.held;
+        if slips.is_none() && asked < until {
+            let mut configuration = self.equations.configuration.clone();
+            configuration.time = self.time.max(asked);
+            self.held = (until, hold.slips(&configuration, until)?);
+        }
+        Ok(self.held.1.unwrap_or(f64::INFINITY))
     }
 
     /// No step goes beyond it.
@@ -295,7 +323,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         history: &mut History,
     ) -> Result<(f64, f64), Failure> {
         loop {
-            let rest = self.until() - self.time;
+            let rest = self.stop - self.time;
             let wanted = self.next.min(self.longest);
             // No tiny last step.
             let step = if wanted >= rest {
@@ -385,8 +413,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     fn advance(&mut self, step: f64) {
-        let until = self.until();
-        self.time = if step >= until - self.time { until } else { self.time + step };
+        self.time = if step >= self.stop - self.time { self.stop } else { self.time + step };
         self.stepper.advance(&mut self.state);
         self.notice_velocity();
     }
@@ -418,10 +445,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
-            let margin = match &mut self.hold {
-                Some(hold) => hold.margin(configuration),
-                None => decisions.sticking_margin(equations.mechanism, configuration, phase),
-            };
+            if self.hold.is_some() {
+                // It is known when it ends.
+                return Ok(1.0);
+            }
+            let margin = decisions.sticking_margin(equations.mechanism, configuration, phase);
             return margin.map_err(Failure::Loads);
         }
         self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))

@@ -6,14 +6,16 @@
 //! interval arithmetic proves the margin to be positive, and what is left is a time within rounding. So none is missed,
 //! however long the steps are.
 
+use super::root::first_fall;
 use crate::configuration::Configuration;
 use crate::expression::{End, Expression, Piece, Values};
 use crate::interval::Interval;
 use crate::mechanism::{Mechanism, Pieces, Relation};
+use std::convert::Infallible;
 use std::sync::Arc;
 
-/// Cells of time that are narrower than this many units in the last place are not divided.
-const NARROWEST: f64 = 4.0;
+/// The first look ahead, in units in the last place of the time.
+const NEXT: f64 = 4.0;
 /// Each look ahead is this much farther than the one before.
 const FARTHER: f64 = 16.0;
 /// So often: from neighbouring times to any.
@@ -162,7 +164,7 @@ impl<'m> Switching<'m> {
     fn ahead(&self, configuration: &Configuration, relation: usize) -> Piece {
         let (expression, pieces, number) = self.of(relation);
         let Configuration { coordinates, rates, time, .. } = configuration;
-        let first = if *time == 0.0 { NEAREST } else { NARROWEST * f64::EPSILON * time.abs() };
+        let first = if *time == 0.0 { NEAREST } else { NEXT * f64::EPSILON * time.abs() };
         let steps = std::iter::once(0.0).chain((0..LOOKS).map(|look| first * FARTHER.powi(look)));
         let rates: Vec<Interval> = rates.iter().map(|rate| Interval::point(*rate)).collect();
         let piece = |step: f64| {
@@ -189,60 +191,7 @@ impl<'m> Switching<'m> {
             expression.margin(&values, pieces, (number, end))
         };
         margin(Interval::point(from))?;
-        first_fall([from, until], |time| margin(time).unwrap_or(Interval::ZERO))
-    }
-}
-
-/// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to the left of it, but
-/// for times at which it cannot be told from zero.
-fn first_fall([from, until]: [f64; 2], function: impl Fn(Interval) -> Interval) -> Option<f64> {
-    let narrowest = |time: f64| NARROWEST * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE / f64::EPSILON);
-    let (mut time, mut cell) = (from, until - from);
-    while time < until {
-        let end = (time + cell).min(until);
-        if Interval::new(time, end).is_some_and(|cell| function(cell).lower() > 0.0) {
-            (time, cell) = (end, 2.0 * cell);
-        } else if cell > narrowest(time) {
-            cell /= 2.0;
-        } else {
-            // Neighbouring times: on to the first at which the sign can be told.
-            loop {
-                if time + cell > until {
-                    return None;
-                }
-                let value = function(Interval::point(time + cell));
-                if value.upper() < 0.0 {
-                    return Some(time + cell);
-                }
-                if value.lower() > 0.0 {
-                    time += cell;
-                    break;
-                }
-                cell *= 2.0;
-            }
-        }
-    }
-    None
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::interval::Real;
-
-    #[test]
-    fn the_first_fall_is_found_however_long_the_range_is() {
-        let sine = |time: Interval| (time * Interval::point(2.0)).sin();
-        let found = first_fall([0.0, 1e4], sine).expect("sin(2 t) falls at pi/2");
-        assert!((found - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{found}");
-        // From a zero on, at which it rises.
-        let from = std::f64::consts::PI;
-        let found = first_fall([from, 1e4], sine).expect("and at 3 pi/2");
-        assert!((found - 1.5 * std::f64::consts::PI).abs() < 3e-15, "{found}");
-        // It touches zero at 1 and falls at 2: (t - 1)^2 (2 - t).
-        let touches = |time: Interval| (time - Interval::point(1.0)).square() * (Interval::point(2.0) - time);
-        let found = first_fall([0.0, 5.0], touches).expect("at 2");
-        assert!((found - 2.0).abs() < 1e-15, "{found}");
-        assert_eq!(first_fall([0.0, 1.9], touches), None);
+        let Ok(fall) = first_fall::<Infallible>([from, until], |time| Ok(margin(time).unwrap_or(Interval::ZERO)));
+        fall
     }
 }

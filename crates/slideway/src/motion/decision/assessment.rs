@@ -106,7 +106,11 @@ pub(super) fn system_of<'s>(
     System::new(instant, question, &assessment.phase)
 }
 
-fn assess_sides(
+/// A phase with the sides that it names; nothing if its equations contradict each other.
+///
+/// # Errors
+/// If a linear program was not solved.
+pub(super) fn assess_sides(
     instant: &Instant<'_>,
     question: &Question<'_>,
     phase: Phase,
