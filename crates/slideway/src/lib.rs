@@ -42,6 +42,7 @@ pub mod mechanism;
 pub mod model;
 pub mod modes;
 pub mod motion;
+pub mod printable;
 pub mod raw_problem;
 pub mod report;
 pub mod size;

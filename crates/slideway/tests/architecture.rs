@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
     ("interval", &[]),
+    ("printable", &[]),
     ("expression", &["interval"]),
     ("ids", &[]),
-    ("fault", &["expression"]),
+    ("fault", &["expression", "printable"]),
     ("model", &["expression", "fault", "ids", "interval"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model"]),
     ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
@@ -18,9 +19,9 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("influence", &["ids", "kinetics"]),
     ("modes", &["interval"]),
     ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
-    ("report", &[]),
+    ("report", &["printable"]),
     ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
-    ("raw_problem", &["fault", "modes", "report"]),
+    ("raw_problem", &["fault", "modes", "printable", "report"]),
     ("gallery", &[]),
 ];
 
