@@ -43,6 +43,10 @@ pub(crate) enum Failure {
     FileFormat { path: PathBuf, known: &'static [&'static str] },
     /// An unfinished table is where a new one would be written.
     Unfinished { path: PathBuf },
+    /// Another program writes the unfinished table.
+    InUse { path: PathBuf },
+    /// An unfinished table is not what was written.
+    Damaged { path: PathBuf },
     /// There is no unfinished table.
     NothingToResume { path: PathBuf },
     /// The unfinished table is that of another sweep.
@@ -57,6 +61,8 @@ pub(crate) enum Failure {
     NothingToPlot,
     /// A sweep was interrupted.
     Interrupted { done: u64, points: u64, path: PathBuf },
+    /// A motion was interrupted, and its table so far is kept.
+    MotionInterrupted { path: PathBuf },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
@@ -107,8 +113,12 @@ impl Failure {
                 format!("the ending of `{}` names no known format", path.display())
             }
             Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::InUse { path } => format!("another sweep is writing `{}`", path.display()),
+            Self::Damaged { path } => {
+                format!("`{}` was changed since the sweep was interrupted", path.display())
+            }
             Self::NothingToResume { path } => {
-                format!("there is no sweep to go on with: `{}` is missing or damaged", path.display())
+                format!("there is no sweep to go on with: `{}` is missing", path.display())
             }
             Self::AnotherSweep { path, command } => {
                 format!("`{}` belongs to another sweep: `{command}`", path.display())
@@ -123,6 +133,9 @@ impl Failure {
             Self::NothingToPlot => "the model has nothing of the quantity that is to be plotted".to_owned(),
             Self::Interrupted { done, points, path } => {
                 format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
+            }
+            Self::MotionInterrupted { path } => {
+                format!("interrupted; the table of the motion until then is in `{}`", path.display())
             }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
@@ -182,6 +195,8 @@ impl Failure {
             Self::Unfinished { .. } => {
                 Some("go on with it by --resume, or begin anew with --force".to_owned())
             }
+            Self::InUse { .. } => Some("wait until it ends, or choose another name".to_owned()),
+            Self::Damaged { .. } => Some("begin anew with --force".to_owned()),
             Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
             Self::AnotherSweep { .. } => Some(
                 "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
@@ -195,6 +210,9 @@ impl Failure {
                 Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
             }
             Self::NoStream => Some("name a file with --output, or use --format csv".to_owned()),
+            Self::MotionInterrupted { .. } => {
+                Some("--time-limit ends a motion early with its files under their names".to_owned())
+            }
             Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
             _ => None,
         }

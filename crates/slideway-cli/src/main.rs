@@ -67,7 +67,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 
 fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
     output::complain(&failure.to_string(), color);
-    if matches!(failure, Failure::Interrupted { .. }) {
+    if matches!(failure, Failure::Interrupted { .. } | Failure::MotionInterrupted { .. }) {
         return Outcome::Interrupted;
     }
     Outcome::Refused

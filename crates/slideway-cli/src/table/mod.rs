@@ -7,7 +7,7 @@ pub(crate) mod parquet;
 mod partial;
 mod record;
 
-pub(crate) use partial::{Continued, PartialFile};
+pub(crate) use partial::{Continued, PartialFile, unfinished};
 
 use crate::arguments::TableFormat;
 use crate::input::Input;
