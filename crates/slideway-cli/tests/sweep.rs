@@ -203,13 +203,17 @@ fn what_exists_is_not_overwritten() {
     assert!(nothing.code == 2 && nothing.stderr.contains("no sweep to go on with"), "{}", nothing.stderr);
 }
 
-/// A sweep that has written something, and takes long enough to be stopped.
+/// A sweep that has written so many bytes, and takes long enough to be stopped.
 #[cfg(unix)]
-fn underway(folder: &tempfile::TempDir, name: &str, arguments: &[&str]) -> std::process::Child {
+fn underway(
+    folder: &tempfile::TempDir,
+    (name, bytes): (&str, u64),
+    arguments: &[&str],
+) -> std::process::Child {
     let child = command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let partial = folder.path().join(format!("{name}.partial"));
     let begun = Instant::now();
-    while fs::metadata(&partial).map_or(0, |file| file.len()) < 50_000
+    while fs::metadata(&partial).map_or(0, |file| file.len()) < bytes
         && begun.elapsed() < Duration::from_mins(1)
     {
         sleep(Duration::from_millis(2));
@@ -233,11 +237,12 @@ fn two_writers_of_one_table_do_not_meet() {
         // The same table by another name.
         let (link, link_name) = path(&folder, &format!("link.{ending}"));
         std::os::unix::fs::symlink(&table, &link).unwrap();
-        let arguments = |name| [&KLEPP[..], &["--vary", "alpha=1.1..1.4:5001", "--output", name]].concat();
-        let mut first = underway(&folder, &table, &arguments(&name));
+        let arguments =
+            |name| ["sweep", DRAWER, "--vary", "h=0..0.1:3001", "--no-breakpoints", "--output", name];
+        let mut first = underway(&folder, (&table, 1), &arguments(&name));
         signal(&first, "-STOP");
         for (name, more) in
-            [(&name, "--force"), (&name, "--resume"), (&link_name, "--force"), (&name, "--no-breakpoints")]
+            [(&name, "--force"), (&name, "--resume"), (&link_name, "--force"), (&name, "--attainability")]
         {
             let second = slideway(&[&arguments(name)[..], &[more]].concat());
             assert_eq!(second.code, 2, "{ending} {more}");
@@ -260,8 +265,8 @@ fn an_unfinished_table_that_was_changed_is_not_continued() {
         let folder = tempfile::tempdir().unwrap();
         let table = format!("table.{ending}");
         let (target, name) = path(&folder, &table);
-        let arguments = [&KLEPP[..], &["--vary", "alpha=1.1..1.4:30001", "--output", &name]].concat();
-        let mut first = underway(&folder, &table, &arguments);
+        let arguments = ["sweep", DRAWER, "--vary", "h=0..0.1:100001", "--no-breakpoints", "--output", &name];
+        let mut first = underway(&folder, (&table, 50_000), &arguments);
         signal(&first, "-INT");
         assert_eq!(first.wait().unwrap().code(), Some(130));
         let rows = folder.path().join(format!("{table}.partial"));
