@@ -13,8 +13,7 @@ pub mod theme;
 pub mod typeface;
 
 /// Text as it stands in XML and HTML, in elements and attributes: characters that are not seen, some of which XML does not
-/// allow, stand as their numbers ([`slideway::printable`]). Ends of lines are
-/// blanks.
+/// allow, stand as their numbers ([`slideway::printable`]). Ends of lines are blanks.
 pub(crate) fn escaped(text: &str) -> String {
     let blank = text.replace(['\n', '\r'], " ");
     let mut out = String::with_capacity(text.len());
