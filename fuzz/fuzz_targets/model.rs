@@ -3,13 +3,17 @@
 
 use libfuzzer_sys::fuzz_target;
 use slideway::model::Model;
-use slideway::modes::Limits;
+use slideway::modes::{Limits, SearchOptions};
 use slideway::report::{self, Style};
-use slideway::{check, solve};
+use slideway::solve::{SolveOptions, solve_with};
+use slideway::check;
+use std::ops::ControlFlow;
 
-/// A mechanism with many contacts is refused instead of taking long.
-fn limits() -> Limits {
-    Limits { contacts: 8, patterns: 1000, bases: 1000, ..Limits::default() }
+/// A search with many contacts ends early instead of taking long.
+fn options() -> SolveOptions {
+    let limits = Limits { solutions: 100, singular: 20, bases: 1000, ..Limits::default() };
+    let search = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
+    SolveOptions { search, most: 10, margins: false }
 }
 
 fuzz_target!(|text: &str| {
@@ -21,7 +25,7 @@ fuzz_target!(|text: &str| {
         }
     };
     let _ = check::check(&model);
-    if let Ok(answer) = solve::solve_within(&model, &limits()) {
+    if let Ok(answer) = solve_with(&model, &options(), &mut |_| ControlFlow::Continue(())) {
         let _ = (report::to_text(&answer, Style::default()), report::to_csv(&answer));
         // No number that is printed is infinite or undefined: JSON would have `null`, which only a title may be.
         let json = report::to_json(&answer);

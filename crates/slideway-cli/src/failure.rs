@@ -1,9 +1,11 @@
 //! Why a command could not do what it was asked to do.
 
+use crate::Outcome;
 use crate::arguments::TableFormat;
 use crate::diagnostics::{self, Note};
 use crate::input::FaultyInput;
 use crate::time_series::SeriesFormat;
+use crate::watch::Halt;
 use clap::ValueEnum;
 use slideway::raw_problem::RawFaults;
 use std::fmt;
@@ -43,6 +45,10 @@ pub(crate) enum Failure {
     FileFormat { path: PathBuf, known: &'static [&'static str] },
     /// An unfinished table is where a new one would be written.
     Unfinished { path: PathBuf },
+    /// Another program writes the unfinished table.
+    InUse { path: PathBuf },
+    /// An unfinished table is not what was written.
+    Damaged { path: PathBuf },
     /// There is no unfinished table.
     NothingToResume { path: PathBuf },
     /// The unfinished table is that of another sweep.
@@ -55,8 +61,12 @@ pub(crate) enum Failure {
     NoLine,
     /// A plot of a quantity that the model has none of.
     NothingToPlot,
-    /// A sweep was interrupted.
-    Interrupted { done: u64, points: u64, path: PathBuf },
+    /// The work was ended before there was an answer, or this file.
+    Halted { halt: Halt, path: Option<PathBuf> },
+    /// A sweep was ended before it was done; what is done is kept if it goes to a file.
+    Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
+    /// A motion was interrupted, and its table so far is kept.
+    MotionInterrupted { path: PathBuf },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
@@ -81,6 +91,15 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
+    /// The exit code.
+    pub(crate) fn outcome(&self) -> Outcome {
+        match self {
+            Self::Halted { halt, .. } | Self::Unswept { halt, .. } => halt.outcome(),
+            Self::MotionInterrupted { .. } => Outcome::Interrupted,
+            _ => Outcome::Refused,
+        }
+    }
+
     /// What is wrong, where it is not the model itself.
     fn message(&self) -> String {
         match self {
@@ -107,8 +126,12 @@ impl Failure {
                 format!("the ending of `{}` names no known format", path.display())
             }
             Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::InUse { path } => format!("another sweep is writing `{}`", path.display()),
+            Self::Damaged { path } => {
+                format!("`{}` was changed since the sweep was interrupted", path.display())
+            }
             Self::NothingToResume { path } => {
-                format!("there is no sweep to go on with: `{}` is missing or damaged", path.display())
+                format!("there is no sweep to go on with: `{}` is missing", path.display())
             }
             Self::AnotherSweep { path, command } => {
                 format!("`{}` belongs to another sweep: `{command}`", path.display())
@@ -121,8 +144,22 @@ impl Failure {
                 "a plot needs one varied quantity with ascending values, and no samples".to_owned()
             }
             Self::NothingToPlot => "the model has nothing of the quantity that is to be plotted".to_owned(),
-            Self::Interrupted { done, points, path } => {
-                format!("interrupted after {done} of {points} points; they are kept in `{}`", path.display())
+            Self::Halted { halt, path: None } => {
+                format!("{} before there was an answer; nothing is written", halt.in_words())
+            }
+            Self::Halted { halt, path: Some(path) } => {
+                format!("{} before `{}` was done; it is not written", halt.in_words(), path.display())
+            }
+            Self::Unswept { halt, done, points, path: Some(path) } => format!(
+                "{} after {done} of {points} points; they are kept in `{}`",
+                halt.in_words(),
+                path.display()
+            ),
+            Self::Unswept { halt, done, points, path: None } => {
+                format!("{} after {done} of {points} points", halt.in_words())
+            }
+            Self::MotionInterrupted { path } => {
+                format!("interrupted; the table of the motion until then is in `{}`", path.display())
             }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
@@ -182,6 +219,8 @@ impl Failure {
             Self::Unfinished { .. } => {
                 Some("go on with it by --resume, or begin anew with --force".to_owned())
             }
+            Self::InUse { .. } => Some("wait until it ends, or choose another name".to_owned()),
+            Self::Damaged { .. } => Some("begin anew with --force".to_owned()),
             Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
             Self::AnotherSweep { .. } => Some(
                 "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
@@ -195,7 +234,16 @@ impl Failure {
                 Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
             }
             Self::NoStream => Some("name a file with --output, or use --format csv".to_owned()),
-            Self::Interrupted { .. } => Some("the same command with --resume goes on from there".to_owned()),
+            Self::MotionInterrupted { .. } => {
+                Some("--time-limit ends a motion early with its files under their names".to_owned())
+            }
+            Self::Halted { halt: Halt::TimeLimit(_), .. } => Some(
+                "a longer --time-limit, or a question that takes less work, such as a smaller range"
+                    .to_owned(),
+            ),
+            Self::Unswept { path: Some(_), .. } => {
+                Some("the same command with --resume goes on from there".to_owned())
+            }
             _ => None,
         }
     }

@@ -8,6 +8,7 @@ mod input;
 mod output;
 mod picture;
 mod table;
+mod threads;
 mod time_series;
 mod watch;
 
@@ -26,9 +27,9 @@ enum Outcome {
     NoSolution = 1,
     /// The input makes no sense.
     Refused = 2,
-    /// The search was incomplete and found nothing.
+    /// The search was incomplete and found nothing, or time was up.
     Unknown = 3,
-    /// It was interrupted; what was done until then is kept.
+    /// It was interrupted.
     Interrupted = 130,
 }
 
@@ -39,8 +40,9 @@ impl From<Outcome> for ExitCode {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| arguments::explain(&error));
     let color = arguments.color.into();
+    threads::bound(color);
     let outcome = run(&arguments.command, &Output::standard(color));
     outcome.unwrap_or_else(|failure| refuse(&failure, color)).into()
 }
@@ -67,8 +69,5 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 
 fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
     output::complain(&failure.to_string(), color);
-    if matches!(failure, Failure::Interrupted { .. }) {
-        return Outcome::Interrupted;
-    }
-    Outcome::Refused
+    failure.outcome()
 }

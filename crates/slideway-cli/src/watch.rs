@@ -1,167 +1,181 @@
-//! Time limits and progress of searches.
+//! Time limits, interruptions and progress of work that takes long.
 
 use crate::Outcome;
-use crate::output::ProgressLine;
-use slideway::modes::Progress;
+use crate::failure::Failure;
+use crate::output::{ProgressLine, clear_progress};
+use slideway::progress::Progress;
 use std::fmt::Write;
+use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Searches that take less time show no progress.
+/// Work that takes less time shows no progress.
 const QUIET: Duration = Duration::from_secs(1);
 /// Time between two lines of progress.
 const BETWEEN: Duration = Duration::from_millis(200);
-
-/// Whether someone has interrupted the program (Ctrl-C). The second time ends it at once.
-pub(crate) struct Interruption(Arc<AtomicBool>);
-
-impl Interruption {
-    /// From now on an interruption is noticed.
-    pub(crate) fn watch() -> Self {
-        let flag = Arc::new(AtomicBool::new(false));
-        let set = Arc::clone(&flag);
-        let handler = move || {
-            if set.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(Outcome::Interrupted as u8));
-            }
-        };
-        // Without a handler an interruption ends the program at once.
-        let _ = ctrlc::set_handler(handler);
-        Self(flag)
-    }
-
-    /// Whether there was one.
-    pub(crate) fn is_requested(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-
-    /// Breaks once there was one.
-    pub(crate) fn flow(&self) -> ControlFlow<()> {
-        if self.is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-}
-
-/// When a line of progress is due.
-struct Pace {
-    start: Instant,
-    shown: Duration,
-}
-
-impl Pace {
-    /// Starts now.
-    fn new() -> Self {
-        Self { start: Instant::now(), shown: Duration::ZERO }
-    }
-
-    /// The time since the start, if a line is due: it counts as shown.
-    fn due(&mut self) -> Option<Duration> {
-        let elapsed = self.start.elapsed();
-        let is_due = elapsed >= QUIET && elapsed >= self.shown + BETWEEN;
-        if is_due {
-            self.shown = elapsed;
-        }
-        is_due.then_some(elapsed)
-    }
-}
-
-/// Ends a search in time, and tells of its progress.
-pub(crate) struct Watch {
-    pace: Pace,
-    limit: Option<Duration>,
-    line: ProgressLine,
-}
-
-impl Watch {
-    /// Starts now.
-    pub(crate) fn new(limit: Option<Duration>) -> Self {
-        Self { pace: Pace::new(), limit, line: ProgressLine::new() }
-    }
-
-    /// Tells how far a simulation has come between two times (s), and breaks when time is up.
-    pub(crate) fn follow(&mut self, time: f64, [start, until]: [f64; 2]) -> ControlFlow<()> {
-        if self.limit.is_some_and(|limit| self.pace.start.elapsed() >= limit) {
-            return ControlFlow::Break(());
-        }
-        if let Some(elapsed) = self.pace.due() {
-            let part = (time - start) / (until - start);
-            self.line.show(&format!(
-                "t = {time:.4} s of {until} s ({:.0} %), {} s",
-                100.0 * part,
-                elapsed.as_secs()
-            ));
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// Tells which part of a moving picture is made.
-    pub(crate) fn animate(&mut self, part: f64) {
-        if let Some(elapsed) = self.pace.due() {
-            self.line.show(&format!("{:.0} % of the moving picture, {} s", 100.0 * part, elapsed.as_secs()));
-        }
-    }
-
-    /// Tells of the progress, and breaks when time is up.
-    pub(crate) fn look(&mut self, progress: &Progress) -> ControlFlow<()> {
-        if self.limit.is_some_and(|limit| self.pace.start.elapsed() >= limit) {
-            return ControlFlow::Break(());
-        }
-        if let Some(elapsed) = self.pace.due() {
-            self.line.show(&format!(
-                "{:.1} % of the patterns, {} nodes, {} found, {} s",
-                100.0 * progress.fraction,
-                progress.nodes,
-                progress.states_found,
-                elapsed.as_secs()
-            ));
-        }
-        ControlFlow::Continue(())
-    }
-}
-
-/// Tells how far a sweep has come, how fast it is, and how long it will take.
-pub(crate) struct SweepWatch {
-    pace: Pace,
-    first: u64,
-    points: u64,
-    line: ProgressLine,
-}
-
 /// Characters of the bar.
 const BAR: usize = 24;
 
-impl SweepWatch {
-    /// Starts now, with so many points done of so many.
-    pub(crate) fn new(first: u64, points: u64) -> Self {
-        Self { pace: Pace::new(), first, points, line: ProgressLine::new() }
+/// Whether someone has interrupted the program (Ctrl-C, or a signal to terminate).
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Whether work is being watched that ends by itself when it is interrupted.
+static WATCHED: AtomicBool = AtomicBool::new(false);
+static HANDLER: Once = Once::new();
+
+/// Ends the program at once if nothing is watched, or the second time.
+fn interrupt() {
+    if INTERRUPTED.swap(true, Ordering::Relaxed) || !WATCHED.load(Ordering::Relaxed) {
+        clear_progress();
+        std::process::exit(i32::from(Outcome::Interrupted as u8));
+    }
+}
+
+/// What ended the work before it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Halt {
+    /// Someone interrupted it.
+    Interrupted,
+    /// It took longer than permitted.
+    TimeLimit(Duration),
+}
+
+impl Halt {
+    /// What to tell who waits.
+    pub(crate) fn in_words(self) -> String {
+        match self {
+            Self::Interrupted => "interrupted".to_owned(),
+            Self::TimeLimit(limit) => format!("ended by the time limit of {}", rough(limit.as_secs_f64())),
+        }
     }
 
-    /// Tells how many points are done.
-    pub(crate) fn look(&mut self, done: u64) {
-        let Some(elapsed) = self.pace.due() else { return };
-        let fraction = done as f64 / self.points.max(1) as f64;
-        let rate = (done - self.first) as f64 / elapsed.as_secs_f64();
-        let filled = (1..=BAR).take_while(|part| *part as f64 <= fraction * BAR as f64).count();
-        let mut text = format!("[{}{}]", "#".repeat(filled), "-".repeat(BAR - filled));
-        let _ = write!(text, " {:.1} % of {} points, {rate:.0} points/s", 100.0 * fraction, self.points);
-        if rate > 0.0 {
-            let _ = write!(text, ", {} left", rough((self.points - done) as f64 / rate));
+    /// The exit code where there is no answer.
+    pub(crate) fn outcome(self) -> Outcome {
+        match self {
+            Self::Interrupted => Outcome::Interrupted,
+            Self::TimeLimit(_) => Outcome::Unknown,
         }
-        self.line.show(&text);
+    }
+}
+
+/// The exit code of an answer, which is partial where the work was ended.
+pub(crate) fn outcome(halt: Option<Halt>, of_answer: Outcome) -> Outcome {
+    if halt == Some(Halt::Interrupted) { Outcome::Interrupted } else { of_answer }
+}
+
+/// Watches over work: tells how far it is, and ends it in time or when it is interrupted.
+pub(crate) struct Watch {
+    start: Instant,
+    shown: Duration,
+    limit: Option<Duration>,
+    /// What had been done when it was first asked.
+    first: Option<(Duration, f64)>,
+    line: ProgressLine,
+    halt: Option<Halt>,
+}
+
+impl Watch {
+    /// Starts now; until it is dropped an interruption ends the work, not the program.
+    pub(crate) fn new(limit: Option<Duration>) -> Self {
+        // Without a handler an interruption ends the program at once.
+        HANDLER.call_once(|| {
+            let _ = ctrlc::set_handler(interrupt);
+        });
+        WATCHED.store(true, Ordering::Relaxed);
+        let (start, shown) = (Instant::now(), Duration::ZERO);
+        Self { start, shown, limit, first: None, line: ProgressLine::new(), halt: None }
     }
 
-    /// Tells which part of the file is made, once all points are computed.
-    pub(crate) fn complete(&mut self, part: f64) {
-        if self.pace.due().is_some() {
-            self.line.show(&format!("{:.0} % of the file", 100.0 * part));
+    /// The same without progress, where the answer itself appears bit by bit on the terminal.
+    pub(crate) fn beside_rows(limit: Option<Duration>) -> Self {
+        let mut watch = Self::new(limit);
+        if io::stdout().is_terminal() {
+            watch.line.hush();
         }
+        watch
+    }
+
+    /// Tells of the progress; breaks when time is up or someone interrupts.
+    pub(crate) fn look(&mut self, progress: &Progress) -> ControlFlow<()> {
+        let elapsed = self.start.elapsed();
+        if INTERRUPTED.load(Ordering::Relaxed) {
+            self.halt = Some(Halt::Interrupted);
+        } else if self.halt.is_none() {
+            self.halt = self.limit.filter(|limit| elapsed >= *limit).map(Halt::TimeLimit);
+        }
+        self.tell(progress);
+        if self.halt.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Tells of the progress, if a line is due.
+    pub(crate) fn tell(&mut self, progress: &Progress) {
+        let elapsed = self.start.elapsed();
+        if let (None, Some(fraction)) = (self.first, progress.fraction) {
+            self.first = Some((elapsed, fraction));
+        }
+        if elapsed >= QUIET && elapsed >= self.shown + BETWEEN {
+            self.shown = elapsed;
+            self.line.show(&self.words(progress, elapsed));
+        }
+    }
+
+    /// What has ended the work so far.
+    pub(crate) fn halt(&self) -> Option<Halt> {
+        self.halt
+    }
+
+    /// No more work; what has ended it.
+    pub(crate) fn finish(self) -> Option<Halt> {
+        self.halt
+    }
+
+    /// No more work: its result, which is whole or none.
+    ///
+    /// # Errors
+    /// If the work has been ended.
+    pub(crate) fn whole<T>(self, result: Option<T>) -> Result<T, Failure> {
+        let halt = self.finish().unwrap_or(Halt::Interrupted);
+        result.ok_or(Failure::Halted { halt, path: None })
+    }
+
+    fn words(&self, progress: &Progress, elapsed: Duration) -> String {
+        let mut text = String::new();
+        if let Some(fraction) = progress.fraction {
+            let filled = (1..=BAR).take_while(|part| *part as f64 <= fraction * BAR as f64).count();
+            let bar = ["#".repeat(filled), "-".repeat(BAR - filled)].concat();
+            let _ = write!(text, "[{bar}] {:.1} %, ", 100.0 * fraction);
+        }
+        let _ = write!(text, "{} {}, ", progress.done, progress.counted);
+        if let Some(found) = progress.found {
+            let _ = write!(text, "{found} found, ");
+        }
+        text.push_str(&rough(elapsed.as_secs_f64()));
+        match (progress, self.first) {
+            // A search goes on by leaps.
+            (Progress { fraction: Some(fraction), found: None, .. }, Some((since, first)))
+                if *fraction > first =>
+            {
+                let rate = (fraction - first) / elapsed.saturating_sub(since).as_secs_f64();
+                let _ = write!(text, ", {} left", rough((1.0 - fraction) / rate));
+            }
+            _ => {}
+        }
+        text
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        WATCHED.store(false, Ordering::Relaxed);
     }
 }
 
 /// A time without needless digits.
 fn rough(seconds: f64) -> String {
-    if seconds < 90.0 {
+    if seconds < 1.0 {
+        format!("{:.0} ms", 1000.0 * seconds)
+    } else if seconds < 90.0 {
         format!("{seconds:.0} s")
     } else if seconds < 5400.0 {
         format!("{:.0} min", seconds / 60.0)

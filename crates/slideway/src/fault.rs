@@ -7,6 +7,7 @@ mod axis;
 pub use axis::AxisProblem;
 
 use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
+use crate::printable;
 use std::fmt;
 use std::ops::Range;
 
@@ -166,7 +167,8 @@ impl From<Fault> for Faults {
 impl fmt::Display for Faults {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lines: Vec<String> = self.sorted().iter().map(|fault| fault.kind.to_string()).collect();
-        formatter.write_str(&lines.join("\n"))
+        let printable: Vec<_> = lines.iter().map(|line| printable::line(line)).collect();
+        formatter.write_str(&printable.join("\n"))
     }
 }
 
@@ -234,6 +236,10 @@ pub enum FaultKind {
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
+    #[error(
+        "the tolerance {tolerance:e} is less than what numbers resolve: positions of this mechanism are rounded to {least:.1e} of its size"
+    )]
+    ToleranceTooSmall { tolerance: f64, least: f64 },
     #[error("`{text}` is no value or range of {name}")]
     MalformedRange { text: String, name: String },
     #[error("{what} needs a range: {name}=FROM..TO")]
@@ -299,8 +305,10 @@ pub enum FaultKind {
     // Assembly of the state.
     #[error("the mechanism cannot be assembled in this state: {} by {gap}", opening(joint, loop_joints))]
     NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
-    #[error("{state} is too far from the drawing")]
-    TooFar { state: String, limit: f64 },
+    #[error("{state} is too far from the drawing: {steps} steps came as far as {reached}")]
+    TooFar { state: String, reached: String, steps: usize },
+    #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
+    NotFollowed { state: String, reached: String, steps: usize },
     #[error(
         "the overlap of {joint} has shrunk to {} m at a displacement of {} m",
         rounded(*overlap),
@@ -450,10 +458,11 @@ impl FaultKind {
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => {
-                Some("move it a little with --at to leave the singular position")
+                Some("draw it in a neighbouring position, or move it a little with --at")
             }
-            Self::TooFar { .. } => Some(
-                "draw the mechanism nearer to this state: it is followed through at most 300 of its sizes, or 300 rad",
+            Self::TooFar { .. } => Some("draw the mechanism nearer to this state"),
+            Self::NotFollowed { .. } => Some(
+                "that is a dead centre of the coordinates or a place where branches meet: draw the mechanism beyond it, or choose coordinates that go on there",
             ),
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
             Self::DependentCoordinates { .. } => {

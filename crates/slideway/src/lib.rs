@@ -21,6 +21,8 @@
 //!
 //! [`motion::simulate`] follows a mechanism in time.
 //!
+//! What takes long tells its [`progress`], and can be told to end.
+//!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
 //! enters at [`modes`], or with a file of them at [`raw_problem`].
 
@@ -42,6 +44,8 @@ pub mod mechanism;
 pub mod model;
 pub mod modes;
 pub mod motion;
+pub mod printable;
+pub mod progress;
 pub mod raw_problem;
 pub mod report;
 pub mod size;

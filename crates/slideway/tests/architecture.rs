@@ -8,19 +8,21 @@ use std::path::{Path, PathBuf};
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
     ("interval", &[]),
+    ("printable", &[]),
     ("expression", &["interval"]),
     ("ids", &[]),
-    ("fault", &["expression"]),
+    ("progress", &[]),
+    ("fault", &["expression", "printable"]),
     ("model", &["expression", "fault", "ids", "interval"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model"]),
     ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
     ("kinetics", &["configuration", "fault", "ids", "interval", "mechanism", "model"]),
     ("influence", &["ids", "kinetics"]),
-    ("modes", &["interval"]),
+    ("modes", &["interval", "progress"]),
     ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
-    ("report", &[]),
+    ("report", &["fault", "printable"]),
     ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
-    ("raw_problem", &["fault", "modes", "report"]),
+    ("raw_problem", &["fault", "modes", "printable", "progress", "report"]),
     ("gallery", &[]),
 ];
 

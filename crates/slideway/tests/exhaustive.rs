@@ -9,9 +9,10 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use slideway::modes::certificate::{Decision, IntervalModeProblem, ProblemView, decide};
 use slideway::modes::exhaustive::{
-    Instructions, Pattern, Progress, Screening, prove, prove_with, screen, screen_by, screen_with,
+    Instructions, Pattern, Screening, prove, prove_with, screen, screen_by, screen_with,
 };
 use slideway::modes::{ContactState, Limits, ModeProblem, Side, enumerate};
+use slideway::progress::Progress;
 
 /// The patterns that the simple enumerator finds to have a solution, inside or on the boundary.
 fn with_solution(problem: &ModeProblem) -> Vec<Pattern> {
@@ -351,8 +352,8 @@ fn patterns_stream_in_ascending_order_and_progress_adds_up() {
     let problem = random_problem(17, 11);
     let (mut told, largest) = (Vec::new(), AtomicU64::new(0));
     let progress = |progress: &Progress| {
-        largest.fetch_max(progress.examined, Ordering::Relaxed);
-        assert_eq!(progress.total, 1 << 17);
+        largest.fetch_max(progress.done, Ordering::Relaxed);
+        assert_eq!(progress.fraction, Some(progress.done as f64 / f64::from(1 << 17)));
         ControlFlow::Continue(())
     };
     let visit = |pattern, verdict| {

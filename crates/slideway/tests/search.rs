@@ -194,8 +194,8 @@ fn limits_and_cancellation_give_partial_answers() -> Outcome {
 
     let mut fractions = Vec::new();
     let result = search(&problem, &SearchOptions::default(), &mut |progress| {
-        fractions.push(progress.fraction);
-        if progress.nodes < 30 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        fractions.extend(progress.fraction);
+        if progress.done < 30 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })?;
     assert_eq!(result.completeness, Completeness::Partial(StopReason::Cancelled));
     assert_eq!(fractions.len(), 30);

@@ -1,7 +1,7 @@
 //! `slideway draw`
 
 use super::values::positive;
-use super::{Destination, ModelArguments, PictureTheme};
+use super::{Destination, ModelArguments, PictureTheme, TimeArguments};
 use clap::Args;
 
 pub(super) const HELP: &str = "\
@@ -12,8 +12,12 @@ Examples:
   slideway draw drawer.toml --theme dark --output drawer.png
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the files or the arguments";
+  0    done
+  2    faulty input: the model, the settings, the files or the arguments
+  3    nothing was found within --time-limit
+  130  interrupted (Ctrl-C)
+
+What was found until the time limit or the interruption is drawn, and the drawing says that it is partial.";
 
 /// Arguments of `slideway draw`.
 #[derive(Debug, Args)]
@@ -32,6 +36,9 @@ pub(crate) struct DrawArguments {
     /// Width of the picture in pixels. By default letters are 15 pixels high, 30 in PNG.
     #[arg(long, value_name = "PIXELS", value_parser = positive)]
     pub(crate) width: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

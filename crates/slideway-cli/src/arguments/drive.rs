@@ -1,6 +1,6 @@
 //! `slideway drive`
 
-use super::{CheckFormat, Destination, ModelArguments};
+use super::{CheckFormat, Destination, ModelArguments, TimeArguments};
 use clap::Args;
 use slideway::drive::GREATEST_ROWS;
 
@@ -16,9 +16,11 @@ where the load pushes and the drives brake it is the inverse. Without a range th
 by `slideway size`.
 
 Exit codes:
-  0  done
-  1  no effort moves it as in the model: friction locks it
-  2  faulty input: the model has no drives, the settings, the name or the range, the arguments";
+  0    done
+  1    no effort moves it as in the model: friction locks it
+  2    faulty input: the model has no drives, the settings, the name or the range, the arguments
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway drive`.
 #[derive(Debug, Args)]
@@ -37,6 +39,9 @@ pub(crate) struct DriveArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

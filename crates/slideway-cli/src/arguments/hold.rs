@@ -1,6 +1,6 @@
 //! `slideway hold`
 
-use super::{CheckFormat, Destination, ModelArguments};
+use super::{CheckFormat, Destination, ModelArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 
 pub(super) const HELP: &str = "\
@@ -16,10 +16,12 @@ model; all that is told besides holds for the factor 1. The name of a drive stan
 and all that is told besides holds without it. A load comes before a drive of the same name.
 
 Exit codes:
-  0  it can stay at rest
-  1  it cannot stay at rest
-  2  faulty input: the model, the settings, the files or the arguments
-  3  unknown: no state of rest was found, but not every state could be decided";
+  0    it can stay at rest
+  1    it cannot stay at rest
+  2    faulty input: the model, the settings, the files or the arguments
+  3    unknown: no state of rest was found, but not every state could be decided; or
+       not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway hold`.
 #[derive(Debug, Args)]
@@ -43,6 +45,9 @@ pub(crate) struct HoldArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

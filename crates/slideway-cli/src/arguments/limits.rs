@@ -1,7 +1,7 @@
 //! `slideway limits`
 
 use super::values::positive;
-use super::{CheckFormat, Destination, ModelArguments, PlotArguments};
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::limits::Quantity;
 
@@ -15,8 +15,10 @@ Examples:
   slideway limits klepp-2002.toml --vary mu_1=0..0.8 --set F_20=0 --both-directions --plot figures-4-5.svg
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the name or the range, the arguments";
+  0    done
+  2    faulty input: the model, the settings, the name or the range, the arguments
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway limits`.
 #[derive(Debug, Args)]
@@ -46,6 +48,9 @@ pub(crate) struct LimitsArguments {
     /// What the plot shows.
     #[arg(long, value_enum, default_value_t, requires = "plot")]
     pub(crate) quantity: PlottedQuantity,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

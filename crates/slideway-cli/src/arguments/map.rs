@@ -1,6 +1,6 @@
 //! `slideway map`
 
-use super::{ModelArguments, PictureTheme};
+use super::{ModelArguments, PictureTheme, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::map::{ColourBy, GREATEST_SIZE};
 use std::path::PathBuf;
@@ -13,8 +13,10 @@ Examples:
   slideway map slider-crank.toml --x phi=\"-180 deg..180 deg\" --y mu=0..1 --colour-by jam --output crank.json
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the names or the ranges, the arguments";
+  0    done
+  2    faulty input: the model, the settings, the names or the ranges, the arguments
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway map`.
 #[derive(Debug, Args)]
@@ -41,6 +43,9 @@ pub(crate) struct MapArguments {
     /// Pixels between probes: narrower regions may be missed; 1 solves every pixel.
     #[arg(long, value_name = "PIXELS", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) probe: u16,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     /// Colours of the picture.
     #[arg(long, value_enum, default_value_t)]

@@ -23,10 +23,11 @@ Examples:
   slideway modes - < problem.json
 
 Exit codes:
-  0  solutions were found: one, several, infinitely many, or a state in a preload gap
-  1  no solution, and the search was complete
-  2  faulty input: the problem, the files or the arguments
-  3  unknown: nothing was found, but the search was not complete";
+  0    solutions were found: one, several, infinitely many, or a state in a preload gap
+  1    no solution, and the search was complete
+  2    faulty input: the problem, the files or the arguments
+  3    unknown: nothing was found, but the search was not complete
+  130  interrupted (Ctrl-C): what was found until then is told";
 
 /// Arguments of `slideway modes`.
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
 //! `slideway report`
 
-use super::{Destination, ModelArguments};
+use super::{Destination, ModelArguments, TimeArguments};
 use clap::Args;
 
 pub(super) const HELP: &str = "\
@@ -10,8 +10,10 @@ Examples:
   slideway report drawer.toml --output drawer.html --force
 
 Exit codes:
-  0  done
-  2  faulty input: the model, the settings, the name or the range, the files or the arguments";
+  0    done
+  2    faulty input: the model, the settings, the name or the range, the files or the arguments
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway report`.
 #[derive(Debug, Args)]
@@ -23,6 +25,9 @@ pub(crate) struct ReportArguments {
     /// Default: `friction`, the factor of all coefficients of friction.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: Vec<String>,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

@@ -1,9 +1,8 @@
 //! What a search may cost.
 
-use super::values::duration;
+use super::TimeArguments;
 use clap::Args;
 use slideway::modes::SearchOptions;
-use std::time::Duration;
 
 /// What a search for solutions may cost, and how much of it is told.
 #[derive(Debug, Args)]
@@ -16,9 +15,8 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N")]
     max_nodes: Option<u64>,
 
-    /// End the search after this time (30s, 500ms, 2min, 1.5h); the answer is then partial.
-    #[arg(long, value_name = "TIME", value_parser = duration)]
-    pub(crate) time_limit: Option<Duration>,
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 }
 
 impl SearchArguments {

@@ -1,10 +1,9 @@
 //! `slideway simulate`
 
-use super::values::{duration, positive};
-use super::{CheckFormat, Destination, ModelArguments, PlotArguments};
+use super::values::positive;
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use std::time::Duration;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -15,13 +14,14 @@ Examples:
   slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 --all-branches
 
 Exit codes:
-  0  followed to the end, to an event that ends it, or to a limit of travel
-  1  friction locks the mechanism: it cannot go on
-  2  faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
-  3  not followed to the end: too many steps or events, or what follows cannot be decided
+  0    followed to the end, to an event that ends it, or to a limit of travel
+  1    friction locks the mechanism: it cannot go on
+  2    faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
+  3    not followed to the end: too many steps or events, no time left, or what follows cannot be decided
   130  interrupted (Ctrl-C)
 
-What was computed until then is told and written in any case, unless the motion cannot begin.
+What was computed until then is told and written in any case, unless the motion cannot begin. If it is
+interrupted, the table goes to FILE.partial and no pictures are made.
 --output writes the motion as a table beside what is told; the ending of the file says in which form.";
 
 /// Arguments of `slideway simulate`.
@@ -101,9 +101,8 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "N", value_parser = positive)]
     pub(crate) max_reaction: Option<f64>,
 
-    /// It ends after this time on the clock: 30s, 500ms, 2min.
-    #[arg(long, value_name = "TIME", value_parser = duration)]
-    pub(crate) time_limit: Option<Duration>,
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     /// Form of what is told.
     #[arg(long, value_enum, default_value_t)]

@@ -1,7 +1,7 @@
 //! `slideway size`
 
 use super::values::positive;
-use super::{CheckFormat, Destination, ModelArguments};
+use super::{CheckFormat, Destination, ModelArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::size;
@@ -22,9 +22,11 @@ smaller. Without a range a coefficient of friction goes from 0 to 1 or twice its
 from 0 to 10, any other parameter from a fifth of its value to five times it.
 
 Exit codes:
-  0  the margin is met somewhere in the range
-  1  it is met nowhere in the range
-  2  faulty input: the model, the settings, the name or the range, the arguments";
+  0    the margin is met somewhere in the range
+  1    it is met nowhere in the range
+  2    faulty input: the model, the settings, the name or the range, the arguments
+  3    not done within --time-limit: nothing is written
+  130  interrupted (Ctrl-C): nothing is written";
 
 /// Arguments of `slideway size`.
 #[derive(Debug, Args)]
@@ -55,6 +57,9 @@ pub(crate) struct SizeArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

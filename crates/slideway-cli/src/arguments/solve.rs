@@ -13,10 +13,11 @@ Examples:
   slideway models drawer | slideway solve -
 
 Exit codes:
-  0  solved: one solution, several, infinitely many, or a state with the preload between the faces
-  1  no solution: friction locks the mechanism
-  2  faulty input: the model, the settings, the files or the arguments
-  3  unknown: nothing was found, but not every contact mode could be decided";
+  0    solved: one solution, several, infinitely many, or a state with the preload between the faces
+  1    no solution: friction locks the mechanism
+  2    faulty input: the model, the settings, the files or the arguments
+  3    unknown: nothing was found, but not every contact mode could be decided
+  130  interrupted (Ctrl-C): what was found until then is told";
 
 /// Arguments of `slideway solve`.
 #[derive(Debug, Args)]

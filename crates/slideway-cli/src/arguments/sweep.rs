@@ -1,7 +1,7 @@
 //! `slideway sweep`
 
 use super::limits::PlottedQuantity;
-use super::{Destination, ModelArguments, PlotArguments};
+use super::{Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::sweep::{Sampling, Spread, SweepOptions};
 
@@ -27,7 +27,10 @@ Examples:
 Exit codes:
   0    done
   2    faulty input: the model, the settings, the axes, the files or the arguments
-  130  interrupted: what is done is kept, --resume goes on";
+  3    not done within --time-limit
+  130  interrupted (Ctrl-C)
+
+What is done until the time limit or the interruption is kept beside --output; --resume goes on.";
 
 /// Arguments of `slideway sweep`.
 #[derive(Debug, Args)]
@@ -72,6 +75,9 @@ pub(crate) struct SweepArguments {
     /// What the plot shows.
     #[arg(long, value_enum, default_value_t, requires = "plot")]
     pub(crate) quantity: PlottedQuantity,
+
+    #[command(flatten)]
+    pub(crate) time: TimeArguments,
 
     #[command(flatten)]
     pub(crate) destination: Destination,

@@ -6,12 +6,13 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture::{Picture, SHARPNESS};
+use crate::watch::{Watch, outcome};
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
-use slideway::report::Report;
-use slideway::solve::solve;
+use slideway::report::{Report, Status};
+use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
 
@@ -25,29 +26,36 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
-    let report = solutions(&model, arguments.solution).map_err(|faults| input.refused(faults))?;
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let report = solutions(&model, arguments.solution, &mut watch).map_err(|faults| input.refused(faults))?;
+    let halt = watch.finish();
     let shown = match arguments.solution {
         None | Some(Which::All) => Shown::All,
         Some(Which::None) => Shown::Mechanism,
         Some(Which::Number(number)) => Shown::Solution(number),
     };
     let Some(sheet) = sheet(&mechanism, &configuration, report.as_ref(), shown) else {
+        if let Some(halt) = halt {
+            return Err(Failure::Halted { halt, path: None });
+        }
         let count = report.map_or(0, |report| report.solutions.len());
         return Err(Failure::NoSuchSolution { count });
     };
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
     picture.write_scaled(&written(&sheet, arguments.theme, width), sharpness, &output)?;
-    Ok(Outcome::Done)
+    let has_found = report.is_none_or(|report| report.status != Status::Unknown);
+    Ok(outcome(halt, if has_found || halt.is_none() { Outcome::Done } else { Outcome::Unknown }))
 }
 
 /// All solutions, if they are wanted. Where only the kinetic problem makes no sense (a mechanism at rest, a motion
 /// without inertia) the mechanism can be drawn all the same, unless solutions are asked for.
-fn solutions(model: &Model, which: Option<Which>) -> Result<Option<Report>, Faults> {
+fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<Option<Report>, Faults> {
+    let mut solve = || solve_with(model, &SolveOptions::default(), &mut |progress| watch.look(progress));
     match which {
         Some(Which::None) => Ok(None),
-        None => Ok(solve(model).ok()),
-        Some(_) => solve(model).map(Some),
+        None => Ok(solve().ok()),
+        Some(_) => solve().map(Some),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::arguments::{CheckFormat, DriveArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};
 
 /// Says which efforts the drives need.
@@ -14,7 +15,9 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = DriveOptions { vary: arguments.vary.clone(), rows: arguments.rows };
-    let report = drive::drive(&model, &options).map_err(|faults| input.refused(faults))?;
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));
+    let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     output.write(&match arguments.format {
         CheckFormat::Text => drive::to_text(&report, output.style()),
         CheckFormat::Json => drive::to_json(&report),

@@ -5,6 +5,7 @@ use crate::arguments::{CheckFormat, Drives, HoldArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::watch::Watch;
 use slideway::standstill::{self, HoldOptions};
 
 /// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
@@ -18,7 +19,9 @@ pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome
         vary: arguments.vary.clone(),
         hold_drives: arguments.drives == Drives::Hold,
     };
-    let report = standstill::hold(&model, &options).map_err(|faults| input.refused(faults))?;
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let report = standstill::hold_with(&model, &options, &mut |progress| watch.look(progress));
+    let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     output.write(&match arguments.format {
         CheckFormat::Text => standstill::to_text(&report, output.style()),
         CheckFormat::Json => standstill::to_json(&report),

@@ -6,7 +6,9 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture;
+use crate::watch::Watch;
 use slideway::limits::{self, LimitsOptions};
+use slideway::progress::Progress;
 use slideway_pictures::plot::{limits_figure, to_svg};
 
 /// Says for which values each contact mode exists, and plots it if asked to.
@@ -21,14 +23,17 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         max_reaction: arguments.max_reaction,
         both_directions: arguments.both_directions,
     };
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut look = |progress: &Progress| watch.look(progress);
     let report = if let Some((picture, file)) = plot {
-        let (report, curves) = limits::limits_with_curves(&model, &options, arguments.quantity.into())
-            .map_err(|faults| input.refused(faults))?;
+        let found = limits::curves_with(&model, &options, arguments.quantity.into(), &mut look);
+        let (report, curves) = watch.whole(found.map_err(|faults| input.refused(faults))?)?;
         let figure = limits_figure(&report, &curves);
         picture.write(&to_svg(&figure, arguments.plot.theme.colours()), &file)?;
         report
     } else {
-        limits::limits(&model, &options).map_err(|faults| input.refused(faults))?
+        let found = limits::limits_with(&model, &options, &mut look);
+        watch.whole(found.map_err(|faults| input.refused(faults))?)?
     };
     output.write(&match arguments.format {
         CheckFormat::Text => limits::to_text(&report, output.style()),

@@ -4,15 +4,11 @@ use crate::Outcome;
 use crate::arguments::{Destination, MapArguments};
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::output::{Output, ProgressLine};
+use crate::output::Output;
 use crate::picture::Picture;
-use slideway::map::{MapOptions, MapProgress, map_with, to_json};
+use crate::watch::Watch;
+use slideway::map::{MapOptions, map_with, to_json};
 use slideway_pictures::map::to_svg;
-use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
-
-/// Maps that take less time show no progress.
-const QUIET: Duration = Duration::from_secs(1);
 
 /// Maps the plane of two quantities.
 pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -31,16 +27,9 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
         colour_by: arguments.colour_by.into(),
         probe: usize::from(arguments.probe),
     };
-    let (start, mut line) = (Instant::now(), ProgressLine::new());
-    let mut progress = |progress: MapProgress| {
-        if start.elapsed() >= QUIET {
-            line.show(&format!("{} points, {} s", progress.points, start.elapsed().as_secs()));
-        }
-        ControlFlow::Continue(())
-    };
-    let report = map_with(&model, &options, &mut progress).map_err(|faults| input.refused(faults))?;
-    drop(line);
-    let report = report.unwrap_or_default();
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let report = map_with(&model, &options, &mut |progress| watch.look(progress));
+    let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
         None => output.write(&to_json(&report))?,
         Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), &output)?,

@@ -5,7 +5,7 @@ use crate::arguments::{ModesArguments, ModesFormat, SearchArguments};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Output;
-use crate::watch::Watch;
+use crate::watch::{Watch, outcome};
 use slideway::raw_problem::{RawFault, RawProblem, SIZE_LIMIT, solve, to_json, to_npz, to_text};
 use slideway::report::Status;
 
@@ -13,22 +13,25 @@ use slideway::report::Status;
 pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination)?;
     let problem = read(arguments)?;
-    let SearchArguments { max_solutions, time_limit, .. } = arguments.search;
-    let mut watch = Watch::new(time_limit);
+    let SearchArguments { max_solutions, time, .. } = &arguments.search;
+    let mut watch = Watch::new(time.time_limit);
     let options = arguments.search.options();
-    let report = solve(&problem, &options, max_solutions, &mut |progress| watch.look(progress))
+    let report = solve(&problem, &options, *max_solutions, &mut |progress| watch.look(progress))
         .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
-    drop(watch);
+    let halt = watch.finish();
     match arguments.format() {
         ModesFormat::Text => output.write(&to_text(&report, output.style()))?,
         ModesFormat::Json => output.write(&to_json(&report))?,
         ModesFormat::Npz => output.write_bytes(&to_npz(&report))?,
     }
-    Ok(match report.status {
-        Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
-        Status::None => Outcome::NoSolution,
-        Status::Unknown => Outcome::Unknown,
-    })
+    Ok(outcome(
+        halt,
+        match report.status {
+            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
+            Status::None => Outcome::NoSolution,
+            Status::Unknown => Outcome::Unknown,
+        },
+    ))
 }
 
 fn read(arguments: &ModesArguments) -> Result<RawProblem, Failure> {

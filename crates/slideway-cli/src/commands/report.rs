@@ -5,12 +5,13 @@ use crate::arguments::ReportArguments;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::watch::Watch;
 use slideway::configuration::Configuration;
 use slideway::fault::Faults;
-use slideway::limits::{LimitsOptions, LimitsReport, Quantity, limits_with_curves};
+use slideway::limits::{LimitsOptions, LimitsReport, Quantity, curves_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
-use slideway::solve::solve;
+use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{Figure, Page, to_html};
 use slideway_pictures::plot::{limits_figure, to_svg};
@@ -31,11 +32,15 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
-    let answer = solve(&model).map_err(|faults| reasons(&faults));
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let answer = solve_with(&model, &SolveOptions::default(), &mut |progress| watch.look(progress))
+        .map_err(|faults| reasons(&faults));
     let Some(sheet) = sheet(&mechanism, &configuration, answer.as_ref().ok(), Shown::All) else {
         return Err(Failure::NoSuchSolution { count: 0 });
     };
-    let varied = varied(&model, &arguments.vary).map_err(|faults| input.refused(faults))?;
+    let varied = varied(&model, &arguments.vary, &mut watch).map_err(|faults| input.refused(faults))?;
+    let is_whole = watch.halt().is_none();
+    let varied = watch.whole(varied.filter(|_| is_whole))?;
     let (limits, figures): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
     let settings: Vec<String> = input.settings.entries().iter().map(slideway::model::Setting::text).collect();
     let page = Page {
@@ -68,24 +73,32 @@ fn reasons(faults: &Faults) -> Vec<String> {
 }
 
 /// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if the model
-/// has any.
-fn varied(model: &Model, wanted: &[String]) -> Result<Vec<(LimitsReport, Figure)>, Faults> {
+/// has any; nothing if the work was ended.
+fn varied(
+    model: &Model,
+    wanted: &[String],
+    watch: &mut Watch,
+) -> Result<Option<Vec<(LimitsReport, Figure)>>, Faults> {
     if wanted.is_empty() {
-        return Ok(limits(model, slideway::limits::FRICTION).ok().into_iter().collect());
+        return Ok(match limits(model, slideway::limits::FRICTION, watch) {
+            Ok(found) => found.map(|found| vec![found]),
+            Err(_) => Some(Vec::new()),
+        });
     }
-    wanted.iter().map(|vary| limits(model, vary)).collect()
+    wanted.iter().map(|vary| limits(model, vary, watch)).collect()
 }
 
-fn limits(model: &Model, vary: &str) -> Result<(LimitsReport, Figure), Faults> {
+fn limits(model: &Model, vary: &str, watch: &mut Watch) -> Result<Option<(LimitsReport, Figure)>, Faults> {
     let options = LimitsOptions::of(vary);
-    let (report, curves) = limits_with_curves(model, &options, Quantity::NormalForce)?;
+    let found = curves_with(model, &options, Quantity::NormalForce, &mut |progress| watch.look(progress))?;
+    let Some((report, curves)) = found else { return Ok(None) };
     let plot = limits_figure(&report, &curves);
     let figure = Figure {
         caption: format!("Normal forces of the contacts over {}.", report.vary.name),
         light: to_svg(&plot, &LIGHT),
         dark: to_svg(&plot, &DARK),
     };
-    Ok((report, figure))
+    Ok(Some((report, figure)))
 }
 
 /// The command that makes the page, as far as it matters for what is on it.

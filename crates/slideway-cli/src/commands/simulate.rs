@@ -1,24 +1,27 @@
 //! `slideway simulate`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, Destination, Preference, SimulateArguments};
+use crate::arguments::{CheckFormat, Preference, SimulateArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
-use crate::table::Metadata;
+use crate::table::{Metadata, unfinished};
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
-use crate::watch::{Interruption, Watch};
+use crate::watch::{self, Halt, Watch};
 use slideway::configuration::Configuration;
-use slideway::fault::{Fault, FaultKind};
+use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
-use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway::progress::Progress;
+use slideway::report::finite;
+use slideway_pictures::motion::{AnimationOptions, GifFault, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
-use std::path::Path;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 
 /// Rows of a table that are too many to be meant.
 const MOST_ROWS: f64 = 1e7;
@@ -26,7 +29,7 @@ const MOST_ROWS: f64 = 1e7;
 /// Follows a mechanism in time.
 pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
     arguments.model.spare(&arguments.destination)?;
-    let files = Files::new(arguments, output)?;
+    let mut files = Files::new(arguments, output)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
@@ -35,27 +38,30 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
     let step = question.step(&options)?;
     let configuration = Configuration::new(&mechanism).map_err(|faults| input.refused(faults))?;
 
-    let until = mechanism.time + options.duration;
-    let mut watch = Watch::new(arguments.time_limit);
-    let interruption = Interruption::watch();
-    let mut progress = |time| {
-        interruption.flow()?;
-        watch.follow(time, [mechanism.time, until])
-    };
+    let mut watch = Watch::new(arguments.time.time_limit);
+    let mut progress = |progress: &Progress| watch.look(progress);
     let told = if arguments.all_branches {
         let most = (&mut Thorough as &mut dyn motion::Decisions, arguments.max_motions);
         let tree = motion::simulate_all(&mechanism, &configuration, &options, most, &mut progress);
-        Told::all(arguments, &tree.map_err(|faults| input.refused(faults))?, &options, output)
+        let tree = tree.map_err(|faults| input.refused(faults))?;
+        Told::all(arguments, &tree, &options, output)
     } else {
         let history =
             motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
         let history = history.map_err(|faults| input.refused(faults))?;
+        if history.end == End::Interrupted && watch.halt() == Some(Halt::Interrupted) {
+            files.interrupt();
+        }
         files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
-    drop(watch);
+    let told = told.map_err(|faults| input.refused(faults))?;
+    let halt = watch.finish();
     output.write(&told.text)?;
-    Ok(if interruption.is_requested() { Outcome::Interrupted } else { told.outcome })
+    match files.interrupted {
+        Some(path) => Err(Failure::MotionInterrupted { path }),
+        None => Ok(watch::outcome(halt, told.outcome)),
+    }
 }
 
 /// The answer on standard output.
@@ -70,13 +76,13 @@ impl Told {
         history: &History,
         options: &SimulateOptions,
         output: &Output,
-    ) -> Self {
-        let report = motion::report(history, options);
+    ) -> Result<Self, Faults> {
+        let report = finite(motion::report(history, options))?;
         let text = match arguments.format {
             CheckFormat::Text => motion::to_text(&report, output.style(), arguments.all_events),
             CheckFormat::Json => motion::to_json(&report),
         };
-        Self { text, outcome: outcome(&history.end) }
+        Ok(Self { text, outcome: outcome(&history.end) })
     }
 
     fn all(
@@ -84,15 +90,16 @@ impl Told {
         tree: &motion::Tree,
         options: &SimulateOptions,
         output: &Output,
-    ) -> Self {
-        let report = motion::tree_report(tree, options);
+    ) -> Result<Self, Faults> {
+        let report = finite(motion::tree_report(tree, options))?;
         let text = match arguments.format {
             CheckFormat::Text => motion::tree_to_text(&report, output.style(), arguments.all_events),
             CheckFormat::Json => motion::tree_to_json(&report),
         };
         // The best that any motion comes to.
         let outcomes = tree.histories.iter().map(|branching| outcome(&branching.history.end));
-        Self { text, outcome: outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown) }
+        let outcome = outcomes.min_by_key(|outcome| *outcome as u8).unwrap_or(Outcome::Unknown);
+        Ok(Self { text, outcome })
     }
 }
 
@@ -187,14 +194,15 @@ struct Files<'a> {
     table: Option<(SeriesFormat, Output)>,
     plot: Option<(Picture, Output)>,
     animation: Option<(AnimationFormat, Output)>,
+    /// Where the table of an interrupted motion is.
+    interrupted: Option<PathBuf>,
 }
 
 impl<'a> Files<'a> {
     /// Before the work it is seen whether they can be written.
     fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
         let place = |path: &Path| {
-            let destination =
-                Destination { output: Some(path.to_owned()), force: arguments.destination.force };
+            let destination = arguments.destination.beside(path);
             arguments.model.spare(&destination)?;
             output.to(&destination)
         };
@@ -202,19 +210,34 @@ impl<'a> Files<'a> {
             Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),
             None => None,
         };
+        let file = table.as_ref().and_then(|(_, output)| output.path());
+        if let Some(path) = file.and_then(|file| unfinished(&file)).filter(|_| !arguments.destination.force) {
+            return Err(Failure::Unfinished { path });
+        }
         let animation = match arguments.animate.as_deref() {
             Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
             None => None,
         };
         let plot = beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
-        let others = [arguments.destination.output.as_ref(), arguments.plot.plot.as_ref()];
-        if let Some(path) = arguments.animate.as_ref().filter(|path| others.contains(&Some(*path))) {
+        let outputs = [table.as_ref().map(|(_, file)| file), plot.as_ref().map(|(_, file)| file)];
+        let others = outputs.map(|file| file.and_then(Output::path));
+        if let (Some(path), Some((_, file))) = (&arguments.animate, &animation)
+            && others.contains(&file.path())
+        {
             return Err(Failure::SameOutput { path: path.clone() });
         }
         if arguments.all_branches && (table.is_some() || plot.is_some() || animation.is_some()) {
             return Err(Failure::SeveralMotions);
         }
-        Ok(Self { arguments, table, plot, animation })
+        Ok(Self { arguments, table, plot, animation, interrupted: None })
+    }
+
+    /// Nothing unfinished gets a final name: the table goes beside it, and there are no pictures.
+    fn interrupt(&mut self) {
+        (self.plot, self.animation) = (None, None);
+        if let Some((_, output)) = &mut self.table {
+            self.interrupted = output.be_partial();
+        }
     }
 
     fn write(
@@ -254,13 +277,26 @@ impl<'a> Files<'a> {
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
             let animation = animation(history, &options, theme);
-            let mut progress = |part| watch.animate(part);
+            // What was simulated until an interruption is shown whole.
+            let is_halted = watch.halt().is_some();
+            let mut progress = |progress: &Progress| {
+                if is_halted {
+                    watch.tell(progress);
+                    return ControlFlow::Continue(());
+                }
+                watch.look(progress)
+            };
             let bytes = match format {
                 AnimationFormat::Html => animation.to_html().into_bytes(),
                 AnimationFormat::Svg => animation.to_svg().into_bytes(),
-                AnimationFormat::Gif => animation
-                    .to_gif(&mut progress)
-                    .map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
+                AnimationFormat::Gif => match animation.to_gif(&mut progress) {
+                    Ok(bytes) => bytes,
+                    Err(GifFault::Ended) => {
+                        let (halt, path) = (watch.halt().unwrap_or(Halt::Interrupted), output.path());
+                        return Err(Failure::Halted { halt, path });
+                    }
+                    Err(fault) => return Err(Failure::Picture { reason: fault.to_string() }),
+                },
             };
             output.write_bytes(&bytes)?;
         }

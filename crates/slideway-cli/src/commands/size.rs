@@ -5,6 +5,7 @@ use crate::arguments::{CheckFormat, SizeArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
+use crate::watch::Watch;
 use slideway::size::{self, SizeOptions};
 
 /// Finds the value of a parameter at which a margin is just met.
@@ -15,6 +16,7 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let model = input.model()?;
     let loads = model.loads.iter().map(|load| &load.name);
     let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
+    let mut watch = Watch::new(arguments.time.time_limit);
     let report = arguments.against(names).and_then(|against| {
         let options = SizeOptions {
             vary: arguments.vary.clone(),
@@ -22,9 +24,9 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
             against,
             both_directions: arguments.both_directions,
         };
-        size::size(&model, &options)
+        size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });
-    let report = report.map_err(|faults| input.refused(faults))?;
+    let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     output.write(&match arguments.format {
         CheckFormat::Text => size::to_text(&report, output.style()),
         CheckFormat::Json => size::to_json(&report),

@@ -5,7 +5,7 @@ use crate::arguments::{Format, SolveArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
-use crate::watch::Watch;
+use crate::watch::{Watch, outcome};
 use slideway::report::{Status, to_csv, to_json, to_text};
 use slideway::solve::{SolveOptions, solve_with};
 
@@ -20,18 +20,21 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
         most: arguments.search.max_solutions,
         ..SolveOptions::default()
     };
-    let mut watch = Watch::new(arguments.search.time_limit);
+    let mut watch = Watch::new(arguments.search.time.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
         .map_err(|faults| input.refused(faults))?;
-    drop(watch);
+    let halt = watch.finish();
     output.write(&match arguments.format {
         Format::Text => to_text(&report, output.style()),
         Format::Json => to_json(&report),
         Format::Csv => to_csv(&report),
     })?;
-    Ok(match report.status {
-        Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
-        Status::None => Outcome::NoSolution,
-        Status::Unknown => Outcome::Unknown,
-    })
+    Ok(outcome(
+        halt,
+        match report.status {
+            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
+            Status::None => Outcome::NoSolution,
+            Status::Unknown => Outcome::Unknown,
+        },
+    ))
 }

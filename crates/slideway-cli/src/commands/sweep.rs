@@ -7,13 +7,14 @@ use crate::input::Input;
 use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
-use crate::watch::{Interruption, SweepWatch};
+use crate::watch::{Halt, Watch};
+use slideway::progress::Progress;
 use slideway::sweep::{Rows, Sweep, SweepState, to_text};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Computes all solutions at every point of a grid or sample, and writes them to a table.
 pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -34,7 +35,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let work = Work { sweep: &sweep, encoder, plot };
     match destination.path().filter(|path| !is_special(path)) {
         Some(path) => to_file(arguments, work, &path, &destination),
-        None if format == TableFormat::Csv => stream(work, &destination),
+        None if format == TableFormat::Csv => stream(arguments, work, &destination),
         None => Err(Failure::NoStream),
     }
 }
@@ -153,36 +154,31 @@ fn to_file(
     let how = (arguments.resume, arguments.destination.force);
     let Continued { mut file, mut state } =
         PartialFile::open(path, work.encoder.clone(), how, sweep.start())?;
-    // Where it is not noticed it ends the program at once; the last state is still there.
-    let interruption = Interruption::watch();
-    let go_on = || interruption.flow();
-    let mut watch = SweepWatch::new(state.done, sweep.points());
+    let mut watch = Watch::new(arguments.time.time_limit);
     let mut failure = None;
     if let Some(plot) = &mut work.plot {
         plot.repeat(sweep, state.done);
     }
     work.run(&mut state, &mut |rows, state| {
-        watch.look(state.done);
         if let Err(error) = file.add(&rows, state) {
             failure = Some(error);
             return ControlFlow::Break(());
         }
-        go_on()
+        watch.look(&Progress::of("points", state.done, sweep.points()))
     });
     if let Some(failure) = failure {
         return Err(failure);
     }
     let is_computed = state.done == sweep.points();
-    let mut follow = |part| {
-        watch.complete(part);
-        go_on()
+    let mut follow = |part: f64| {
+        let done = Progress::of("points", sweep.points(), sweep.points());
+        watch.look(&Progress { fraction: Some(part), ..done })
     };
     if !is_computed || file.complete(&mut follow)?.is_break() {
-        drop(watch);
         file.keep(&state)?;
-        return Err(Failure::Interrupted { done: state.done, points: sweep.points(), path: file.path() });
+        return Err(unswept(watch, &state, sweep, Some(file.path())));
     }
-    drop(watch);
+    watch.finish();
     if let Some(plot) = work.plot {
         plot.write(&state)?;
     }
@@ -190,22 +186,36 @@ fn to_file(
     Ok(Outcome::Done)
 }
 
+/// That the sweep was ended before it was done.
+fn unswept(watch: Watch, state: &SweepState, sweep: &Sweep, path: Option<PathBuf>) -> Failure {
+    let halt = watch.finish().unwrap_or(Halt::Interrupted);
+    Failure::Unswept { halt, done: state.done, points: sweep.points(), path }
+}
+
 /// Writes the table to standard output, or to a device or a pipe; what it comes to goes to standard error.
-fn stream(mut work: Work<'_>, output: &Output) -> Result<Outcome, Failure> {
+fn stream(arguments: &SweepArguments, mut work: Work<'_>, output: &Output) -> Result<Outcome, Failure> {
     let mut target = output.stream()?;
     let mut result = target.write_all(&work.encoder.head());
     let mut state = work.sweep.start();
+    let points = work.sweep.points();
+    let mut watch = Watch::beside_rows(arguments.time.time_limit);
     if result.is_ok() {
-        work.run(&mut state, &mut |rows, _| {
+        work.run(&mut state, &mut |rows, state| {
             result = rows.iter().try_for_each(|rows| target.write_all(rows));
-            if result.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            if result.is_err() {
+                return ControlFlow::Break(());
+            }
+            watch.look(&Progress::of("points", state.done, points))
         });
     }
     match result.and_then(|()| target.flush()) {
         // A reader that goes away early has seen all it wanted.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(Outcome::Done),
         Err(error) => return Err(output.failure(error)),
-        Ok(()) => {}
+        Ok(()) if state.done < points => return Err(unswept(watch, &state, work.sweep, None)),
+        Ok(()) => {
+            watch.finish();
+        }
     }
     if !io::stdout().is_terminal() || output.path().is_some() {
         complain(to_text(work.sweep, &state, output.style_of_text()).trim_end(), output.color());

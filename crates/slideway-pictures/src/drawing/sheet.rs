@@ -201,7 +201,9 @@ pub(crate) fn answer(report: &Report) -> String {
         Status::PreloadGap => "No solution, but a state with the preload between the faces.".to_owned(),
         Status::Unknown => "No solution was found, but not every contact mode could be decided.".to_owned(),
     };
-    if drawn > MOST { format!("{words} The first {MOST} are drawn.") } else { words }
+    let partial = if report.partial { " The search ended early: there may be more." } else { "" };
+    let first = if drawn > MOST { format!(" The first {MOST} are drawn.") } else { String::new() };
+    format!("{words}{partial}{first}")
 }
 
 fn described(lines: &[String], panels: &[Panel]) -> String {

@@ -7,6 +7,7 @@ use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, 
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample};
+use slideway::progress::Callback;
 
 /// Frames for a second on the clock.
 const FRAMES_PER_SECOND: f64 = 25.0;
@@ -73,16 +74,16 @@ impl Animation {
     }
 
     /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each unit of
-    /// the drawing and at most 1000 on each side. `progress` is told which part of the work is done.
+    /// the drawing and at most 1000 on each side. The callback is told how many frames are done, and ends the work when it breaks.
     /// The bytes do not depend on the number of threads.
     ///
     /// Delays are hundredths of a second; they are shared out so that all frames together take the time that the SVG
     /// takes, to half a hundredth.
     ///
     /// # Errors
-    /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s.
-    pub fn to_gif(&self, progress: &mut dyn FnMut(f64)) -> Result<Vec<u8>, GifFault> {
-        gif::write(self, progress)
+    /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s, or the callback broke.
+    pub fn to_gif(&self, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
+        gif::write(self, callback)
     }
 }
 

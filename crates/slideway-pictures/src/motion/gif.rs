@@ -7,6 +7,7 @@ use crate::raster::{RasterFault, pixels};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 use resvg::tiny_skia::Pixmap;
+use slideway::progress::{Callback, Progress};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use thiserror::Error;
@@ -39,13 +40,16 @@ pub enum GifFault {
     /// A frame has no pixels.
     #[error(transparent)]
     Raster(#[from] RasterFault),
+    /// The callback broke.
+    #[error("it was ended before it was done")]
+    Ended,
     /// The frames cannot be packed.
     #[error("the frames cannot be packed as GIF: {0}")]
     Packing(#[from] gif::EncodingError),
 }
 
 /// The bytes of the file.
-pub(super) fn write(animation: &Animation, progress: &mut dyn FnMut(f64)) -> Result<Vec<u8>, GifFault> {
+pub(super) fn write(animation: &Animation, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
     if animation.frames.is_empty() {
         return Err(GifFault::NoFrame);
     }
@@ -75,8 +79,10 @@ pub(super) fn write(animation: &Animation, progress: &mut dyn FnMut(f64)) -> Res
             encoder.write_lzw_pre_encoded_frame(&frame)?;
         }
         before = indexed.into_iter().next_back();
-        done += frames.len();
-        progress(done as f64 / animation.frames.len() as f64);
+        done += frames.len() as u64;
+        if callback(&Progress::of("frames", done, animation.frames.len() as u64)).is_break() {
+            return Err(GifFault::Ended);
+        }
     }
     Ok(encoder.into_inner()?)
 }
@@ -197,6 +203,7 @@ mod tests {
     use slideway::model::Model;
     use slideway::motion::{SimulateOptions, simulate};
     use std::collections::HashSet;
+    use std::ops::ControlFlow;
 
     /// 0.25 s of the bar on its spring, shown in 0.75 s: 19 steps of at most 0.04 s, from one chunk to the next.
     fn bar(theme: &Theme) -> Animation {
@@ -212,7 +219,7 @@ mod tests {
     }
 
     fn gif_of(animation: &Animation) -> Vec<u8> {
-        animation.to_gif(&mut |_| ()).expect("a GIF")
+        animation.to_gif(&mut |_| ControlFlow::Continue(())).expect("a GIF")
     }
 
     fn opened(bytes: &[u8]) -> Decoder<&[u8]> {
@@ -315,8 +322,14 @@ mod tests {
     #[test]
     fn progress_is_told_up_to_the_end() {
         let mut told = Vec::new();
-        bar(&LIGHT).to_gif(&mut |part| told.push(part)).expect("a GIF");
-        assert_eq!(told, [0.8, 1.0], "16 of 20 frames, and all");
+        let mut tell = |progress: &Progress| {
+            told.push(progress.done);
+            ControlFlow::Continue(())
+        };
+        bar(&LIGHT).to_gif(&mut tell).expect("a GIF");
+        assert_eq!(told, [16, 20]);
+        let ended = bar(&LIGHT).to_gif(&mut |_| ControlFlow::Break(()));
+        assert!(matches!(ended, Err(GifFault::Ended)));
     }
 
     #[test]
@@ -352,10 +365,15 @@ mod tests {
     fn what_a_gif_cannot_show_is_a_fault() {
         let animation = with_frames(bar(&LIGHT), &[0]);
         let slow = Animation { frame_time: 700.0, ..animation.clone() };
-        assert!(slow.to_gif(&mut |_| ()).expect_err("too slow").to_string().contains("for 700 s"));
+        assert!(
+            slow.to_gif(&mut |_| ControlFlow::Continue(()))
+                .expect_err("too slow")
+                .to_string()
+                .contains("for 700 s")
+        );
         let endless = Animation { frame_time: f64::INFINITY, ..animation.clone() };
-        assert!(matches!(endless.to_gif(&mut |_| ()), Err(GifFault::Slow { .. })));
+        assert!(matches!(endless.to_gif(&mut |_| ControlFlow::Continue(())), Err(GifFault::Slow { .. })));
         let none = Animation { frames: Vec::new(), ..animation };
-        assert!(matches!(none.to_gif(&mut |_| ()), Err(GifFault::NoFrame)));
+        assert!(matches!(none.to_gif(&mut |_| ControlFlow::Continue(())), Err(GifFault::NoFrame)));
     }
 }

@@ -5,6 +5,7 @@ use super::report::{BlowUp, CourseDirection, CourseRow};
 use super::state::growing_ends;
 use crate::fault::Faults;
 use crate::limits::{Found, LimitsOptions, Varied, find, guarantee};
+use crate::progress::Work;
 use crate::solve::{Stages, pattern};
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
@@ -24,16 +25,20 @@ const GROWTH: f64 = 30.0;
 /// Too many modes; a fault if nothing varies.
 pub(super) fn direction(
     varied: &Varied,
-    range: [f64; 2],
-    steps: usize,
+    (range, steps): ([f64; 2], usize),
     direction: &'static str,
+    work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
-    let found = find(varied, range, &LimitsOptions::of(&varied.name))?;
+    let found = find(varied, range, &LimitsOptions::of(&varied.name), work.part(0, 2))?;
+    let efforts = |value: f64| {
+        let goes_on = !work.part(1, 2).is_over();
+        if goes_on { Efforts::at(varied, value).ok() } else { None }
+    };
     let stages = Stages::new(varied.model())?;
-    let mut blow_ups = growing_ends(&found.existence, &stages, |value| Efforts::at(varied, value).ok());
-    blow_ups.extend(poles(varied, range, &found));
+    let mut blow_ups = growing_ends(&found.existence, &stages, efforts);
+    blow_ups.extend(poles(efforts, range, &found));
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
-    let course = Tabulated { varied, range, found: &found, blow_ups: &blow_ups };
+    let course = Tabulated { efforts: &efforts, range, found: &found, blow_ups: &blow_ups };
     let rows = course.rows(steps);
     let gaps = found.gaps.clone();
     let guarantee = guarantee(&found, range);
@@ -42,8 +47,7 @@ pub(super) fn direction(
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign
 /// between evenly spaced values without vanishing.
-fn poles(varied: &Varied, [from, to]: [f64; 2], found: &Found) -> Vec<BlowUp> {
-    let at = |value: f64| Efforts::at(varied, value).ok();
+fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Found) -> Vec<BlowUp> {
     let values = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
     let places: Vec<(f64, Option<Efforts>)> = values.map(|value| (value, at(value))).collect();
     let mut poles = Vec::new();
@@ -109,7 +113,7 @@ fn pole([low, high]: [(f64, f64); 2], function: impl Fn(f64) -> Option<f64>) -> 
 
 /// What the rows are made of.
 struct Tabulated<'c> {
-    varied: &'c Varied,
+    efforts: &'c dyn Fn(f64) -> Option<Efforts>,
     range: [f64; 2],
     found: &'c Found,
     blow_ups: &'c [BlowUp],
@@ -135,7 +139,7 @@ impl Tabulated<'_> {
     }
 
     fn rows_at(&self, value: f64) -> Vec<CourseRow> {
-        let Ok(efforts) = Efforts::at(self.varied, value) else { return vec![nothing(value)] };
+        let Some(efforts) = (self.efforts)(value) else { return vec![nothing(value)] };
         let [from, to] = self.range;
         let is_same = |one: f64, other: f64| (one - other).abs() <= SAME_ROW * (to - from);
         let is_end = value == from || value == to;

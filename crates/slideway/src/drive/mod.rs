@@ -42,6 +42,8 @@ pub use text::to_text;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, VariedQuantity, backwards, given_range};
 use crate::model::{Effort, Model};
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use crate::size::usual_range;
 
 /// The most rows of a table that are computed.
@@ -69,19 +71,37 @@ impl Default for DriveOptions {
 /// # Errors
 /// A model without drives; whatever `solve` refuses; of the table whatever [`crate::limits::limits`] refuses.
 pub fn drive(model: &Model, options: &DriveOptions) -> Result<DriveReport, Faults> {
+    undisturbed(|work| drive_of(model, options, work))
+}
+
+/// [`drive`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`drive`].
+pub fn drive_with(
+    model: &Model,
+    options: &DriveOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<DriveReport>, Faults> {
+    watched(callback, |work| drive_of(model, options, work))
+}
+
+fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<DriveReport, Faults> {
     if model.drives.is_empty() {
         let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
         return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
     }
     let reversed = backwards(model)?;
-    let course =
-        options.vary.as_ref().map(|vary| course(model, &reversed, vary, options.rows)).transpose()?;
+    let course = match &options.vary {
+        Some(vary) => Some(course([model, &reversed], vary, options.rows, work.part(1, 2))?),
+        None => None,
+    };
     let drives = model.drives.iter().map(|drive| DriveName {
         name: drive.name.to_string(),
         unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
     });
-    let (state, forwards) = state::direction(model, "model")?;
-    let (_, opposite) = state::direction(&reversed, "reversed")?;
+    let (state, forwards) = state::direction(model, "model", work.part(0, 4))?;
+    let (_, opposite) = state::direction(&reversed, "reversed", work.part(1, 4))?;
     let mut report = DriveReport {
         schema: SCHEMA,
         title: model.title.clone(),
@@ -92,10 +112,10 @@ pub fn drive(model: &Model, options: &DriveOptions) -> Result<DriveReport, Fault
         conclusion: Vec::new(),
     };
     report.conclusion = text::conclusion(&report);
-    Ok(report)
+    finite(report)
 }
 
-fn course(model: &Model, reversed: &Model, vary: &str, rows: usize) -> Result<Course, Faults> {
+fn course([model, reversed]: [&Model; 2], vary: &str, rows: usize, work: Work<'_>) -> Result<Course, Faults> {
     let (name, range) = match vary.split_once('=') {
         Some((name, range)) => (name.trim(), Some(range)),
         None => (vary.trim(), None),
@@ -107,8 +127,8 @@ fn course(model: &Model, reversed: &Model, vary: &str, rows: usize) -> Result<Co
     };
     let opposite = Varied::new(reversed, name)?;
     let steps = rows.clamp(2, GREATEST_ROWS) - 1;
-    let (guarantee, forwards) = course::direction(&varied, range, steps, "model")?;
-    let (_, backwards) = course::direction(&opposite, range, steps, "reversed")?;
+    let (guarantee, forwards) = course::direction(&varied, (range, steps), "model", work.part(0, 2))?;
+    let (_, backwards) = course::direction(&opposite, (range, steps), "reversed", work.part(1, 2))?;
     Ok(Course {
         vary: VariedQuantity::new(&varied, range, varied.present()?),
         directions: vec![forwards, backwards],

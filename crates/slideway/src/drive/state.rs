@@ -6,8 +6,9 @@ use crate::fault::Faults;
 use crate::ids::DriveId;
 use crate::model::Model;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval};
+use crate::progress::Work;
 use crate::report::{CoordinateState, Solution};
-use crate::solve::{Stages, pattern, solve};
+use crate::solve::{SolveOptions, Stages, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
 const PATTERNS: u64 = 1 << 12;
@@ -23,8 +24,10 @@ const SAME: f64 = 1e-12;
 pub(super) fn direction(
     model: &Model,
     direction: &'static str,
+    work: Work<'_>,
 ) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
-    let report = solve(model)?;
+    let options = SolveOptions::default();
+    let report = solve_with(model, &options, &mut |progress| work.part(0, 2).tell(progress))?;
     let stages = Stages::new(model)?;
     let velocities = velocities(&stages);
     let layout = stages.influence.layout();
@@ -50,19 +53,20 @@ pub(super) fn direction(
         status: report.status,
         solutions: pressed.chain(gaps).collect(),
         no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
-        blow_ups: blow_ups(&stages)?,
+        blow_ups: blow_ups(&stages, work.part(1, 2))?,
         frictionless: Frictionless { power: power(&frictionless, &velocities), efforts: frictionless },
     };
     Ok((report.state, found))
 }
 
 /// The factors of friction at which efforts grow without bound; none if there are too many modes.
-fn blow_ups(stages: &Stages) -> Result<Option<Vec<BlowUp>>, Faults> {
+fn blow_ups(stages: &Stages, work: Work<'_>) -> Result<Option<Vec<BlowUp>>, Faults> {
     let line = stages.parts(0.0)?.line_to(&stages.parts(1.0)?);
     let mut all = Vec::new();
     for range in FACTORS {
         let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
-        let Ok(existence) = line.existence(&options) else { return Ok(None) };
+        let found = line.existence_with(&options, &mut |progress| work.tell(progress));
+        let Ok(Some(existence)) = found else { return Ok(None) };
         all.extend(growing_ends(&existence, stages, |factor| Efforts::new(stages, factor).ok()));
     }
     all.sort_by(|one, other| one.at.total_cmp(&other.at));

@@ -361,7 +361,11 @@ impl Builder<'_> {
         let Some(first) =
             (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()))
         else {
-            return Fault::general(FaultKind::IllConditioned { condition: *condition });
+            let quantity = "a coefficient of the kinetic equations".to_owned();
+            return Fault::general(match condition.is_finite() {
+                true => FaultKind::IllConditioned { condition: *condition },
+                false => FaultKind::Overflow { quantity },
+            });
         };
         let motion = motion_in_words(self.mechanism, self.configuration, &accelerations);
         Fault::new(FaultKind::MotionWithoutInertia { motion }, self.mechanism.bodies[first].place.clone())

@@ -12,7 +12,8 @@ use crate::mechanism::{Effort, Mechanism};
 use crate::model::Model;
 use crate::modes::existence::{EndCause, ModeInterval};
 use crate::modes::{ContactState, Side};
-use crate::report::Verdict;
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::{Verdict, finite};
 use crate::solve::{Parts, friction, mode_problem, velocity_signs};
 use nalgebra::DVector;
 
@@ -99,15 +100,39 @@ pub fn limits_with_curves(
     options: &LimitsOptions,
     quantity: Quantity,
 ) -> Result<(LimitsReport, Curves), Faults> {
-    let analysis = Analysis::new(model, options)?;
+    undisturbed(|work| curves_of(model, options, quantity, work))
+}
+
+/// [`limits_with_curves`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`limits_with_curves`].
+pub fn curves_with(
+    model: &Model,
+    options: &LimitsOptions,
+    quantity: Quantity,
+    callback: &mut Callback<'_>,
+) -> Result<Option<(LimitsReport, Curves)>, Faults> {
+    watched(callback, |work| curves_of(model, options, quantity, work))
+}
+
+fn curves_of(
+    model: &Model,
+    options: &LimitsOptions,
+    quantity: Quantity,
+    work: Work<'_>,
+) -> Result<(LimitsReport, Curves), Faults> {
+    let analysis = Analysis::new(model, options, work.part(0, 2))?;
     let naming = Naming::new(model)?;
     let series = series(&naming.mechanism, quantity)?;
     let curves = |varied: &Varied, found: &Found| -> Vec<Curve> {
-        found.existence.modes.iter().map(|mode| curve(varied, mode, quantity)).collect()
+        let modes = &found.existence.modes;
+        let one = |(index, mode)| curve(varied, mode, quantity, work.part(1, 2).part(index, modes.len()));
+        modes.iter().enumerate().map(one).collect()
     };
     let forwards = curves(&analysis.varied, &analysis.found);
     let reversed = analysis.reversed.as_ref().map(|(varied, found)| curves(varied, found));
-    let report = analysis.report(&naming);
+    let report = finite(analysis.report(&naming))?;
     Ok((report, Curves { quantity, shown_in: analysis.shown_in, series, forwards, reversed }))
 }
 
@@ -139,14 +164,18 @@ fn series(mechanism: &Mechanism, quantity: Quantity) -> Result<Vec<Series>, Faul
     })
 }
 
-fn curve(varied: &Varied, mode: &ModeInterval, quantity: Quantity) -> Curve {
-    let point = |at: f64| {
+fn curve(varied: &Varied, mode: &ModeInterval, quantity: Quantity, work: Work<'_>) -> Curve {
+    let places = places(mode);
+    let point = |(index, at): (usize, f64)| {
+        if work.piece("points", index, places.len()).is_break() {
+            return None;
+        }
         let state = StateAt::new(varied, at).ok()?;
         let values = state.values(&mode.pattern, quantity)?;
         let finite = values.iter().all(|value| value.is_finite());
         finite.then(|| CurvePoint { at, values, verdict: state.verdict(&mode.pattern) })
     };
-    Curve { points: places(mode).into_iter().filter_map(point).collect() }
+    Curve { points: places.iter().copied().enumerate().filter_map(point).collect() }
 }
 
 /// Where a mode is sampled.

@@ -22,7 +22,7 @@ mod scan;
 mod text;
 mod varied;
 
-pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, limits_with_curves};
+pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
 pub(crate) use report::Naming;
 pub(crate) use report::guarantee;
 pub use report::{
@@ -36,6 +36,8 @@ pub(crate) use varied::{Varied, mechanism_with};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::{Model, Settings};
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes, counts};
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use crate::solve::{Parts, Stages};
 use scan::{STEPS, Scanner};
 
@@ -84,8 +86,24 @@ pub(crate) struct Found {
 /// # Errors
 /// Whatever `solve` refuses; an unknown name, an empty or reversed range, or one on which nothing depends.
 pub fn limits(model: &Model, options: &LimitsOptions) -> Result<LimitsReport, Faults> {
-    let analysis = Analysis::new(model, options)?;
-    Ok(analysis.report(&Naming::new(model)?))
+    undisturbed(|work| limits_of(model, options, work))
+}
+
+/// [`limits`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`limits`].
+pub fn limits_with(
+    model: &Model,
+    options: &LimitsOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<LimitsReport>, Faults> {
+    watched(callback, |work| limits_of(model, options, work))
+}
+
+fn limits_of(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<LimitsReport, Faults> {
+    let analysis = Analysis::new(model, options, work)?;
+    finite(analysis.report(&Naming::new(model)?))
 }
 
 /// What is varied, over which range, and the modes of both directions.
@@ -98,7 +116,7 @@ struct Analysis {
 }
 
 impl Analysis {
-    fn new(model: &Model, options: &LimitsOptions) -> Result<Self, Faults> {
+    fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
         let (name, range) = match options.vary.split_once('=') {
             Some((name, range)) => (name.trim(), Some(range)),
             None => (options.vary.trim(), None),
@@ -109,10 +127,11 @@ impl Analysis {
             Some(text) => given_range(&varied, text)?,
             None => usual_range(model, &varied)?,
         };
-        let found = find(&varied, range, options)?;
+        let directions = 1 + usize::from(options.both_directions);
+        let found = find(&varied, range, options, work.part(0, directions))?;
         let reversed = if options.both_directions {
             let varied = Varied::new(&backwards(model)?, name)?;
-            let found = find(&varied, range, options)?;
+            let found = find(&varied, range, options, work.part(1, directions))?;
             Some((varied, found))
         } else {
             None
@@ -173,7 +192,12 @@ pub(crate) fn backwards(model: &Model) -> Result<Model, Faults> {
 ///
 /// # Errors
 /// Too many modes; a fault if nothing varies.
-pub(crate) fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) -> Result<Found, Faults> {
+pub(crate) fn find(
+    varied: &Varied,
+    range: [f64; 2],
+    options: &LimitsOptions,
+    work: Work<'_>,
+) -> Result<Found, Faults> {
     let existence_options = ExistenceOptions {
         range: [0.0, 1.0],
         greatest_normal_force: options.max_reaction,
@@ -181,13 +205,14 @@ pub(crate) fn find(varied: &Varied, range: [f64; 2], options: &LimitsOptions) ->
     };
     let found = if let Some([start, end]) = linear(varied, range)? {
         let line = start.line_to(&end);
-        line.existence(&existence_options).map(|mut existence| {
+        line.existence_with(&existence_options, &mut |progress| work.tell(progress)).map(|existence| {
+            let mut existence = existence.unwrap_or_default();
             let mut counts = counts(&line, &existence, [0.0, 1.0]);
             stretch(&mut existence, &mut counts, range);
             Found { existence, counts, gaps: Vec::new(), is_linear: true }
         })
     } else {
-        let scanner = Scanner { varied, options: ExistenceOptions { range, ..existence_options } };
+        let scanner = Scanner { varied, options: ExistenceOptions { range, ..existence_options }, work };
         scanner.scan().map(|scan| Found {
             existence: scan.existence,
             counts: scan.counts,

@@ -7,7 +7,9 @@ use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine,
     TooManyModes,
 };
+use crate::progress::Work;
 use crate::solve::Parts;
+use std::ops::ControlFlow;
 
 /// Steps of the evenly spaced points.
 pub(super) const STEPS: usize = 500;
@@ -23,6 +25,7 @@ struct Place {
 }
 
 /// Everything that a scan finds.
+#[derive(Default)]
 pub(super) struct Scan {
     pub(super) existence: Existence,
     pub(super) counts: Vec<CountInterval>,
@@ -34,6 +37,7 @@ pub(super) struct Scan {
 pub(super) struct Scanner<'v> {
     pub(super) varied: &'v Varied,
     pub(super) options: ExistenceOptions,
+    pub(super) work: Work<'v>,
 }
 
 impl Scanner<'_> {
@@ -41,9 +45,14 @@ impl Scanner<'_> {
     /// More patterns than the options allow.
     pub(super) fn scan(&self) -> Result<Scan, TooManyModes> {
         let [from, to] = self.options.range;
-        let places: Result<Vec<Place>, TooManyModes> =
-            (0..=STEPS).map(|step| self.place(from + (to - from) * step as f64 / STEPS as f64)).collect();
-        let places = places?;
+        let mut places = Vec::with_capacity(STEPS + 1);
+        for step in 0..=STEPS {
+            let piece = self.work.part(0, 2).piece("values", step, STEPS + 1);
+            places.push(match piece {
+                ControlFlow::Continue(_) => self.place(from + (to - from) * step as f64 / STEPS as f64)?,
+                ControlFlow::Break(()) => return Ok(Scan::default()),
+            });
+        }
         let mut patterns: Vec<&Vec<ContactState>> = places.iter().flat_map(|place| &place.present).collect();
         patterns.sort_unstable();
         patterns.dedup();
@@ -63,6 +72,9 @@ impl Scanner<'_> {
     }
 
     fn line(&self, at: f64) -> Option<ModeProblemLine> {
+        if self.work.part(1, 2).is_over() {
+            return None;
+        }
         self.varied.parts(at).ok().map(|parts: Parts| parts.line_to(&parts))
     }
 

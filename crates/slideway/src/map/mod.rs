@@ -26,10 +26,11 @@ pub use report::{MapAxis, MapClass, MapReport, SCHEMA, to_json};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{ShownIn, Varied, given_range};
 use crate::model::Model;
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use class::ClassKey;
 use evaluate::Evaluator;
 use refine::{Grid, Raster};
-use std::ops::ControlFlow;
 
 /// Pixels of the usual map along each side.
 const USUAL_SIZE: usize = 400;
@@ -83,15 +84,6 @@ impl MapOptions {
     }
 }
 
-/// How far a map is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MapProgress {
-    /// Points that were solved.
-    pub points: usize,
-    /// Pixels of the map.
-    pub pixels: usize,
-}
-
 /// An axis while the map is computed.
 struct Axis {
     varied: Varied,
@@ -135,26 +127,32 @@ impl Axis {
 /// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a point cannot be
 /// assembled or solved is no error: it has a class of its own.
 pub fn map(model: &Model, options: &MapOptions) -> Result<MapReport, Faults> {
-    Ok(map_with(model, options, &mut |_| ControlFlow::Continue(()))?.unwrap_or_default())
+    undisturbed(|work| map_of(model, options, work))
 }
 
-/// [`map`] with a callback that is called now and then and ends the work when it breaks; nothing is returned then.
+/// [`map`] with a callback that is called now and then, by any thread; nothing if it breaks.
 ///
 /// # Errors
 /// As [`map`].
 pub fn map_with(
     model: &Model,
     options: &MapOptions,
-    progress: &mut dyn FnMut(MapProgress) -> ControlFlow<()>,
+    callback: &mut Callback<'_>,
 ) -> Result<Option<MapReport>, Faults> {
+    watched(callback, |work| map_of(model, options, work))
+}
+
+fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapReport, Faults> {
     let axes = axes(model, options)?;
     let [width, height] = [options.width, options.height].map(|size| size.clamp(1, GREATEST_SIZE));
     let evaluator = Evaluator::new(model, &axes, options.colour_by)?;
     let values = |&[i, j]: &[usize; 2]| [axes[0].value(i, width), axes[1].value(j, height)];
-    let classes = |points: &[[usize; 2]]| evaluator.classes(points.iter().map(values));
+    let classes =
+        |points: &[[usize; 2]]| evaluator.classes(points.iter().take_while(|_| !work.is_over()).map(values));
     let grid = Grid { width, height, probe: options.probe.max(1) };
-    let Some(raster) = Raster::<ClassKey>::new(grid, &classes, progress) else { return Ok(None) };
-    Ok(Some(report::report(model, options, &axes, &evaluator, &raster)))
+    let raster = Raster::<ClassKey>::new(grid, &classes, &mut |progress| work.tell(progress));
+    let Some(raster) = raster else { return Ok(MapReport::default()) };
+    finite(report::report(model, options, &axes, &evaluator, &raster))
 }
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {

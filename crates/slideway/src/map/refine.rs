@@ -1,11 +1,10 @@
 //! Classes of pixels, solved only where neighbours differ.
 
-use super::MapProgress;
+use crate::progress::{Callback, Progress};
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 
 /// Points that are solved between two calls of the callback.
-const AT_ONCE: usize = 2048;
+const AT_ONCE: usize = 512;
 /// Points that are solved one after another.
 const RUN: usize = 32;
 /// Points are solved in rows of so many pixels' height, from left to right, so that successive ones are neighbours.
@@ -44,7 +43,7 @@ type Classes<'c, K> = &'c (dyn Fn(&[[usize; 2]]) -> Vec<K> + Sync);
 struct Work<'w, K> {
     grid: Grid,
     classes_of: Classes<'w, K>,
-    progress: &'w mut dyn FnMut(MapProgress) -> ControlFlow<()>,
+    progress: &'w mut Callback<'w>,
     classes: Vec<K>,
     pixels: Vec<u32>,
     /// Whether the class of a pixel is its own, not that of what lies around it.
@@ -54,11 +53,7 @@ struct Work<'w, K> {
 
 impl<K: PartialEq + Send> Raster<K> {
     /// The classes of all pixels; none if the callback broke. The same for any number of threads.
-    pub(super) fn new(
-        grid: Grid,
-        classes_of: Classes<'_, K>,
-        progress: &mut dyn FnMut(MapProgress) -> ControlFlow<()>,
-    ) -> Option<Self> {
+    pub(super) fn new(grid: Grid, classes_of: Classes<'_, K>, progress: &mut Callback<'_>) -> Option<Self> {
         let pixels = grid.width * grid.height;
         let mut work = Work {
             grid,
@@ -98,8 +93,10 @@ impl<K: PartialEq + Send> Work<'_, K> {
                 self.is_solved[index] = true;
             }
             self.solved += chunk.len();
-            let progress = MapProgress { points: self.solved, pixels: self.pixels.len() };
-            if (self.progress)(progress).is_break() {
+            // How many points a boundary takes is not known before.
+            let progress =
+                Progress { counted: "points", done: self.solved as u64, fraction: None, found: None };
+            if (self.progress)(&progress).is_break() {
                 return None;
             }
         }
@@ -226,6 +223,7 @@ fn neighbours(grid: Grid, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::ops::ControlFlow;
 
     fn raster(
         width: usize,

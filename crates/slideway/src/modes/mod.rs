@@ -60,7 +60,7 @@ pub use enumeration::{EnumerationError, Limits, enumerate};
 pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
-    GroupReport, GroupState, Method, PatternOutcomes, PatternShares, Progress, SearchOptions, SearchResult,
+    GroupReport, GroupState, Method, PatternOutcomes, PatternShares, SearchOptions, SearchResult,
     SolutionProduct, StateCounts, StateKind, StateLists, StateSet, StopReason, search,
 };
 pub use solutions::{

@@ -61,10 +61,11 @@ pub use series::{Column, Series};
 pub use text::{to_text, tree_to_text};
 pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report, tree_to_json};
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::progress::Callback;
 use run::Run;
 use std::ops::ControlFlow;
 
@@ -80,8 +81,8 @@ pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Fau
     simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told the time after every
-/// step, and ends the simulation when it breaks.
+/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told after every
+/// step how much of the time is over, and ends the simulation when it breaks.
 ///
 /// # Errors
 /// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
@@ -90,10 +91,30 @@ pub fn simulate_with(
     configuration: &Configuration,
     options: &SimulateOptions,
     decisions: &mut dyn Decisions,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<History, Faults> {
     check(options)?;
+    check_tolerance(mechanism, configuration, options.tolerance)?;
     Run::new(mechanism, configuration, options, decisions).follow(progress)
+}
+
+/// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more accurate than
+/// that: of positions in relation to the size of the mechanism, of angles to one radian.
+///
+/// # Errors
+/// A smaller tolerance.
+fn check_tolerance(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    tolerance: f64,
+) -> Result<(), Faults> {
+    let magnitude = |pose: &Pose| (pose.position.amax() / mechanism.size).max(pose.angle.abs());
+    let greatest = configuration.poses.iter().map(magnitude).fold(1.0, f64::max);
+    let least = f64::EPSILON * greatest;
+    if tolerance < least {
+        return Err(Fault::general(FaultKind::ToleranceTooSmall { tolerance, least }).into());
+    }
+    Ok(())
 }
 
 fn check(options: &SimulateOptions) -> Result<(), Faults> {

@@ -138,8 +138,9 @@ pub struct EnergyReport {
     pub impulses: f64,
     /// The greatest error of the balance at any step.
     pub error: f64,
-    /// That error in relation to the greatest kinetic energy, work or dissipation.
-    pub relative_error: f64,
+    /// That error in relation to the greatest kinetic energy, work or dissipation; null where these are no greater than
+    /// the error, because nothing but rounding is moved.
+    pub relative_error: Option<f64>,
 }
 
 /// A number with its name.
@@ -403,10 +404,10 @@ fn energy(history: &History) -> EnergyReport {
         drives: named(drives, |energy| &energy.drives),
         impulses: last(|energy| energy.impulses),
         error: history.energy_error,
-        relative_error: if history.energy_scale > 0.0 {
-            history.energy_error / history.energy_scale
-        } else {
-            0.0
+        relative_error: match (history.energy_error, history.energy_scale) {
+            (0.0, _) => Some(0.0),
+            (error, scale) if error < scale => Some(error / scale),
+            _ => None,
         },
     }
 }

@@ -10,8 +10,8 @@ use super::smooth::{Ended, Smooth};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
+use crate::progress::{Callback, Progress};
 use crate::report::spaced;
-use std::ops::ControlFlow;
 
 /// Sliding velocities below this multiple of the greatest velocity count as zero.
 const AT_REST: f64 = 1e-10;
@@ -66,10 +66,7 @@ impl<'a, 'm> Run<'a, 'm> {
     ///
     /// # Errors
     /// A state from which it cannot begin.
-    pub(super) fn follow(
-        mut self,
-        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<History, Faults> {
+    pub(super) fn follow(mut self, progress: &mut Callback<'_>) -> Result<History, Faults> {
         let total = self.energy().total();
         let end = match self.decide(vec![Cause::Start])? {
             None => self.phases(progress, total),
@@ -85,7 +82,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// Phase after phase.
-    fn phases(&mut self, progress: &mut dyn FnMut(f64) -> ControlFlow<()>, total: f64) -> End {
+    fn phases(&mut self, progress: &mut Callback<'_>, total: f64) -> End {
         loop {
             let Some(phase) = self.phase.clone() else { return End::NoContinuation };
             let causes = match self.phase(&phase, progress, total) {
@@ -117,12 +114,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// One phase, until it ends.
-    fn phase(
-        &mut self,
-        phase: &Phase,
-        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-        total: f64,
-    ) -> Ended {
+    fn phase(&mut self, phase: &Phase, progress: &mut Callback<'_>, total: f64) -> Ended {
         match self.smooth.enter(phase, self.decisions) {
             Ok(()) => {}
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
@@ -147,10 +139,16 @@ impl<'a, 'm> Run<'a, 'm> {
             if let Some(ended) = step {
                 return ended;
             }
-            if progress(to).is_break() {
+            if progress(&self.progress()).is_break() {
                 return Ended::End(End::Interrupted);
             }
         }
+    }
+
+    fn progress(&self) -> Progress {
+        let fraction = (self.smooth.time - self.history.initial.time) / self.options.duration;
+        let done = self.history.statistics.steps as u64;
+        Progress { counted: "steps", done, fraction: Some(fraction), found: None }
     }
 
     fn energy(&self) -> Energy {

@@ -8,10 +8,10 @@ use super::{Cause, simulate_with};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
+use crate::progress::{Callback, Progress};
 use crate::report::indented_json;
 use serde::Serialize;
 use std::collections::VecDeque;
-use std::ops::ControlFlow;
 
 /// Version of the layout of a [`TreeReport`]; changes whenever a field is renamed or removed.
 const SCHEMA: &str = "slideway/simulate-tree/1";
@@ -64,7 +64,7 @@ pub fn simulate_all(
     configuration: &Configuration,
     options: &SimulateOptions,
     (decisions, most): (&mut dyn Decisions, usize),
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<Tree, Faults> {
     let mut open = VecDeque::from([options.branches.clone()]);
     let mut tree = Tree { histories: Vec::new(), complete: true };
@@ -76,8 +76,8 @@ pub fn simulate_all(
         }
         let fixed = branches.len();
         let options = SimulateOptions { branches, ..options.clone() };
-        let mut watched = |time| {
-            let flow = progress(time);
+        let mut watched = |at: &Progress| {
+            let flow = progress(at);
             interrupted = flow.is_break();
             flow
         };

@@ -7,7 +7,6 @@ use super::{
     CertificateKind, ClosestMode, Contact, JointMode, ModeMargin, PatternSummary, Persistence, Report,
     Solution, Status, UncertainMode,
 };
-use anstyle::{AnsiColor, Style as Ansi};
 use std::fmt::Write;
 
 /// Whether the text may use colours.
@@ -18,28 +17,6 @@ pub enum Style {
     Plain,
     /// ANSI colours, for terminals.
     Colour,
-}
-
-impl Style {
-    pub(crate) fn paint(self, ansi: Ansi, text: &str) -> String {
-        match self {
-            Self::Plain => text.to_owned(),
-            Self::Colour => format!("{ansi}{text}{ansi:#}"),
-        }
-    }
-
-    pub(crate) fn heading(self, text: &str) -> String {
-        self.paint(Ansi::new().bold(), text)
-    }
-
-    pub(crate) fn verdict(self, status: Status, text: &str) -> String {
-        let colour = match status {
-            Status::One => AnsiColor::Green,
-            Status::None => AnsiColor::Red,
-            _ => AnsiColor::Yellow,
-        };
-        self.paint(colour.on_default().bold(), text)
-    }
 }
 
 /// The report as text.
@@ -62,7 +39,7 @@ pub fn to_text(report: &Report, style: Style) -> String {
     text.rejected();
     text.locked_modes();
     text.closest_modes();
-    text.out
+    text.text()
 }
 
 type Text<'r> = Page<'r, Report>;
@@ -94,6 +71,12 @@ impl Text<'_> {
         if self.report.time != 0.0 {
             self.line(&format!("t = {} s", number(self.report.time)));
         }
+        if let Some(steps) = self.report.steps_from_drawing {
+            let steps = count(steps, "step", "steps");
+            self.line(&format!(
+                "followed from the drawing in {steps}, proven to stay on its assembly branch"
+            ));
+        }
         self.line("");
     }
 
@@ -113,6 +96,10 @@ impl Text<'_> {
             }
             Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            Status::PreloadGap if report.partial || !report.undecided_modes.is_empty() => {
+                "A state with the preload between the faces; whether a contact mode has a solution is open."
+                    .to_owned()
+            }
             Status::PreloadGap => {
                 "No contact mode has a solution, but a state with the preload between the faces has."
                     .to_owned()
@@ -124,7 +111,7 @@ impl Text<'_> {
                 "On the boundary: whether there is a solution cannot be told within rounding.".to_owned()
             }
         };
-        self.line(&self.style.verdict(report.status, &verdict));
+        self.status(report.status, &verdict);
         let search = match &report.patterns {
             Some(patterns) => tried(patterns),
             None => {
@@ -148,12 +135,17 @@ impl Text<'_> {
     fn solution(&mut self, title: &str, solution: &Solution) {
         self.line("");
         let signs = format!("signs {}", spaced(&solution.pattern));
-        self.line(&format!("{}   {signs}", self.style.heading(title)));
+        self.headed(title, &format!("   {signs}"));
+        let contacts = &solution.contacts;
+        let about_to_change = are(contacts.iter().filter(|c| c.side == 0 && c.preload_share.is_none()));
+        let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
-            self.line(&format!(
-                "  On the boundary between modes: {} about to change side.",
-                about_to_change(&solution.contacts)
-            ));
+            if let Some(are) = about_to_change {
+                self.line(&format!("  On the boundary between modes: {are} about to change side."));
+            }
+            if let Some(are) = guided_in_gap {
+                self.line(&format!("  On the boundary: only as long as {are} exactly without normal force."));
+            }
         } else if solution.certificate == CertificateKind::OnBoundary {
             self.line("  On the boundary within rounding: a normal force or the determinant may be zero.");
         }
@@ -164,10 +156,10 @@ impl Text<'_> {
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
         let contacts = contact_table(&solution.contacts);
-        self.out.push_str(&contacts);
+        self.lines(&contacts);
         self.line("");
         let motion = motion_table(self.report, solution);
-        self.out.push_str(&motion);
+        self.lines(&motion);
         self.line("");
         if let Some(margin) = &solution.margin {
             self.line(&format!("  {}", margin_in_words(margin)));
@@ -188,7 +180,13 @@ impl Text<'_> {
 
     fn margins(&mut self) {
         let Some(margins) = &self.report.margins else {
-            self.line("Margins of friction: not computed, there are too many modes.");
+            let mut gaps = self.report.preload_gap_states.iter().flat_map(|state| &state.contacts);
+            let reason = if gaps.any(is_guided_in_gap) {
+                "a guided slider is between its faces"
+            } else {
+                "there are too many modes"
+            };
+            self.line(&format!("Margins of friction: not computed, {reason}."));
             return;
         };
         let mut parts = Vec::new();
@@ -232,7 +230,7 @@ impl Text<'_> {
             .iter()
             .map(|range| format!("{} from {} to {}", range.name, number(range.from), number(range.to)))
             .collect();
-        self.line(&self.style.heading(&format!("For {}", ranges.join(", "))));
+        self.headline(&format!("For {}", ranges.join(", ")));
         let least = uncertainty.least_solutions;
         let solutions = match uncertainty.most_solutions {
             Some(most) if most == least => {
@@ -247,7 +245,7 @@ impl Text<'_> {
         }
         let rows: Vec<Vec<String>> =
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
-        self.out.push_str(&table(&["signs", "exists", "normal forces in N"], &rows, 3));
+        self.lines(&table(&["signs", "exists", "normal forces in N"], &rows, 3));
         let nominal: Vec<String> = uncertainty
             .parameters
             .iter()
@@ -321,7 +319,7 @@ impl Text<'_> {
             "The modes that come closest to locking (a determinant at zero is where friction locks a mode)";
         self.headline(heading);
         let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
-        self.out.push_str(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
+        self.lines(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
     }
 }
 
@@ -463,15 +461,17 @@ fn vector(components: &[f64], unit: &str) -> String {
     format!("({}){unit}", list.join(", "))
 }
 
-fn about_to_change(contacts: &[Contact]) -> String {
-    let names: Vec<&str> = contacts
-        .iter()
-        .filter(|c| c.side == 0 && c.preload_share.is_none())
-        .map(|contact| contact.name.as_str())
-        .collect();
+fn is_guided_in_gap(contact: &Contact) -> bool {
+    contact.couple.is_some() && contact.preload_share.is_some()
+}
+
+/// The contacts with "is" or "are"; nothing if there are none.
+fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
+    let names: Vec<&str> = contacts.map(|contact| contact.name.as_str()).collect();
     match names.as_slice() {
-        [name] => format!("{name} is"),
-        names => format!("{} are", names.join(", ")),
+        [] => None,
+        [name] => Some(format!("{name} is")),
+        names => Some(format!("{} are", names.join(", "))),
     }
 }
 

@@ -4,6 +4,7 @@ use super::Against;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
+use crate::progress::Work;
 use crate::standstill::self_locking_factor;
 
 /// The most patterns for which a margin is computed.
@@ -71,19 +72,19 @@ impl Question<'_> {
     ///
     /// # Errors
     /// Whatever keeps the mechanism from being assembled or solved there.
-    pub(super) fn margin(&self, value: f64) -> Result<Margin, Faults> {
+    pub(super) fn margin(&self, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
         match self.against {
             Against::Locking => {
-                let margin = against_locking(self.varied, value)?;
+                let margin = against_locking(self.varied, value, work)?;
                 match self.reversed {
-                    Some(reversed) => Ok(margin.least(against_locking(reversed, value)?)),
+                    Some(reversed) => Ok(margin.least(against_locking(reversed, value, work)?)),
                     None => Ok(margin),
                 }
             }
             Against::SelfLocking { load } => {
-                Ok(self.threshold(load, value)?.map_or(Margin::Infinite, Margin::Finite))
+                Ok(self.threshold(load, value, work)?.map_or(Margin::Infinite, Margin::Finite))
             }
-            Against::Hold { load } => Ok(match self.threshold(load, value)? {
+            Against::Hold { load } => Ok(match self.threshold(load, value, work)? {
                 None => Margin::Finite(0.0),
                 Some(0.0) => Margin::Infinite,
                 Some(factor) => Margin::Finite(factor.recip()),
@@ -92,8 +93,8 @@ impl Question<'_> {
     }
 
     /// The factor of static friction at which the mechanism becomes self-locking.
-    fn threshold(&self, load: &str, value: f64) -> Result<Option<f64>, Faults> {
-        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?.0, load)?;
+    fn threshold(&self, load: &str, value: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
+        let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?.0, load, work)?;
         if undecided > 0 {
             return Err(Fault::general(FaultKind::UndecidedAtRest { load: load.to_owned() }).into());
         }
@@ -102,28 +103,30 @@ impl Question<'_> {
     }
 }
 
-fn against_locking(varied: &Varied, value: f64) -> Result<Margin, Faults> {
-    locking_margin(&varied.growing_friction(value)?)
+fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
+    locking_margin(&varied.growing_friction(value)?, work)
 }
 
 /// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where there is none
 /// as it is, the factor to which it has to fall.
-fn locking_margin(line: &ModeProblemLine) -> Result<Margin, Faults> {
-    Ok(match covered(&existence(line, GROWING)?) {
+fn locking_margin(line: &ModeProblemLine, work: Work<'_>) -> Result<Margin, Faults> {
+    Ok(match covered(&existence(line, GROWING, work)?) {
         Some(end) if end.is_infinite() => Margin::Infinite,
         Some(end) => Margin::Finite(end),
         None => {
-            let ends = existence(line, FALLING)?.modes.into_iter().map(|mode| mode.to.at);
+            let ends = existence(line, FALLING, work)?.modes.into_iter().map(|mode| mode.to.at);
             Margin::Finite(ends.fold(0.0, f64::max))
         }
     })
 }
 
-fn existence(line: &ModeProblemLine, range: [f64; 2]) -> Result<Existence, Faults> {
+fn existence(line: &ModeProblemLine, range: [f64; 2], work: Work<'_>) -> Result<Existence, Faults> {
     let options = ExistenceOptions { range, greatest_normal_force: None, patterns: PATTERNS };
-    let existence = line.existence(&options).map_err(|TooManyModes { contacts, limit, .. }| {
-        Fault::general(FaultKind::TooManyModes { contacts, limit })
-    })?;
+    let found = line.existence_with(&options, &mut |progress| work.tell(progress));
+    let existence =
+        found.map(Option::unwrap_or_default).map_err(|TooManyModes { contacts, limit, .. }| {
+            Fault::general(FaultKind::TooManyModes { contacts, limit })
+        })?;
     match existence.not_computed.len() {
         0 => Ok(existence),
         modes => Err(Fault::general(FaultKind::LimitsNotComputed { modes }).into()),

@@ -31,6 +31,8 @@ pub use text::to_text;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, backwards, given_range, linear};
 use crate::model::Model;
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use margin::{Margin, Question};
 use search::Search;
 
@@ -88,6 +90,22 @@ impl SizeOptions {
 /// unknown or zero; too many contact modes or states at rest. Values at which the mechanism cannot be assembled or
 /// solved are no error but part of the report.
 pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> {
+    undisturbed(|work| size_of(model, options, work))
+}
+
+/// [`size`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`size`].
+pub fn size_with(
+    model: &Model,
+    options: &SizeOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<SizeReport>, Faults> {
+    watched(callback, |work| size_of(model, options, work))
+}
+
+fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeReport, Faults> {
     let (name, range) = match options.vary.split_once('=') {
         Some((name, range)) => (name.trim(), Some(range)),
         None => (options.vary.trim(), None),
@@ -107,14 +125,14 @@ pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> 
     }
     let question = Question { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
     let value = varied.present()?;
-    let present = present(&question, value)?;
+    let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
-    let found = Search { question: &question, wanted: options.margin, range, steps }.run();
-    Ok(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
+    let found = Search { question: &question, wanted: options.margin, range, steps, work }.run();
+    finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
 }
 
 /// The margin in the model; nothing where it has no position, which other values may have.
-fn present(question: &Question<'_>, value: f64) -> Result<Option<Margin>, Faults> {
+fn present(question: &Question<'_>, value: f64, work: Work<'_>) -> Result<Option<Margin>, Faults> {
     let everywhere = |fault: &&Fault| {
         matches!(
             fault.kind,
@@ -125,7 +143,7 @@ fn present(question: &Question<'_>, value: f64) -> Result<Option<Margin>, Faults
                 | FaultKind::TooManyContacts { .. }
         )
     };
-    match question.margin(value) {
+    match question.margin(value, work) {
         Ok(margin) => Ok(Some(margin)),
         Err(faults) if faults.sorted().iter().any(everywhere) => Err(faults),
         Err(_) => Ok(None),

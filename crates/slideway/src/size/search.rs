@@ -3,6 +3,7 @@
 use super::margin::{Margin, Question};
 use crate::fault::Faults;
 use crate::limits::bisect;
+use crate::progress::Work;
 
 /// Steps towards the extremum of a dip or hump.
 const GOLDEN_STEPS: usize = 40;
@@ -61,6 +62,7 @@ pub(super) struct Search<'q> {
     pub(super) wanted: f64,
     pub(super) range: [f64; 2],
     pub(super) steps: usize,
+    pub(super) work: Work<'q>,
 }
 
 impl Search<'_> {
@@ -70,13 +72,24 @@ impl Search<'_> {
         let value = |step: usize| {
             if step == self.steps { to } else { from + (to - from) * step as f64 / self.steps as f64 }
         };
-        let mut places: Vec<Place> = (0..=self.steps).map(|step| self.place(value(step))).collect();
+        let place = |step: usize| {
+            let piece = self.work.part(0, 2).piece("values", step, self.steps + 1);
+            let margin = piece.continue_value().and_then(|work| self.question.margin(value(step), work).ok());
+            Place { at: value(step), margin }
+        };
+        let mut places: Vec<Place> = (0..=self.steps).map(place).collect();
         self.follow_extrema(&mut places);
         Found { met: self.met(&places), gaps: self.gaps(&places), places }
     }
 
     fn place(&self, at: f64) -> Place {
-        Place { at, margin: self.question.margin(at).ok() }
+        Place { at, margin: self.refined(at).ok() }
+    }
+
+    /// The margin between the evenly spaced values.
+    fn refined(&self, at: f64) -> Result<Margin, Faults> {
+        let work = self.work.part(1, 2);
+        if work.is_over() { Err(Faults::default()) } else { self.question.margin(at, work) }
     }
 
     fn is_met(&self, place: &Place) -> bool {
@@ -165,7 +178,7 @@ impl Search<'_> {
     /// The ranges in which the mechanism cannot be assembled or solved.
     fn gaps(&self, places: &[Place]) -> Vec<Gap> {
         let mut gaps: Vec<Gap> = Vec::new();
-        let has_position = |at: f64| self.question.margin(at).is_ok();
+        let has_position = |at: f64| self.refined(at).is_ok();
         for (index, place) in places.iter().enumerate().filter(|(_, place)| place.margin.is_none()) {
             let edge = |neighbour: Option<&Place>| match neighbour {
                 Some(neighbour) if neighbour.margin.is_some() => {
@@ -178,7 +191,7 @@ impl Search<'_> {
             match gaps.last_mut() {
                 Some(last) if before.is_some_and(|before| before.margin.is_none()) => last.to = to,
                 _ => {
-                    let faults = self.question.margin(place.at).err().unwrap_or_default();
+                    let faults = self.refined(place.at).err().unwrap_or_default();
                     gaps.push(Gap { from: edge(before), to, faults });
                 }
             }

@@ -41,7 +41,7 @@ impl Balance<'_> {
         let size = self.mechanism.size;
         let greatest = forces
             .iter()
-            .map(|wrench| wrench.force.norm().max(wrench.couple.abs() / size))
+            .map(|wrench| length(wrench.force).max(wrench.couple.abs() / size))
             .fold(0.0, f64::max);
         (0..self.mechanism.bodies.len()).map(|body| self.residual(BodyId(body), &forces, greatest)).collect()
     }
@@ -119,10 +119,15 @@ impl Balance<'_> {
             sum += wrench.force;
             moment += wrench.place.perp(&wrench.force) + wrench.couple;
         }
-        let (force, moment) = (sum.norm(), moment.abs());
+        let (force, moment) = (length(sum), moment.abs());
         let left_over = force.max(moment / self.mechanism.size);
-        // Without any force there is nothing to be left over.
-        let relative = if left_over == 0.0 { 0.0 } else { left_over / greatest.max(inertia.norm()) };
+        // Below the least normal number forces have no relative accuracy.
+        let relative = left_over / greatest.max(length(inertia)).max(f64::MIN_POSITIVE);
         Residual { force, moment, relative }
     }
+}
+
+/// The length of a vector whose squares may be too small for a number.
+fn length(vector: Vector2<f64>) -> f64 {
+    vector.x.hypot(vector.y)
 }

@@ -23,6 +23,7 @@ mod careful;
 mod continuum;
 mod distinct;
 mod equilibrium;
+mod faces;
 mod found;
 mod friction;
 mod margins;
@@ -52,7 +53,8 @@ use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
-use crate::modes::{Progress, SearchOptions, search};
+use crate::modes::{SearchOptions, search};
+use crate::progress::Callback;
 use crate::report::Report;
 use std::ops::ControlFlow;
 
@@ -93,7 +95,7 @@ pub fn solve(model: &Model) -> Result<Report, Faults> {
 pub fn solve_with(
     model: &Model,
     options: &SolveOptions,
-    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<Report, Faults> {
     let mechanism = Mechanism::new(model)?;
     check_size(&mechanism)?;
@@ -103,11 +105,11 @@ pub fn solve_with(
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;
     let ranges = model.ranges()?;
     let enclosed = enclosure(model, &middle(&ranges), &mechanism, &configuration);
-    let result = if let Ok(enclosed) = &enclosed {
-        search(&enclosed.problem, &options.search, progress)
+    let (result, jumps) = if let Ok(enclosed) = &enclosed {
+        (search(&enclosed.problem, &options.search, progress), enclosed.problem.centre().jumps_of_contacts())
     } else {
         let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
-        search(&problem, &options.search, progress)
+        (search(&problem, &options.search, progress), problem.jumps_of_contacts())
     };
     let result = result.map_err(|_| mode_problem::overflow())?;
     let answer = answer::Answer {
@@ -116,6 +118,7 @@ pub fn solve_with(
         equations: &equations,
         influence: &influence,
         velocity_signs: &velocity_signs,
+        jumps,
         enclosed: enclosed.as_ref().ok(),
     };
     let mut report = answer.report(&found::Found {

@@ -51,6 +51,8 @@ use crate::configuration::{free_motions, motion_in_words, unit};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
 use nalgebra::{DMatrix, DVector};
 use rest::Over;
 use setup::Setup;
@@ -82,26 +84,43 @@ pub struct HoldOptions {
 /// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is zero, a
 /// parameter on which more than friction depends, and more states than are tried.
 pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> {
+    undisturbed(|work| hold_of(model, options, work))
+}
+
+/// [`hold`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`hold`].
+pub fn hold_with(
+    model: &Model,
+    options: &HoldOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<HoldReport>, Faults> {
+    watched(callback, |work| hold_of(model, options, work))
+}
+
+fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
     let setup = Setup::new(model, options)?;
     let [rest_patterns, all_patterns] = check_states(&setup)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
-    let rest = rest::at_rest(&setup, nominal);
-    let load = load_report(model, options, &setup)?;
+    let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
+    let load = load_report(model, options, &setup, work.part(1, 4))?;
     let motions_without_inertia = motions_without_inertia(&setup);
     let release = if motions_without_inertia.is_empty() {
-        release::releases(&setup, nominal, rest.found.is_some())
+        release::releases(&setup, nominal, rest.found.is_some(), work.part(2, 4))
     } else {
         Over { found: Vec::new(), undecided: 0 }
     };
     let verdict = if motions_without_inertia.is_empty() {
-        verdict(&setup, nominal, rest.found.is_some(), !release.found.is_empty())
+        let found = (rest.found.is_some(), !release.found.is_empty());
+        verdict(&setup, nominal, found, work.part(3, 4))
     } else if rest.found.is_some() {
         Verdict::MayHold
     } else {
         Verdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
-    Ok(HoldReport {
+    finite(HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
         verdict,
@@ -125,11 +144,15 @@ pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> 
 ///
 /// # Errors
 /// As [`hold`].
-pub(crate) fn self_locking_factor(model: &Model, load: &str) -> Result<(Option<f64>, usize), Faults> {
+pub(crate) fn self_locking_factor(
+    model: &Model,
+    load: &str,
+    work: Work<'_>,
+) -> Result<(Option<f64>, usize), Faults> {
     let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
     let setup = Setup::new(model, &options)?;
     check_states(&setup)?;
-    let threshold = threshold::threshold(model, &options, &setup)?;
+    let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
 }
 
@@ -153,10 +176,13 @@ fn load_report(
     model: &Model,
     options: &HoldOptions,
     setup: &Setup,
+    work: Work<'_>,
 ) -> Result<Option<Over<LoadReport>>, Faults> {
     let Some(load) = &setup.load else { return Ok(None) };
-    let Some(threshold) = threshold::threshold(model, options, setup)? else { return Ok(None) };
-    let held = rest::held_factors(setup);
+    let Some(threshold) = threshold::threshold(model, options, setup, work.part(0, 2))? else {
+        return Ok(None);
+    };
+    let held = rest::held_factors(setup, work.part(1, 2));
     let undecided = held.undecided + threshold.undecided;
     let report = LoadReport {
         name: load.name.clone(),
@@ -169,10 +195,10 @@ fn load_report(
     Ok(Some(Over { found: report, undecided }))
 }
 
-fn verdict(setup: &Setup, factor: f64, holds: bool, moves: bool) -> Verdict {
+fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> Verdict {
     match (holds, moves) {
         (true, false) => Verdict::Holds,
-        (true, true) if slips_against_static_friction(setup, factor) => Verdict::HoldsOrSlips,
+        (true, true) if slips_against_static_friction(setup, factor, work) => Verdict::HoldsOrSlips,
         (true, true) => Verdict::HoldsUntilPushed,
         (false, true) => Verdict::Moves,
         (false, false) => Verdict::Neither,
@@ -180,12 +206,12 @@ fn verdict(setup: &Setup, factor: f64, holds: bool, moves: bool) -> Verdict {
 }
 
 /// Whether it begins to slide even where kinetic friction is as great as static friction.
-fn slips_against_static_friction(setup: &Setup, factor: f64) -> bool {
+fn slips_against_static_friction(setup: &Setup, factor: f64, work: Work<'_>) -> bool {
     let mut rough = setup.clone();
     for contact in &mut rough.mechanism.contacts {
         contact.mu = contact.mu_static;
     }
-    !release::releases(&rough, factor, true).found.is_empty()
+    !release::releases(&rough, factor, true, work).found.is_empty()
 }
 
 fn state(setup: &Setup) -> Vec<CoordinateValue> {

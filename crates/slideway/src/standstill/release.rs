@@ -4,11 +4,12 @@ use super::TOLERANCE;
 use super::reactions::{range, reactions};
 use super::region::{Region, Undecided};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
-use super::rest::{Over, possible, static_coefficients};
+use super::rest::{Over, possible, static_coefficients, until_over};
 use super::setup::{Setup, SlidingJoint};
 use super::state::{Expression, Pattern, Question, Side, Sliding, State, sides};
 use super::words::slip_in_words;
 use crate::configuration::unit;
+use crate::progress::Work;
 
 /// Two states are the same if no number differs by more than this, relative to the units of the programs.
 const SAME: f64 = 1e-7;
@@ -16,13 +17,15 @@ const SAME: f64 = 1e-7;
 /// All states in which something begins to move, with a factor of the varied load.
 ///
 /// Without `at_rest` the state in which all joints stick is tried, too: bodies may begin to move in hinges alone.
-pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool) -> Over<Vec<Release>> {
+pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool, work: Work<'_>) -> Over<Vec<Release>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
-    for sliding in sliding_states(setup.sliders.len()) {
+    let states = sliding_states(setup.sliders.len());
+    let all = states.len();
+    for (index, sliding) in states.into_iter().enumerate() {
         if at_rest && sliding.iter().all(|sliding| *sliding == Sliding::Stick) {
             continue;
         }
-        for sides in sides(setup) {
+        for sides in until_over(sides(setup), work.part(index, all)) {
             let pattern = Pattern { sliding: sliding.clone(), sides };
             match release(setup, &pattern, factor) {
                 Ok(Some(release)) => add(&mut over.found, release, setup),

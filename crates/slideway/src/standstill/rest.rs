@@ -6,6 +6,7 @@ use super::region::{Region, Undecided};
 use super::report::{AtRest, Range};
 use super::setup::Setup;
 use super::state::{Pattern, Question, Side, Sliding, State, sides};
+use crate::progress::Work;
 
 /// Ends of intervals that differ by less than this, relative to the greater, are the same.
 const SAME_END: f64 = 1e-9;
@@ -34,10 +35,17 @@ pub(super) fn possible(region: Region) -> Result<Option<Region>, Undecided> {
     Ok((margin <= TOLERANCE).then(|| region.relaxed(margin.max(0.0))))
 }
 
+/// States one after another, until the work is to end.
+pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Item = T> {
+    let all = states.len();
+    let goes_on = move |(index, _): &(usize, T)| work.piece("states", *index, all).is_continue();
+    states.into_iter().enumerate().take_while(goes_on).map(|(_, state)| state)
+}
+
 /// All states of rest with a factor of the varied load.
-pub(super) fn at_rest(setup: &Setup, factor: f64) -> Over<Option<AtRest>> {
+pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option<AtRest>> {
     let mut over = Over { found: None, undecided: 0 };
-    for sides in sides(setup) {
+    for sides in until_over(sides(setup), work) {
         let symbols: String = sides.iter().map(|side| side.symbol()).collect();
         let pattern = resting(setup, sides);
         let question = Question { moving: false, factor: Some(factor) };
@@ -61,9 +69,9 @@ pub(super) fn at_rest(setup: &Setup, factor: f64) -> Over<Option<AtRest>> {
 }
 
 /// The factors of the varied load that can be held: the union over all patterns.
-pub(super) fn held_factors(setup: &Setup) -> Over<Vec<Range>> {
+pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
-    for sides in sides(setup) {
+    for sides in until_over(sides(setup), work) {
         let pattern = resting(setup, sides);
         let question = Question { moving: false, factor: None };
         let Some(state) = State::new(setup, &pattern, question) else { continue };

@@ -14,11 +14,12 @@
 use super::HoldOptions;
 use super::region::Undecided;
 use super::report::{Coefficients, Threshold};
-use super::rest::{Over, resting, static_coefficients};
+use super::rest::{Over, resting, static_coefficients, until_over};
 use super::setup::Setup;
 use super::state::{Question, State, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::model::{Model, Settings};
+use crate::progress::Work;
 use nalgebra::DVector;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
@@ -58,6 +59,7 @@ pub(super) fn threshold(
     model: &Model,
     options: &HoldOptions,
     setup: &Setup,
+    work: Work<'_>,
 ) -> Result<Option<Over<Threshold>>, Faults> {
     let Some(load) = &setup.load else { return Ok(None) };
     let law = match &options.vary {
@@ -75,7 +77,7 @@ pub(super) fn threshold(
     for contact in &mut alone.mechanism.contacts {
         contact.preload = [0.0; 2];
     }
-    let least = least_value(&alone, &law);
+    let least = least_value(&alone, &law, work);
     Ok(Some(Over { found: told(setup, &law, least.found), undecided: least.undecided }))
 }
 
@@ -93,9 +95,9 @@ fn told(setup: &Setup, law: &Law, value: Option<f64>) -> Threshold {
 }
 
 /// The least value for which some pattern holds the load.
-fn least_value(alone: &Setup, law: &Law) -> Over<Option<f64>> {
+fn least_value(alone: &Setup, law: &Law, work: Work<'_>) -> Over<Option<f64>> {
     let mut over = Over { found: None, undecided: 0 };
-    for sides in sides(alone) {
+    for sides in until_over(sides(alone), work) {
         let pattern = resting(alone, sides);
         let question = Question { moving: false, factor: Some(0.0) };
         let Some(state) = State::new(alone, &pattern, question) else { continue };

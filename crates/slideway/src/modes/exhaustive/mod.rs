@@ -80,6 +80,7 @@ pub use pattern::Pattern;
 use std::ops::ControlFlow;
 
 use super::certificate::{Decision, ProblemView, Verdict, decide};
+use crate::progress::Progress;
 use run::Run;
 
 /// What a screening leaves.
@@ -89,15 +90,6 @@ pub struct Screening {
     pub remaining: Vec<Pattern>,
     /// How many patterns were proved to have no solution.
     pub excluded: u64,
-}
-
-/// How far a walk over all patterns has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
-    /// Patterns that have been dealt with.
-    pub examined: u64,
-    /// All patterns.
-    pub total: u64,
 }
 
 /// What became of the patterns.

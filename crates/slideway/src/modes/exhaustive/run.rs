@@ -5,14 +5,15 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
+use super::Tally;
 use super::instructions::Instructions;
 use super::kernel::Kernel;
 use super::lanes::LANES;
 use super::layout::{Layout, Root};
 use super::pattern::Pattern;
 use super::upper::Node;
-use super::{Progress, Tally};
 use crate::modes::certificate::ProblemView;
+use crate::progress::Progress;
 
 /// Levels of the tree that are expanded before its subtrees are shared among threads.
 const SHARED_LEVELS: usize = 6;
@@ -100,7 +101,7 @@ impl<'a, T: Send> Run<'a, T> {
         let result = (self.examine)(kernel.take_remaining(&self.layout));
         let patterns = self.layout.patterns_below(node.places).unwrap_or_default();
         let examined = self.done.fetch_add(patterns, Ordering::Relaxed) + patterns;
-        if (self.progress)(&Progress { examined, total: self.total }).is_break() {
+        if (self.progress)(&Progress::of("patterns", examined, self.total)).is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
         Some(result)

@@ -22,9 +22,11 @@ mod roots;
 mod signs;
 
 use nalgebra::{DMatrix, DVector};
+use std::ops::ControlFlow;
 
 use super::problem::{BySide, ModeProblem, Side};
 use super::solutions::ContactState;
+use crate::progress::{Callback, Progress};
 use line::{Cause, Condition, End, Extent, Line, Part, Value};
 
 pub use counts::{CountInterval, counts};
@@ -201,10 +203,30 @@ impl ModeProblemLine {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn existence(&self, options: &ExistenceOptions) -> Result<Existence, TooManyModes> {
+        Ok(self.existence_with(options, &mut |_| ControlFlow::Continue(()))?.unwrap_or_default())
+    }
+
+    /// [`Self::existence`] with a callback that is called for every pattern; nothing if it breaks.
+    ///
+    /// # Errors
+    /// As [`Self::existence`].
+    ///
+    /// # Panics
+    /// As [`Self::existence`].
+    pub fn existence_with(
+        &self,
+        options: &ExistenceOptions,
+        callback: &mut Callback<'_>,
+    ) -> Result<Option<Existence>, TooManyModes> {
         let [from, to] = options.range;
         assert!(from < to && (to.is_finite() || from > 0.0), "an increasing range");
         let mut existence = Existence::default();
-        for pattern in self.patterns(options.patterns)? {
+        let patterns = self.patterns(options.patterns)?;
+        let all = patterns.len() as u64;
+        for (done, pattern) in (0..).zip(patterns) {
+            if callback(&Progress::of("patterns", done, all)).is_break() {
+                return Ok(None);
+            }
             let mode = self.mode(&pattern, options);
             match mode.extent(options.range) {
                 Extent::Parts(parts) => {
@@ -214,7 +236,7 @@ impl ModeProblemLine {
                 Extent::NotComputed => existence.not_computed.push(pattern),
             }
         }
-        Ok(existence)
+        Ok(Some(existence))
     }
 
     /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and the pattern;

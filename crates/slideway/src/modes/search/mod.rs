@@ -24,7 +24,7 @@
 //! [`certificate::decide`](super::certificate::decide), and each state carries what is proven of it, its
 //! [`Certificate`](super::Certificate).
 //!
-//! - Exact numbers: every pattern is decided, in rational numbers if need be. A group's right-hand side that
+//! - Exact numbers (sums of two matrices are not rounded): every pattern is decided, in rational numbers if need be. A group's right-hand side that
 //!   follows from other groups has a rounding error; where that leaves a pattern open, it is decided together
 //!   with their contacts (up to 48 of them).
 //! - Numbers within bounds: a pattern whose outcome differs between values, or of which that could not be
@@ -72,19 +72,18 @@ mod test_problems;
 mod tree;
 mod uniqueness;
 
-use std::ops::ControlFlow;
-
 pub use count::BigCount;
 pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
 pub use report::{
     Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternOutcomes,
-    PatternShares, Progress, SearchOptions, StopReason,
+    PatternShares, SearchOptions, StopReason,
 };
 pub use result::{SearchResult, StateLists};
 pub use states::StateSet;
 
 use super::certificate::ProblemView;
 use super::problem::ModeProblemError;
+use crate::progress::Callback;
 use composition::Composer;
 use monitor::Monitor;
 
@@ -99,8 +98,8 @@ use monitor::Monitor;
 /// breaks (the library has no clock; compare times there). The answer is then labelled as partial.
 ///
 /// # Errors
-/// [`ModeProblemError::NotFinite`] if numbers overflow when the solution of one group of contacts
-/// is put into the equations of another.
+/// [`ModeProblemError`] if a part of the problem were no mode problem, which no problem of finite numbers has: groups of
+/// contacts whose solutions overflow are searched together with those that they act on.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -117,7 +116,7 @@ use monitor::Monitor;
 pub fn search<'a>(
     problem: impl Into<ProblemView<'a>>,
     options: &SearchOptions,
-    progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &mut Callback<'_>,
 ) -> Result<SearchResult, ModeProblemError> {
     let problem = problem.into().without_zero_radii();
     let mut monitor = Monitor::new(options.nodes, progress);

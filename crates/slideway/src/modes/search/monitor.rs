@@ -1,12 +1,11 @@
 //! Limits, progress and cancellation of a search.
 
-use std::ops::ControlFlow;
-
-use super::report::{Progress, StopReason};
+use super::report::StopReason;
+use crate::progress::{Callback, Progress};
 
 /// Counts nodes, tells the caller, and notes why the search ends early.
 pub(super) struct Monitor<'a> {
-    progress: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    progress: &'a mut Callback<'a>,
     node_limit: u64,
     nodes: u64,
     states_found: u64,
@@ -17,7 +16,7 @@ pub(super) struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
-    pub(super) fn new(node_limit: u64, progress: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Self {
+    pub(super) fn new(node_limit: u64, progress: &'a mut Callback<'a>) -> Self {
         Self { progress, node_limit, nodes: 0, states_found: 0, done: 0.0, share: 1.0, stopped: None }
     }
 
@@ -51,9 +50,11 @@ impl<'a> Monitor<'a> {
         }
         self.nodes += 1;
         let progress = Progress {
-            nodes: self.nodes,
-            fraction: (self.done + self.share * fraction).min(1.0),
-            states_found: self.states_found + found_in_group as u64,
+            counted: "nodes",
+            done: self.nodes,
+            // Of the pattern space within a group of contacts, and of the contacts over all groups.
+            fraction: Some((self.done + self.share * fraction).min(1.0)),
+            found: Some(self.states_found + found_in_group as u64),
         };
         if (self.progress)(&progress).is_break() {
             self.stop(StopReason::Cancelled);

@@ -58,18 +58,6 @@ impl Default for Arguments {
     }
 }
 
-/// What a search tells its caller at every node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress {
-    /// Nodes visited so far.
-    pub nodes: u64,
-    /// The fraction of the work that is done, from 0 to 1: of the pattern space within a group of
-    /// contacts, and of the contacts over all groups. It grows with leaps, not evenly in time.
-    pub fraction: f64,
-    /// Solutions, gap states and singular sets found so far, over all groups.
-    pub states_found: u64,
-}
-
 /// Why a search ended before it was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StopReason {

@@ -3,6 +3,7 @@
 use super::instant::Instant;
 use super::program::{Affine, Unsolved, highest};
 use super::system::{Inequality, Question, Subject, System};
+use crate::ids::ContactId;
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 
@@ -150,7 +151,7 @@ fn without_rounding(slack: f64) -> f64 {
     if slack.abs() <= ROUNDING { 0.0 } else { slack }
 }
 
-/// The sides that a contact may take: a gap only where the right-hand side jumps.
+/// The sides that a contact may take: a gap only where the friction of its preload jumps.
 pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [ContactPhase] {
     const PRESSED: [ContactPhase; 2] =
         [ContactPhase::Pressed(Side::Positive), ContactPhase::Pressed(Side::Negative)];
@@ -159,7 +160,7 @@ pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [Contact
         ContactPhase::Pressed(Side::Negative),
         ContactPhase::PreloadGap,
     ];
-    if instant.has_jump[k] { &ALL } else { &PRESSED }
+    if instant.mechanism.preload_jumps(ContactId(k)) { &ALL } else { &PRESSED }
 }
 
 /// All combinations of sides of the contacts that stick; the phase's own one first.

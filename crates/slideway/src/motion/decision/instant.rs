@@ -7,7 +7,7 @@ use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
-use crate::model::{PreloadLine, SliderKind};
+use crate::model::SliderKind;
 use crate::motion::Phase;
 use nalgebra::{DMatrix, DVector};
 
@@ -73,8 +73,6 @@ pub(super) struct Instant<'m> {
     pub(super) units: Units,
     /// What is asked of forces and accelerations.
     pub(super) outputs: Outputs,
-    /// For each contact, whether the right-hand side jumps with its side.
-    pub(super) has_jump: Vec<bool>,
 }
 
 impl<'m> Instant<'m> {
@@ -88,16 +86,7 @@ impl<'m> Instant<'m> {
         let joints = sliding_joints(mechanism, configuration, &equations);
         let units = units(mechanism, &influence, &equations);
         let outputs = outputs(mechanism, &influence, &joints, units);
-        let has_jump = (0..mechanism.contacts.len())
-            .map(|k| {
-                let contact = &mechanism.contacts[k];
-                let [plus, minus] = [0, 1].map(|side| outputs.columns[side].column(k));
-                contact.preload_line == PreloadLine::Pressed
-                    && contact.preload.iter().any(|preload| *preload > 0.0)
-                    && plus != minus
-            })
-            .collect();
-        Ok(Self { mechanism, equations, influence, joints, units, outputs, has_jump })
+        Ok(Self { mechanism, equations, influence, joints, units, outputs })
     }
 
     /// Takes over the loads at another time, where nothing has moved.

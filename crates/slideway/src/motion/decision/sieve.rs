@@ -24,7 +24,7 @@ pub(super) struct Sieve<'s> {
 impl<'s> Sieve<'s> {
     /// A sieve for a question about accelerations.
     pub(super) fn new(question: &'s Question<'s>, instant: &'s Instant<'s>) -> Self {
-        let contacts = instant.has_jump.len();
+        let contacts = instant.mechanism.contacts.len();
         Self {
             question,
             instant,

@@ -12,6 +12,7 @@ use crate::motion::{
     ContactPhase, Crossing, Decisions, End, EventFunction, Instant, Jam, JointPhase, Phase, SimulateOptions,
     Successor, UserEvent, simulate,
 };
+use crate::progress::Progress;
 use crate::report::Verdict;
 use std::ops::ControlFlow;
 
@@ -163,7 +164,7 @@ fn phases_that_take_no_time_are_an_accumulation() {
     let mechanism = mechanism_of(&block("0.25", "", ""));
     let configuration = Configuration::new(&mechanism).unwrap();
     let options = SimulateOptions::new(1.0);
-    let progress = &mut |_| ControlFlow::Continue(());
+    let progress = &mut |_: &Progress| ControlFlow::Continue(());
     let history =
         crate::motion::simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
     assert_eq!(history.end, End::Accumulation);
@@ -175,7 +176,10 @@ fn progress_can_end_it() {
     let mechanism = mechanism_of(&block("0.25", "rate = 2", ""));
     let configuration = Configuration::new(&mechanism).unwrap();
     let options = SimulateOptions::new(1.0);
-    let progress = &mut |time| if time > 0.1 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let is_over = |progress: &Progress| progress.fraction.is_some_and(|fraction| fraction > 0.1);
+    let progress = &mut |progress: &Progress| {
+        if is_over(progress) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
     let history =
         crate::motion::simulate_with(&mechanism, &configuration, &options, &mut Wrong, progress).unwrap();
     assert_eq!(history.end, End::Interrupted);

@@ -1,0 +1,35 @@
+//! Any text as what is varied and its range, in a model of the gallery: no panic, and no number that is not finite.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use slideway::gallery;
+use slideway::limits::{LimitsOptions, limits_with, to_json, to_text};
+use slideway::model::Model;
+use slideway::report::Style;
+use std::ops::ControlFlow;
+
+/// The callback ends what takes long.
+const PIECES: usize = 600;
+
+fuzz_target!(|input: (u8, bool, &str)| {
+    let (number, both_directions, vary) = input;
+    let models = gallery::MODELS;
+    let model = Model::parse(models[usize::from(number) % models.len()].text).expect("the gallery is sound");
+    let options = LimitsOptions { both_directions, ..LimitsOptions::of(vary) };
+    let mut pieces = 0;
+    let mut callback = |_: &_| {
+        pieces += 1;
+        if pieces < PIECES { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    match limits_with(&model, &options, &mut callback) {
+        Ok(Some(report)) => {
+            let [from, to] = [report.vary.from, report.vary.to];
+            assert!(from < to && (to - from).is_finite(), "{vary}: {from} to {to}");
+            let text = to_text(&report, Style::default());
+            assert!(!text.contains("NaN") && !text.contains(" inf"), "{text}");
+            assert!(!to_json(&report).is_empty());
+        }
+        Ok(None) => {}
+        Err(faults) => assert!(!faults.to_string().is_empty()),
+    }
+});
