@@ -222,7 +222,7 @@ fn changes_of_mode_are_where_the_limits_are() {
     let text = crate::gallery::find("klepp-2002").unwrap().text;
     let text = text.replacen("at = \"bar.S\"\ncomponents", "at = \"bar.A\"\ncomponents", 1);
     let still = Model::parse(&text).unwrap().with(&settings).unwrap();
-    let report = limits(&still, &LimitsOptions::of("P=0 N..40 N")).unwrap();
+    let report = limits(&still, &LimitsOptions { effort: 0, ..LimitsOptions::of("P=0 N..40 N") }).unwrap();
     let mut ends: Vec<f64> =
         report.modes.iter().filter_map(|mode| mode.to).filter(|end| *end < 40.0).collect();
     ends.sort_by(f64::total_cmp);
