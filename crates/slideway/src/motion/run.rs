@@ -186,13 +186,15 @@ impl<'a, 'm> Run<'a, 'm> {
             if let Some(previous) = &previous {
                 self.smooth.settle(previous, &stopped);
             }
+            let signs = self.signs(&stopped);
             let (time, state) = (self.smooth.time, &self.smooth.state);
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
             let instant = Instant {
                 mechanism: self.smooth.equations.mechanism,
                 configuration: &configuration,
-                stopped: &stopped,
+                signs: &signs,
+                zero: &[],
                 previous: previous.as_ref(),
             };
             let successors = self.decisions.successors(&instant)?;
@@ -258,6 +260,17 @@ impl<'a, 'm> Run<'a, 'm> {
             sticks || causes.contains(&Cause::Stops(*joint)) || velocity.abs() <= AT_REST * greatest
         };
         equations.sliders.iter().enumerate().map(one).collect()
+    }
+
+    /// The signs of all sliding velocities.
+    fn signs(&self, stopped: &[bool]) -> Vec<f64> {
+        let equations = &self.smooth.equations;
+        let one = |(joint, stopped): (&crate::ids::JointId, &bool)| {
+            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
+            let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
+            if *stopped { 0.0 } else { velocity.signum() }
+        };
+        equations.sliders.iter().zip(stopped).map(one).collect()
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.

@@ -48,7 +48,7 @@ pub(super) fn standing(
     };
     let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped };
     let scale = time_scale(instant, configuration);
-    let later = match flow.slacks(configuration, (instant, question, assessment), STEP * scale) {
+    let later = match flow.slacks(configuration, (instant, assessment), STEP * scale) {
         Ok(Later::Lasts(later)) => later,
         Ok(Later::Ends) => return None,
         Ok(Later::Unsolved) | Err(_) => return Some(Standing::Undecided(limits(&bounds))),
@@ -84,7 +84,7 @@ fn limit(instant: &Instant<'_>, subject: Decisive) -> Limit {
         Decisive::One(Subject::Pressure(k)) => Limit::NormalForce(ContactId(k)),
         Decisive::One(Subject::Share(k)) => Limit::PreloadShare(ContactId(k)),
         Decisive::One(Subject::Couple(k)) => Limit::Couple(ContactId(k)),
-        Decisive::One(Subject::Friction(_)) | Decisive::Open => Limit::Sticking,
+        Decisive::One(Subject::Friction(_)) | Decisive::Open(_) => Limit::Sticking,
         Decisive::One(Subject::Slip(joint)) => {
             Limit::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
         }
@@ -132,10 +132,10 @@ impl Flow<'_> {
     fn slacks(
         &self,
         configuration: &Configuration,
-        (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
+        (instant, assessment): (&Instant<'_>, &Assessment),
         step: f64,
     ) -> Result<Later<[Slacks; 2]>, Faults> {
-        let Some(start) = accelerations(instant, question, assessment) else { return Ok(Later::Ends) };
+        let start = accelerations(instant, assessment);
         self.step(configuration, &start, step)?.and_then(|(next, start, first)| {
             self.step(&next, &start, step)?.and_then(|(_, _, second)| Ok(Later::Lasts([first, second])))
         })
@@ -158,24 +158,19 @@ impl Flow<'_> {
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
         let instant = Instant::new(self.mechanism, configuration)?;
         let question = instant.question(self.stopped);
-        let assessment = match assess(&instant, &question, self.phase, BOUNDARY) {
+        let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
             Ok(Some(assessment)) => assessment,
             Ok(None) => return Ok(Later::Ends),
             Err(_) => return Ok(Later::Unsolved),
         };
-        let found = accelerations(&instant, &question, &assessment);
-        Ok(found.map_or(Later::Ends, |found| Later::Lasts((found, assessment.slacks))))
+        Ok(Later::Lasts((accelerations(&instant, &assessment), assessment.slacks)))
     }
 }
 
-fn accelerations(
-    instant: &Instant<'_>,
-    question: &Question<'_>,
-    assessment: &Assessment,
-) -> Option<Accelerations> {
-    let state = state(instant, question, assessment)?;
+fn accelerations(instant: &Instant<'_>, assessment: &Assessment) -> Accelerations {
+    let state = state(instant, assessment);
     let bodies = state.unknowns.rows(0, 3 * instant.mechanism.bodies.len()).into_owned();
-    Some(Accelerations { bodies, coordinates: state.coordinate_accelerations })
+    Accelerations { bodies, coordinates: state.coordinate_accelerations }
 }
 
 /// The configuration after a step in which accelerations go from `start` to `end` in proportion to time.

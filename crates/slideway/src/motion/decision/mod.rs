@@ -29,11 +29,13 @@
 //! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
 
 mod assessment;
+mod bounds;
 mod elastic;
 mod growth;
 mod holding;
 mod instant;
 mod jam;
+mod parts;
 mod program;
 mod sieve;
 mod state;
