@@ -4,7 +4,7 @@ use super::decision;
 use super::phase::Phase;
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::report::Verdict;
 
@@ -50,6 +50,14 @@ pub trait Decisions {
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
     fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults>;
+
+    /// Where nothing can follow, the guided sliders that would tip.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces at the instant from being computed.
+    fn tipping(&mut self, _instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+        Ok(Vec::new())
+    }
 
     /// The impulse of a mechanism that cannot go on moving; nothing if there is none.
     ///
@@ -111,6 +119,11 @@ impl Decisions for Thorough {
             continues: successor.continues,
         };
         Ok(found.list.into_iter().map(one).collect())
+    }
+
+    fn tipping(&mut self, instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+        let found = decision::continuations(instant)?;
+        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
     fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults> {

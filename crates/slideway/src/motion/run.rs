@@ -9,6 +9,7 @@ use super::rules::{Decisions, Instant, Successor};
 use super::smooth::{Ended, Smooth};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
 use crate::report::spaced;
 use std::ops::ControlFlow;
@@ -126,6 +127,10 @@ impl<'a, 'm> Run<'a, 'm> {
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
             Err(Failure::Singular) => return Ended::End(End::Jammed),
         }
+        let exceeded = self.smooth.exceeded_reactions();
+        if !exceeded.is_empty() {
+            return Ended::Event(exceeded);
+        }
         loop {
             if self.smooth.is_over() {
                 return Ended::End(End::Finished);
@@ -187,6 +192,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.smooth.settle(previous, &stopped);
             }
             let signs = self.signs(&stopped);
+            let zero: Vec<ContactId> = causes.iter().filter_map(Cause::vanishing_contact).collect();
             let (time, state) = (self.smooth.time, &self.smooth.state);
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
@@ -194,7 +200,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 mechanism: self.smooth.equations.mechanism,
                 configuration: &configuration,
                 signs: &signs,
-                zero: &[],
+                zero: &zero,
                 previous: previous.as_ref(),
             };
             let successors = self.decisions.successors(&instant)?;
@@ -205,6 +211,13 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.tell(causes, successors, taken);
                 let branching = self.branchings;
                 return Ok(if taken.is_some() { None } else { Some(End::NoSuchBranch { branching }) });
+            }
+            if let Some(&joint) = self.decisions.tipping(&instant)?.first() {
+                if !causes.contains(&Cause::Tips(joint)) {
+                    causes.push(Cause::Tips(joint));
+                }
+                self.tell(causes, Vec::new(), None);
+                return Ok(Some(End::Tips(joint)));
             }
             if stopped.iter().all(|stopped| *stopped) {
                 self.tell(causes, Vec::new(), None);

@@ -25,7 +25,7 @@ struct Accelerations {
     coordinates: Vec<f64>,
 }
 
-/// How a phase stands to its bounds; nothing if it violates one at once, or if its equations contradict each other a
+/// How a phase stands to its bounds; else those that it violates at once, or none if its equations contradict each other a
 /// little later.
 ///
 /// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
@@ -34,26 +34,24 @@ pub(super) fn standing(
     mechanism: &Mechanism,
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
-) -> Option<Standing> {
-    if assessment.least() < -BOUNDARY {
-        return None;
-    }
+) -> Result<Standing, Vec<Decisive>> {
     let bounds: Vec<usize> =
         (0..assessment.slacks.len()).filter(|&index| assessment.slacks[index].value <= BOUNDARY).collect();
     if bounds.is_empty() && !assessment.redundant {
-        return Some(Standing::Inside);
+        return Ok(Standing::Inside);
     }
     let limits = |indices: &[usize]| -> Vec<Limit> {
         indices.iter().map(|&index| limit(instant, assessment.slacks[index].subject)).collect()
     };
-    let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped };
+    let flow =
+        Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
     let scale = time_scale(instant, configuration);
     let later = match flow.slacks(configuration, (instant, assessment), STEP * scale) {
         Ok(Later::Lasts(later)) => later,
-        Ok(Later::Ends) => return None,
-        Ok(Later::Unsolved) | Err(_) => return Some(Standing::Undecided(limits(&bounds))),
+        Ok(Later::Ends) => return Err(Vec::new()),
+        Ok(Later::Unsolved) | Err(_) => return Ok(Standing::Undecided(limits(&bounds))),
     };
-    let mut constant = Vec::new();
+    let (mut constant, mut violated) = (Vec::new(), Vec::new());
     for &index in &bounds {
         let first = assessment.slacks[index];
         let at = |step: usize| later[step].get(index).filter(|slack| slack.subject == first.subject);
@@ -64,13 +62,15 @@ pub(super) fn standing(
         let rate = (-3.0 * first.value + 4.0 * second.value - third.value) / (2.0 * STEP);
         let curvature = (first.value - 2.0 * second.value + third.value) / (STEP * STEP);
         if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
-            return None;
-        }
-        if rate <= NO_RATE && curvature <= NO_CURVATURE {
+            violated.push(first.subject);
+        } else if rate <= NO_RATE && curvature <= NO_CURVATURE {
             constant.push(index);
         }
     }
-    Some(if bounds.is_empty() {
+    if !violated.is_empty() {
+        return Err(violated);
+    }
+    Ok(if bounds.is_empty() {
         Standing::Inside
     } else if constant.is_empty() {
         Standing::Leaves(limits(&bounds))
@@ -104,6 +104,7 @@ struct Flow<'f> {
     mechanism: &'f Mechanism,
     phase: &'f Phase,
     stopped: &'f [bool],
+    shift: &'f DVector<f64>,
 }
 
 type Slacks = Vec<super::assessment::Slack>;
@@ -156,7 +157,8 @@ impl Flow<'_> {
     }
 
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
-        let instant = Instant::new(self.mechanism, configuration)?;
+        let mut instant = Instant::new(self.mechanism, configuration)?;
+        instant.change_base(self.shift);
         let question = instant.question(self.stopped);
         let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
             Ok(Some(assessment)) => assessment,

@@ -1,5 +1,6 @@
 //! A mechanism at one instant: how normal forces, sliding accelerations and couples answer to friction.
 
+use super::assessment::Assessment;
 use super::bounds::possible_sides;
 use super::system::Question;
 use crate::configuration::Configuration;
@@ -9,7 +10,8 @@ use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
 use crate::model::{PreloadLine, SliderKind};
-use crate::motion::Phase;
+use crate::modes::Side;
+use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
 
 /// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
@@ -20,6 +22,12 @@ const SAME: f64 = 1e-12;
 const DEPENDENT: f64 = 1e-10;
 /// Accelerations below this, in units, are zero.
 const NO_ACCELERATION: f64 = 1e-10;
+
+/// A joint that only a force greater than this, in units, could keep from sliding cannot stick.
+const GREATEST_FORCE: f64 = 1e8;
+/// What is left of a normal force, in units, or of a share, where an event has found it to be zero; it is greater only where it
+/// has no bounds.
+const NEARLY_ZERO: f64 = 1e-4;
 
 /// Units in which the numbers of a decision are of order one.
 #[derive(Debug, Clone, Copy)]
@@ -85,6 +93,8 @@ pub(super) struct Instant<'m> {
     pub(super) units: Units,
     /// What is asked of forces and accelerations.
     pub(super) outputs: Outputs,
+    /// By how much these differ from the loads, see [`Self::vanish`].
+    pub(super) shift: DVector<f64>,
     /// The sliding joints in groups that are decided separately.
     pub(super) groups: Vec<Group>,
     /// For each contact, whether the right-hand side jumps with its side.
@@ -103,6 +113,7 @@ impl<'m> Instant<'m> {
         let units = set_units(mechanism, &influence, &equations, &mut joints);
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);
+        let shift = DVector::zeros(outputs.base.len());
         let has_jump = (0..mechanism.contacts.len())
             .map(|k| {
                 let contact = &mechanism.contacts[k];
@@ -112,7 +123,7 @@ impl<'m> Instant<'m> {
                     && plus != minus
             })
             .collect();
-        Ok(Self { mechanism, equations, influence, joints, units, outputs, groups, has_jump })
+        Ok(Self { mechanism, equations, influence, joints, units, outputs, shift, groups, has_jump })
     }
 
     /// Takes over the loads at another time, where nothing has moved.
@@ -160,6 +171,58 @@ impl<'m> Instant<'m> {
     /// The units of a contact.
     pub(super) fn units_of(&self, k: usize) -> Units {
         self.joint_of(k).map_or(self.units, |joint| self.joints[joint].units)
+    }
+
+    /// The sign of the acceleration of a joint that has no sliding velocity but passes: near a dead centre its acceleration comes
+    /// from the geometry of the motion (or from a drive), and no force along its guide that could occur would change it.
+    pub(super) fn passes(&self, joint: usize) -> Option<f64> {
+        let acceleration = self.outputs.base[self.sliding_output(joint)];
+        let holding_force = acceleration.abs() / self.mobility(joint, joint).abs();
+        (acceleration.abs() > NO_ACCELERATION && holding_force > GREATEST_FORCE).then(|| acceleration.signum())
+    }
+
+    /// Makes normal forces, or what is left of preload gaps, exactly zero in a state: its equations hold again with loads that
+    /// differ by no more than what is left of them, and so do those of its neighbours, in which the contacts press on the other
+    /// side.
+    pub(super) fn vanish(&mut self, contacts: &[usize], state: &Assessment) {
+        let mut shift = DVector::zeros(self.outputs.base.len());
+        for &k in contacts {
+            let Some(JointPhase::Sliding(sign)) = self.joint_of(k).map(|joint| state.phase.joints[joint])
+            else {
+                continue;
+            };
+            let [plus, minus] = [0, 1].map(|side| self.outputs.columns[side].column(k));
+            let contact = self.contact(k);
+            match (state.phase.contacts[k], state.forces.shares[k]) {
+                (ContactPhase::Pressed(side), _) if state.forces.normal[k].abs() <= NEARLY_ZERO => {
+                    let face = usize::from(side == Side::Negative);
+                    let pressure = state.forces.normal[k].abs();
+                    shift.axpy(contact.mu[face] * sign * pressure, &[plus, minus][face], 1.0);
+                    shift[k] -= state.forces.normal[k];
+                }
+                (ContactPhase::PreloadGap, Some(share)) if (share - share.round()).abs() <= NEARLY_ZERO => {
+                    let unit = self.units_of(k).force;
+                    let [more, less] = contact.preload.map(|preload| {
+                        (share - share.round()) * sign * preload / unit
+                    });
+                    match contact.preload_line {
+                        PreloadLine::Pressed => {
+                            shift.axpy(more, &plus, 1.0);
+                            shift.axpy(-less, &minus, 1.0);
+                        }
+                        PreloadLine::Centre => shift.axpy((more - less) / 2.0, &(plus + minus), 1.0),
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.change_base(&shift);
+    }
+
+    /// Adds to what there is without friction, in units.
+    pub(super) fn change_base(&mut self, shift: &DVector<f64>) {
+        self.outputs.base += shift;
+        self.shift += shift;
     }
 
     /// Whether a joint does not accelerate while others are held, whatever forces act.

@@ -139,7 +139,11 @@ impl Search<'_> {
             match self.assess(&phase, group) {
                 Err(_) => found.unsolved.push(phase),
                 Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => list.push(assessment),
-                Ok(assessment) => found.tipping.extend(assessment.and_then(|found| self.tipping(&found))),
+                Ok(None) => {}
+                Ok(Some(assessment)) => {
+                    let violated = assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY);
+                    found.tipping.extend(self.tipping(&assessment.phase, violated.map(|slack| slack.subject)));
+                }
             }
         }
         Ok(list)
@@ -193,17 +197,17 @@ impl Search<'_> {
             && pairs.all(|pair| self.instant.can_begin_together(pair))
     }
 
-    /// The guided sliders that would tip in a state that nothing else forbids.
-    fn tipping(&self, assessment: &Assessment) -> Option<Tipping> {
+    /// The guided sliders that would tip in a phase that violates nothing but these inequalities.
+    pub(super) fn tipping(&self, phase: &Phase, violated: impl Iterator<Item = Decisive>) -> Option<Tipping> {
         let mut joints = Vec::new();
-        for slack in assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY) {
-            let Decisive::One(Subject::Couple(k)) = slack.subject else { return None };
+        for subject in violated {
+            let Decisive::One(Subject::Couple(k)) = subject else { return None };
             let joint = self.instant.contact(k).joint;
             if !joints.contains(&joint) {
                 joints.push(joint);
             }
         }
-        (!joints.is_empty()).then(|| Tipping { phase: assessment.phase.clone(), joints })
+        (!joints.is_empty()).then(|| Tipping { phase: phase.clone(), joints })
     }
 
     /// What a group can do, in the order of preference; verdicts and what is continued are left out where a single phase can follow.

@@ -1,12 +1,13 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::Assessment;
+use super::assessment::{Assessment, assess};
 use super::elastic::attainability;
 use super::growth::standing;
 use super::instant::Instant;
 use super::parts::{Detail, Part, Search};
 use super::state::{PhaseState, state};
-use super::{Limit, Standing};
+use super::sticking::ENOUGH;
+use super::{BOUNDARY, Limit, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
@@ -113,7 +114,7 @@ pub fn successors(
     };
     let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
     let event = motion::Instant { mechanism, configuration, signs: &signs, zero: &[], previous };
-    at(&instant, &event, Detail::Everything)
+    at(instant, &event, Detail::Everything)
 }
 
 /// The phases of [`successors`], with no more than it takes to put them in their order: patterns of sliding that are
@@ -125,14 +126,22 @@ pub fn successors(
 /// As [`successors`].
 pub(crate) fn continuations(event: &motion::Instant<'_>) -> Result<Successors, Faults> {
     let instant = Instant::new(event.mechanism, event.configuration)?;
-    at(&instant, event, Detail::Order)
+    at(instant, event, Detail::Order)
 }
 
-fn at(instant: &Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> Result<Successors, Faults> {
+fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> Result<Successors, Faults> {
     instant.check_joints(event.signs.len())?;
     if let Some(previous) = event.previous {
         instant.check(previous)?;
+        vanish(&mut instant, event, previous);
     }
+    let instant = &instant;
+    let sign = |(joint, sign): (usize, &f64)| match *sign {
+        0.0 => instant.passes(joint).unwrap_or(0.0),
+        sign => sign,
+    };
+    let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
+    let event = &motion::Instant { signs: &signs, ..*event };
     let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
     let question = instant.question(&stopped);
     let search = Search { instant, event, question: &question, detail };
@@ -143,9 +152,17 @@ fn at(instant: &Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> Res
         let whole = instant.groups.iter().zip(&chosen);
         let whole = whole.fold(start.clone(), |whole, (group, part)| whole.with(group, &part.assessment));
         let at = (instant, &question, &whole);
-        let Some(standing) = standing(event.mechanism, event.configuration, at) else { continue };
-        found.list.push(successor(&search, &whole, (&chosen, standing)));
+        match standing(event.mechanism, event.configuration, at) {
+            Ok(standing) => found.list.push(successor(&search, &whole, (&chosen, standing))),
+            Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
+        }
     }
+    // What has fallen to zero goes on to fall where nothing else is seen.
+    found.list.sort_by_key(|successor| {
+        let ends = |limit: &Limit| matches!(limit, Limit::NormalForce(k) | Limit::PreloadShare(k) if event.zero.contains(k));
+        let undecided = matches!(&successor.standing, Standing::Undecided(limits) if limits.iter().any(ends));
+        successor.is_present && undecided
+    });
     if found.list.is_empty() && !found.complete {
         let states = parts.iter().fold(1_u64, |product, part| product.saturating_mul(part.len() as u64));
         let limit = MOST_COMBINATIONS as u64;
@@ -156,6 +173,19 @@ fn at(instant: &Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> Res
         found.list[0].attainability = Attainability::without_eigenvalues(Verdict::NotComputed, ALONE);
     }
     Ok(found)
+}
+
+/// Makes exactly zero in the previous phase what the event has found to be zero.
+fn vanish(instant: &mut Instant<'_>, event: &motion::Instant<'_>, previous: &Phase) {
+    if event.zero.is_empty() {
+        return;
+    }
+    let stopped = vec![false; instant.joints.len()];
+    let before = assess(instant, &instant.question(&stopped), previous, (BOUNDARY, ENOUGH));
+    if let Ok(Some(before)) = before {
+        let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
+        instant.vanish(&contacts, &before);
+    }
 }
 
 /// Every way to choose one part for each group, the preferred ones first; if there are too many, those in which all groups
