@@ -196,7 +196,7 @@ impl<'m> Instant<'m> {
             match (state.phase.contacts[k], state.forces.shares[k]) {
                 (ContactPhase::Pressed(side), _) if state.forces.normal[k].abs() <= NEARLY_ZERO => {
                     let face = usize::from(side == Side::Negative);
-                    let pressure = state.forces.normal[k].abs();
+                    let pressure = side.sign() * state.forces.normal[k];
                     shift.axpy(contact.mu[face] * sign * pressure, &[plus, minus][face], 1.0);
                     shift[k] -= state.forces.normal[k];
                 }
