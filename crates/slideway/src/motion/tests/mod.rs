@@ -5,7 +5,9 @@ mod agreement;
 mod closed_forms;
 mod continuations;
 mod limits;
+mod layers;
 mod mechanisms;
+mod rest;
 mod simple;
 mod stops;
 
