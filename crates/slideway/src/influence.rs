@@ -44,10 +44,7 @@ impl ContactFriction {
 
     /// So many times this friction.
     pub(crate) fn times(self, factor: f64) -> Self {
-        Self {
-            positive_face: self.positive_face * factor,
-            negative_face: self.negative_face * factor,
-        }
+        Self { positive_face: self.positive_face * factor, negative_face: self.negative_face * factor }
     }
 }
 

@@ -283,7 +283,8 @@ fn phases(history: &History) -> Vec<PhaseReport> {
 
 fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
     let (kind, words) = end_in_words(history, options);
-    let locked = matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
+    let locked =
+        matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
     EndReport { kind, words, locked }
 }
 
@@ -320,7 +321,10 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
         ),
         End::Tips(id) => (
             "tips",
-            format!("It ends at {time} s: {} tips in its guide, of which a guided slider has no state.", joint(id)),
+            format!(
+                "It ends at {time} s: {} tips in its guide, of which a guided slider has no state.",
+                joint(id)
+            ),
         ),
         End::NoContinuation => (
             "no_continuation",

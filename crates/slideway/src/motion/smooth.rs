@@ -139,9 +139,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// The contacts whose normal forces are beyond the limit where the phase begins.
     pub(super) fn exceeded_reactions(&self) -> Vec<Cause> {
         let values = self.watch.list.iter().zip(&self.values[0]);
-        let exceeded = values.filter(|(watched, value)| {
-            matches!(watched, Watched::ReactionLimit(_)) && **value <= 0.0
-        });
+        let exceeded =
+            values.filter(|(watched, value)| matches!(watched, Watched::ReactionLimit(_)) && **value <= 0.0);
         exceeded.map(|(watched, _)| Cause::of(*watched, &self.equations.sliders, |_| String::new())).collect()
     }
 

@@ -169,9 +169,7 @@ fn assess_sides(
         vec![0.0; found.indeterminate]
     } else {
         let (value, open) = highest(&together, found.indeterminate)?;
-        found
-            .slacks
-            .push(Slack { subject: Decisive::Open(group.joints[0]), value: without_rounding(value) });
+        found.slacks.push(Slack { subject: Decisive::Open(group.joints[0]), value: without_rounding(value) });
         open
     };
     for inequality in inequalities.iter().filter(|inequality| !depends(inequality)) {
@@ -224,7 +222,11 @@ fn sticking_sides(
 }
 
 /// A phase with the combination of sides of this number; nothing behind the last.
-pub(super) fn with_sides(phase: &Phase, sides: &[(usize, Vec<ContactPhase>)], mut number: usize) -> Option<Phase> {
+pub(super) fn with_sides(
+    phase: &Phase,
+    sides: &[(usize, Vec<ContactPhase>)],
+    mut number: usize,
+) -> Option<Phase> {
     let mut changed = phase.clone();
     for (k, options) in sides.iter().rev() {
         changed.contacts[*k] = options[number % options.len()];

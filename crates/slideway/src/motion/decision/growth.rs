@@ -43,8 +43,7 @@ pub(super) fn standing(
     let limits = |indices: &[usize]| -> Vec<Limit> {
         indices.iter().map(|&index| limit(instant, assessment.slacks[index].subject)).collect()
     };
-    let flow =
-        Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
+    let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
     let scale = time_scale(instant, configuration);
     let later = match flow.slacks(configuration, (instant, assessment), STEP * scale) {
         Ok(Later::Lasts(later)) => later,

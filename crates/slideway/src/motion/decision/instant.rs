@@ -178,7 +178,8 @@ impl<'m> Instant<'m> {
     pub(super) fn passes(&self, joint: usize) -> Option<f64> {
         let acceleration = self.outputs.base[self.sliding_output(joint)];
         let holding_force = acceleration.abs() / self.mobility(joint, joint).abs();
-        (acceleration.abs() > NO_ACCELERATION && holding_force > GREATEST_FORCE).then(|| acceleration.signum())
+        (acceleration.abs() > NO_ACCELERATION && holding_force > GREATEST_FORCE)
+            .then(|| acceleration.signum())
     }
 
     /// Makes normal forces, or what is left of preload gaps, exactly zero in a state: its equations hold again with loads that
@@ -202,9 +203,8 @@ impl<'m> Instant<'m> {
                 }
                 (ContactPhase::PreloadGap, Some(share)) if (share - share.round()).abs() <= NEARLY_ZERO => {
                     let unit = self.units_of(k).force;
-                    let [more, less] = contact.preload.map(|preload| {
-                        (share - share.round()) * sign * preload / unit
-                    });
+                    let [more, less] =
+                        contact.preload.map(|preload| (share - share.round()) * sign * preload / unit);
                     match contact.preload_line {
                         PreloadLine::Pressed => {
                             shift.axpy(more, &plus, 1.0);
@@ -360,9 +360,8 @@ fn set_units(
     joints: &mut [SlidingJoint],
 ) -> Units {
     let connected = connected(mechanism);
-    let units = |counts: &dyn Fn(BodyId) -> bool, least: f64| {
-        units(mechanism, (influence, equations), counts, least)
-    };
+    let units =
+        |counts: &dyn Fn(BodyId) -> bool, least: f64| units(mechanism, (influence, equations), counts, least);
     let whole = units(&|_| true, 1.0);
     for joint in joints {
         let slider = mechanism.slider(joint.id);

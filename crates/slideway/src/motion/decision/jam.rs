@@ -212,8 +212,7 @@ impl Search<'_> {
     fn impulse(&self, joint: usize, assessment: &Assessment) -> Option<Impulse> {
         let unit = |k: usize| self.instant.units_of(k).force * self.time();
         let frictions = assessment.forces.frictions.iter().enumerate();
-        let whole: Vec<ContactFriction> =
-            frictions.map(|(k, friction)| friction.times(unit(k))).collect();
+        let whole: Vec<ContactFriction> = frictions.map(|(k, friction)| friction.times(unit(k))).collect();
         let jumps = self.instant.influence.of_friction(&whole);
         let part = self.part(&assessment.phase, &jumps)?;
         let jumps = jumps * part;

@@ -100,11 +100,7 @@ impl Search<'_> {
         self.assess(previous, group).ok()?
     }
 
-    fn assess(
-        &self,
-        phase: &Phase,
-        group: &Group,
-    ) -> Result<Option<Assessment>, super::program::Unsolved> {
+    fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, super::program::Unsolved> {
         let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
         assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
     }
@@ -123,7 +119,8 @@ impl Search<'_> {
     /// All admissible states of a group, or as many as are tried; those in which most joints stick are tried first.
     fn admissible(&self, group: &Group, found: &mut Successors) -> Result<Vec<Assessment>, Faults> {
         let mut list = Vec::new();
-        let mut sieve = (self.detail == Detail::Order).then(|| Sieve::new(self.question, self.instant, group));
+        let mut sieve =
+            (self.detail == Detail::Order).then(|| Sieve::new(self.question, self.instant, group));
         for (tried, phase) in (1..).zip(self.patterns(group)) {
             if tried > MOST_STATES && list.is_empty() {
                 let states = tried;
@@ -142,7 +139,9 @@ impl Search<'_> {
                 Ok(None) => {}
                 Ok(Some(assessment)) => {
                     let violated = assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY);
-                    found.tipping.extend(self.tipping(&assessment.phase, violated.map(|slack| slack.subject)));
+                    found
+                        .tipping
+                        .extend(self.tipping(&assessment.phase, violated.map(|slack| slack.subject)));
                 }
             }
         }
@@ -152,16 +151,20 @@ impl Search<'_> {
     /// All states of the joints of a group with all sides of the contacts that slide, those in which most joints stick first;
     /// contacts that stick have any side.
     fn patterns<'p>(&'p self, group: &'p Group) -> impl Iterator<Item = Phase> + 'p {
-        let rests = |joint: &usize| self.event.signs[*joint] == 0.0 && self.instant.joints[*joint].has_friction;
+        let rests =
+            |joint: &usize| self.event.signs[*joint] == 0.0 && self.instant.joints[*joint].has_friction;
         let resting: Vec<usize> = group.joints.iter().copied().filter(rests).collect();
         let most = u32::try_from(resting.len().min(MOST_RESTING)).unwrap_or(0);
         (0..=most).flat_map(move |count| subsets(most, count)).flat_map(move |slips| {
-            let slipping: Vec<usize> =
-                (0..resting.len()).filter(|place| slips >> place & 1 == 1).map(|place| resting[place]).collect();
+            let slipping: Vec<usize> = (0..resting.len())
+                .filter(|place| slips >> place & 1 == 1)
+                .map(|place| resting[place])
+                .collect();
             let senses = (0..1_u64 << slipping.len()).map(move |senses| {
                 let mut phase = self.any_phase();
                 for (place, &joint) in slipping.iter().enumerate() {
-                    phase.joints[joint] = JointPhase::Sliding(if senses >> place & 1 == 1 { -1.0 } else { 1.0 });
+                    phase.joints[joint] =
+                        JointPhase::Sliding(if senses >> place & 1 == 1 { -1.0 } else { 1.0 });
                 }
                 phase
             });
@@ -211,10 +214,16 @@ impl Search<'_> {
     }
 
     /// What a group can do, in the order of preference; verdicts and what is continued are left out where a single phase can follow.
-    fn in_order(&self, group: &Group, list: Vec<Assessment>, (before, alone): (Option<&Assessment>, bool)) -> Vec<Part> {
+    fn in_order(
+        &self,
+        group: &Group,
+        list: Vec<Assessment>,
+        (before, alone): (Option<&Assessment>, bool),
+    ) -> Vec<Part> {
         let state_before = before.filter(|_| !alone).map(|before| state(self.instant, before));
         let part = |assessment: Assessment| {
-            let same = |before: &Assessment| is_same_phase(self.instant, group, [&before.phase, &assessment.phase]);
+            let same =
+                |before: &Assessment| is_same_phase(self.instant, group, [&before.phase, &assessment.phase]);
             let is_present = before.is_some_and(same);
             let continued = |before: &PhaseState| self.is_continued(group, before, &assessment);
             let continues = is_present || state_before.as_ref().is_some_and(continued);
@@ -225,7 +234,10 @@ impl Search<'_> {
         let continues_unattainable =
             |part: &Part| part.continues && !part.is_present && part.verdict == Verdict::Unattainable;
         let follows_unattainable = parts.iter().any(continues_unattainable)
-            && self.event.previous.is_some_and(|previous| self.verdict(group, previous) == Verdict::Unattainable);
+            && self
+                .event
+                .previous
+                .is_some_and(|previous| self.verdict(group, previous) == Verdict::Unattainable);
         parts.sort_by_key(|part| self.rank(group, part, follows_unattainable));
         parts
     }
@@ -250,10 +262,10 @@ impl Search<'_> {
         };
         let state = state(self.instant, assessment);
         let small = |k: &usize| {
-            (state.normal_forces[*k] - before.normal_forces[*k]).abs() <= SAME * self.instant.units_of(*k).force
+            (state.normal_forces[*k] - before.normal_forces[*k]).abs()
+                <= SAME * self.instant.units_of(*k).force
         };
-        let mut contacts =
-            group.contacts.iter().filter(|k| self.instant.joint_of(**k).is_some_and(slides));
+        let mut contacts = group.contacts.iter().filter(|k| self.instant.joint_of(**k).is_some_and(slides));
         self.is_same_motion(group, [&state, before]) && contacts.all(small)
     }
 

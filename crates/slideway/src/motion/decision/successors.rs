@@ -249,16 +249,18 @@ fn severity(verdict: Verdict) -> u8 {
 /// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as far as can be
 /// seen.
 fn without_copies(search: &Search<'_>, list: &mut Vec<Successor>) {
-    let stays_zero = |one: &Successor, k: usize| {
-        matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&Limit::NormalForce(ContactId(k))))
-    };
+    let stays_zero = |one: &Successor, k: usize| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&Limit::NormalForce(ContactId(k))));
     let is_copy = |one: &Successor, other: &Successor| {
         let same = |k: usize| {
             one.phase.contacts[k] == other.phase.contacts[k] || (stays_zero(one, k) && stays_zero(other, k))
         };
         one.phase.joints == other.phase.joints
             && (0..one.phase.contacts.len()).all(same)
-            && search.instant.groups.iter().all(|group| search.is_same_motion(group, [&one.state, &other.state]))
+            && search
+                .instant
+                .groups
+                .iter()
+                .all(|group| search.is_same_motion(group, [&one.state, &other.state]))
     };
     let mut index = 1;
     while index < list.len() {

@@ -381,8 +381,7 @@ impl<'s> System<'s> {
     /// Adds the forces of this group to those of all contacts.
     pub(super) fn write_forces(&self, z: &[f64], forces: &mut Forces) {
         for &k in &self.group.contacts {
-            let [positive_face, negative_face] =
-                [0, 1].map(|face| self.value(&self.friction[k][face], z));
+            let [positive_face, negative_face] = [0, 1].map(|face| self.value(&self.friction[k][face], z));
             forces.frictions[k] = ContactFriction { positive_face, negative_face };
             forces.normal[k] = self.value(&self.normal_force(k), z);
             forces.shares[k] = self.share[k].map(|share| self.value(&Expression::unknown(share, 1.0), z));

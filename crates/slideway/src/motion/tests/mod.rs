@@ -4,8 +4,8 @@
 mod agreement;
 mod closed_forms;
 mod continuations;
-mod limits;
 mod layers;
+mod limits;
 mod mechanisms;
 mod rest;
 mod simple;

@@ -52,9 +52,8 @@ fn sticks_to_the_end(history: &History) {
 /// with it, comes to rest after (1 m/s)/(2 m/s^2).
 #[test]
 fn what_rests_stays_when_something_else_stops() {
-    let text = HEAD.to_owned()
-        + &block("a", [1.0, 0.2, 0.4, 0.0], "3 N")
-        + &block("b", [1.0, 0.2, 0.2, 1.0], "0 N");
+    let text =
+        HEAD.to_owned() + &block("a", [1.0, 0.2, 0.4, 0.0], "3 N") + &block("b", [1.0, 0.2, 0.2, 1.0], "0 N");
     let history = run(&text, 2.0);
     assert_eq!(history.end, End::Finished);
     assert_eq!(history.events.len(), 2);
@@ -143,7 +142,8 @@ fn a_yoke_changes_side_without_jamming() {
     let model = model_of("scotch-yoke").with(&settings).unwrap();
     let history = simulate(&model, &SimulateOptions::new(0.15)).unwrap();
     assert_eq!(history.end, End::Finished);
-    let changes = history.events.iter().filter(|event| matches!(event.causes[..], [Cause::NormalForceZero(_)]));
+    let changes =
+        history.events.iter().filter(|event| matches!(event.causes[..], [Cause::NormalForceZero(_)]));
     assert!(changes.count() > 30);
 }
 
@@ -165,7 +165,8 @@ fn a_guided_slider_at_rest_tips() {
     let text = HEAD.replace("P = [0, 0]", "P = [0, 0.2]\nQ = [0, 0]")
         + &block("a", [1.0, 0.9, 0.9, 0.0], "4 N * t/second");
     let text = text.replace("block_slider", "guided_slider").replace("length = 0.2", "length = 0.1");
-    let text = text.replace("points = [\"P\"]", "points = [\"P\", \"Q\"]").replace("at = \"P\"", "at = \"Q\"");
+    let text =
+        text.replace("points = [\"P\"]", "points = [\"P\", \"Q\"]").replace("at = \"P\"", "at = \"Q\"");
     let history = run(&text, 2.0);
     assert!(matches!(history.end, End::Tips(_)), "{:?}", history.end);
     assert!((history.stop() - 0.625).abs() < 1e-9, "{}", history.stop());

@@ -39,7 +39,8 @@ impl TryAll {
                         }
                     });
                     sides
-                        && (instant.signs[index] != 0.0 || sign * sliding_acceleration(equations, index) > -1e-12)
+                        && (instant.signs[index] != 0.0
+                            || sign * sliding_acceleration(equations, index) > -1e-12)
                 }
             }
         })
