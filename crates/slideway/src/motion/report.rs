@@ -112,7 +112,7 @@ pub struct PhaseReport {
 /// How a motion ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EndReport {
-    /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `no_continuation`, `jammed`,
+    /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `tips`, `no_continuation`, `jammed`,
     /// `accumulation`, `step_limit`, `event_limit`, `no_value`, `undecided`, `interrupted`.
     pub kind: &'static str,
     /// In words.
