@@ -16,8 +16,10 @@ use std::cmp::Reverse;
 
 /// Accelerations and forces that differ by less than this, in units, are the same.
 const SAME: f64 = 1e-6;
-/// When something has been found in which most joints stick, so many states are tried in all.
-const FURTHER_STATES: u64 = 1000;
+/// When a state has been found, no more than so many are tried in all, ...
+const FURTHER_STATES: u64 = 10_000;
+/// ... and where more joints are at rest, none in which fewer stick than in one that is at no boundary.
+const FEW_RESTING: usize = 4;
 /// Of more joints at rest in one group the others only stick.
 const MOST_RESTING: usize = 60;
 
@@ -116,17 +118,22 @@ impl Search<'_> {
         group.joints.iter().all(keeps) && before.least() > BOUNDARY && !before.redundant
     }
 
-    /// All admissible states of a group, or as many as are tried; those in which most joints stick are tried first.
+    /// All admissible states of a group, or those in which most joints stick, which are tried first.
     fn admissible(&self, group: &Group, found: &mut Successors) -> Result<Vec<Assessment>, Faults> {
-        let mut list = Vec::new();
+        let mut list: Vec<Assessment> = Vec::new();
         let mut sieve =
             (self.detail == Detail::Order).then(|| Sieve::new(self.question, self.instant, group));
+        let stuck = |phase: &Phase| {
+            group.joints.iter().filter(|joint| phase.joints[**joint] == JointPhase::Sticking).count()
+        };
+        let is_large = stuck(&self.any_phase()) > FEW_RESTING;
+        let mut most = 0;
         for (tried, phase) in (1..).zip(self.patterns(group)) {
-            if tried > MOST_STATES && list.is_empty() {
-                let states = tried;
-                return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
-            }
-            if tried > FURTHER_STATES && !list.is_empty() {
+            let limit = if list.is_empty() { MOST_STATES } else { FURTHER_STATES };
+            if tried > limit || (is_large && stuck(&phase) < most) {
+                if list.is_empty() {
+                    return Err(Fault::general(FaultKind::TooManyStates { states: tried, limit }).into());
+                }
                 found.complete = false;
                 break;
             }
@@ -135,13 +142,17 @@ impl Search<'_> {
             }
             match self.assess(&phase, group) {
                 Err(_) => found.unsolved.push(phase),
-                Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => list.push(assessment),
                 Ok(None) => {}
+                Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => {
+                    if assessment.least() > BOUNDARY && !assessment.redundant {
+                        most = most.max(stuck(&phase));
+                    }
+                    list.push(assessment);
+                }
                 Ok(Some(assessment)) => {
                     let violated = assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY);
-                    found
-                        .tipping
-                        .extend(self.tipping(&assessment.phase, violated.map(|slack| slack.subject)));
+                    let subjects = violated.map(|slack| slack.subject);
+                    found.tipping.extend(self.tipping(&assessment.phase, subjects));
                 }
             }
         }
