@@ -301,8 +301,10 @@ pub enum FaultKind {
     // Assembly of the state.
     #[error("the mechanism cannot be assembled in this state: {} by {gap}", opening(joint, loop_joints))]
     NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
-    #[error("{state} is too far from the drawing")]
-    TooFar { state: String, limit: f64 },
+    #[error("{state} is too far from the drawing: {steps} steps came as far as {reached}")]
+    TooFar { state: String, reached: String, steps: usize },
+    #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
+    NotFollowed { state: String, reached: String, steps: usize },
     #[error(
         "the overlap of {joint} has shrunk to {} m at a displacement of {} m",
         rounded(*overlap),
@@ -452,10 +454,11 @@ impl FaultKind {
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => {
-                Some("move it a little with --at to leave the singular position")
+                Some("draw it in a neighbouring position, or move it a little with --at")
             }
-            Self::TooFar { .. } => Some(
-                "draw the mechanism nearer to this state: it is followed through at most 300 of its sizes, or 300 rad",
+            Self::TooFar { .. } => Some("draw the mechanism nearer to this state"),
+            Self::NotFollowed { .. } => Some(
+                "that is a dead centre of the coordinates or a place where branches meet: draw the mechanism beyond it, or choose coordinates that go on there",
             ),
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
             Self::DependentCoordinates { .. } => {

@@ -228,14 +228,31 @@ fn limits_are_kept() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// `D` is 2^53 and 2^-1022; the ratio of the two columns is below the range of floating point.
+/// `D` is 2^53 and 2^-1022 or its opposite; the ratio of the two columns is below the range of floating point. `p` of
+/// the negative side is `-D`.
 #[test]
-fn a_column_lost_to_underflow_is_not_called_zero() {
+fn a_column_that_scaling_loses_is_decided_exactly() {
     let (one, none) = (dmatrix![9_007_199_254_740_992.0], DMatrix::zeros(1, 1));
-    for tiny in [f64::MIN_POSITIVE, -f64::MIN_POSITIVE] {
+    for (tiny, unique) in [(f64::MIN_POSITIVE, false), (-f64::MIN_POSITIVE, true)] {
         let columns = (one.clone(), dmatrix![tiny]);
         let problem = ModeProblem::new(columns.0, columns.1, none.clone(), none.clone(), dvector![3.0]);
         let answer = uniqueness(&problem.expect("shapes fit"), &UniquenessLimits::default());
-        assert!(matches!(answer, Uniqueness::InDoubt { .. }), "{answer:?}");
+        let [positive, negative] = Side::BOTH.map(|side| vec![side]);
+        let expected = if unique {
+            Uniqueness::Unique { sign: 1 }
+        } else {
+            Uniqueness::NotUnique { positive, negative }
+        };
+        assert_eq!(answer, expected);
     }
+}
+
+/// `D(++) = D(-+) = 1e-20` and `D(+-) = D(--) = -1e-20`, which rounding `1 + 1e-20` makes zero.
+#[test]
+fn sums_are_not_rounded() -> Result<(), Box<dyn Error>> {
+    let (a, b) = (dmatrix![1.0, 1.0; 1.0, 1.0], dmatrix![1e-20, 0.0; 0.0, 0.0]);
+    let problem = ModeProblem::from_absolute_value_equation(&a, &b, dvector![1.0, 1.0])?;
+    let (positive, negative) = (vec![Side::Positive; 2], vec![Side::Negative, Side::Positive]);
+    assert_eq!(decide(&problem), Uniqueness::NotUnique { positive, negative });
+    Ok(())
 }

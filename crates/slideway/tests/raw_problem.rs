@@ -60,7 +60,7 @@ proptest! {
             let largest = z.iter().chain(w).fold(1.0_f64, |largest, value| largest.max(*value));
             let left = &m * DVector::from_column_slice(z) + &q - DVector::from_column_slice(w);
             prop_assert!(left.amax() <= 1e-12 * largest);
-            prop_assert!(solution.residual <= 1e-13);
+            prop_assert!(solution.residual.unwrap() <= 1e-13);
             prop_assert!(solution.enclosure_radius.is_some_and(|radius| radius <= 1e-8 * largest));
             for (z, w) in z.iter().zip(w) {
                 prop_assert!(*z >= 0.0 && *w >= 0.0 && z * w == 0.0);
@@ -102,7 +102,7 @@ proptest! {
         let report = solved(&problem);
         prop_assert!(!report.partial);
         for solution in &report.solutions {
-            prop_assert!(solution.residual <= 1e-14);
+            prop_assert!(solution.residual.unwrap() <= 1e-14);
         }
         for continuum in &report.continua {
             prop_assert!(!continuum.vertices.is_empty());
@@ -164,6 +164,73 @@ fn continua_among_very_many_solutions_are_listed() {
     assert_eq!(report.count, (1_u128 << 70).to_string());
     assert_eq!(report.continuum_count, (1_u128 << 70).to_string());
     assert_eq!((report.solutions.len(), report.continua.len()), (1000, 1000));
+}
+
+fn solution_of(json: &str) -> RawReport {
+    solved(&RawProblem::from_json(json.as_bytes()).unwrap())
+}
+
+/// z_1 = 1e10 / 1e-300 and z_2 = 1, which is told as every other number.
+#[test]
+fn values_beyond_floating_point_numbers_are_told_as_text() {
+    let report = solution_of(r#"{"type": "lcp", "M": [[1e-300, 0], [0, 1]], "q": [-1e10, -1]}"#);
+    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    let [solution] = report.solutions.as_slice() else { panic!("one solution") };
+    assert_eq!(solution.signs, [1, 1]);
+    // The numbers are exact, and so is what is left over.
+    assert_eq!(solution.residual, Some(0.0));
+    let [value] = solution.beyond_range.as_slice() else { panic!("one value") };
+    assert_eq!((value.name, value.index, value.value.as_str()), ("z", 0, "9.9999999999999997e309"));
+    let json = to_json(&report);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["solutions"][0]["z"], serde_json::json!([null, 1.0]));
+    assert_eq!(json["solutions"][0]["w"], serde_json::json!([0.0, 0.0]));
+    assert!(to_text(&report, Style::Plain).contains("9.9999999999999997e309"));
+    assert!(!to_npz(&report).is_empty());
+}
+
+/// z = 1e-20 / 1e308, and x_1 = 1e-320 beside x_2 = -1e310.
+#[test]
+fn values_too_small_for_floating_point_numbers_are_not_zero() {
+    let report = solution_of(r#"{"type": "lcp", "M": [[1e308]], "q": [-1e-20]}"#);
+    assert_eq!((report.status, report.solutions[0].signs.as_slice()), (Status::One, &[1_i8][..]));
+    assert_eq!(report.solutions[0].beyond_range[0].value, "9.9999999999999993e-329");
+    let report = solution_of(
+        r#"{"type": "ave", "A": [[1e300, 0], [0, 1e-300]], "B": [[0, 0], [0, 0]], "b": [1e-20, -1e10]}"#,
+    );
+    let values: Vec<&str> = report.solutions[0].beyond_range.iter().map(|one| one.value.as_str()).collect();
+    assert_eq!(values, ["9.9999999999999989e-321", "-9.9999999999999997e309"]);
+}
+
+/// The end of the ray is (1e310, 0), its direction (1, 1).
+#[test]
+fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
+    let report =
+        solution_of(r#"{"type": "lcp", "M": [[1e-300, -1e-300], [-1e-300, 1e-300]], "q": [-1e10, 1e10]}"#);
+    assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
+    let Unknowns::Complementary { z, .. } = &report.continua[0].vertices[0] else { panic!("z and w") };
+    assert!(z[0].is_nan() && z[1] == 0.0, "{z:?}");
+    assert!(to_text(&report, Style::Plain).contains("beyond the range of numbers"));
+}
+
+/// A + B = 1e16 + 1 is no floating-point number; x = (1, 1) and (-1, -1).
+#[test]
+fn sums_of_an_absolute_value_equation_are_not_rounded() {
+    let json = r#"{"type": "ave", "A": [[1e16, -1e16], [1, -1]], "B": [[1, 0], [0, 0]], "b": [1, 0]}"#;
+    let report = solution_of(json);
+    assert_eq!((report.count.as_str(), report.complete), ("2", "proven"));
+    let told: Vec<&Unknowns> = report.solutions.iter().map(|solution| &solution.unknowns).collect();
+    assert_eq!(told, [1.0, -1.0].map(|x| Unknowns::AbsoluteValue { x: vec![x, x] }).each_ref());
+}
+
+/// The jumps differ by 1e-13, and N = 0 lies in the middle.
+#[test]
+fn jumps_differ_if_they_differ_at_all() {
+    let json = r#"{"type": "modes", "columns_positive": [[1]], "columns_negative": [[-1]],
+        "right_hand_side": [-1.00000000000005], "jumps_positive": [[1]], "jumps_negative": [[1.0000000000001]]}"#;
+    let report = solution_of(json);
+    assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+    assert!((report.gap_states[0].gaps[0].lambda - 0.5).abs() < 2e-3);
 }
 
 #[test]

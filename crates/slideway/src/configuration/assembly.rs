@@ -1,55 +1,71 @@
-//! Newton's method on the joint equations, led from the drawing to the wanted coordinates in small steps.
+//! The closed drawing, and why a drawing or a state beyond it cannot be had.
 
+use super::anchor::Anchor;
+use super::following::{Halt, Leg, drawn, follow};
 use super::joint_equations::JointEquations;
 use super::mobility::{
     Mobility, RANK_TOLERANCE, advance, least_squares, null_space_within, rank, regularity,
 };
-use super::{Configuration, Pose, Velocity, drawing_poses, unit};
+use super::{Configuration, Pose, drawing_poses, unit};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{Frame, JointId};
 use crate::mechanism::{JointKind, Mechanism};
-use nalgebra::{DVector, Vector2};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
-pub(super) const CLOSED: f64 = 1e-12;
-/// Where two solutions meet Newton's method finds the place only to the root of its tolerance. A state counts as
-/// singular if its joint equations, coordinates included, have a singular value below this multiple of the
-/// greatest...
-const SINGULAR_STATE: f64 = 5e-6;
-/// ... and if that multiple is below this part of what it is in the drawing. (It is small everywhere where a short
-/// body turns in a large mechanism.)
-const SINGULAR_LOSS: f64 = 1e-3;
-/// Newton steps after which a stage of the way counts as failed; quadratic convergence needs far fewer.
-const NEWTON_STEPS: usize = 25;
-/// Largest change of a coordinate in one stage, in sizes of the mechanism or rad.
-pub(super) const STAGE: f64 = 0.15;
-/// Longest way that is followed from the drawing, in sizes of the mechanism or rad.
-const LONGEST_WAY: f64 = 300.0;
-/// Least fraction of the whole way that is tried before the state counts as out of reach.
-const LEAST_STAGE: f64 = 1e-4;
+const CLOSED: f64 = 1e-12;
+/// Motions count as free at a singular position if their singular values are below this multiple of the least one ...
+const FREE: f64 = 10.0;
+/// ... and this multiple of the greatest one, where everything else is.
+const LEAST: f64 = 1e-12;
 
-/// The configuration at the mechanism's coordinate values and rates.
-pub(super) fn assemble(mechanism: &Mechanism) -> Result<Configuration, Faults> {
+/// The poses of the drawing with its joints closed: residuals are led to zero along a straight way.
+pub(super) fn closed_drawing(mechanism: &Mechanism) -> Result<Vec<Pose>, Faults> {
+    let (poses, values) = (drawing_poses(mechanism), drawn(mechanism));
+    let equations = JointEquations::with_coordinates(mechanism, &poses, &values);
+    if !equations.jacobian.is_square() || values.is_empty() {
+        return Err(drawing_fault(mechanism, &poses));
+    }
+    let leg = Leg::closing(mechanism, equations.residual);
+    match follow(mechanism, &leg, (0.0, poses), (1.0, &values)) {
+        Ok(arrival) => Ok(arrival.settled.poses),
+        Err(halt) => Err(drawing_fault(mechanism, &halt.poses)),
+    }
+}
+
+/// Why the joints of the drawing determine no regular state.
+fn drawing_fault(mechanism: &Mechanism, poses: &[Pose]) -> Faults {
     let drawing = Configuration::drawing(mechanism);
     let mobility = Mobility::of(mechanism, &drawing);
-    let moves = mechanism.coordinates.iter().any(|coordinate| coordinate.value != coordinate.drawn_at);
-    if let Some(kind) = mobility.fault(mechanism)
-        && !(moves && matches!(kind, FaultKind::SingularPosition { .. }))
-    {
-        return Err(redundancy_fault(mechanism, &mobility, kind).into());
+    if let Some(kind) = mobility.fault(mechanism) {
+        return redundancy_fault(mechanism, &mobility, kind).into();
     }
-    check_coordinate_count(mechanism, &mobility, &drawing)?;
-    let values: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
-    let poses = reach(mechanism, &values)?;
-    let configuration = Configuration {
-        velocities: velocities(mechanism, &poses)?,
-        poses,
-        coordinates: values,
-        rates: mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
-        time: mechanism.time,
-    };
-    check_position(mechanism, &configuration)?;
-    Ok(configuration)
+    if let Err(faults) = check_coordinate_count(mechanism, &mobility, &drawing) {
+        return faults;
+    }
+    let closest = closest(mechanism, poses, &drawing.coordinates);
+    match open_joint(mechanism, &closest, &drawing.coordinates, None) {
+        Some(fault) => fault.into(),
+        None => singular_state(mechanism, &closest).into(),
+    }
+}
+
+/// Why these values are not reached from where a way has ended.
+pub(super) fn way_fault(mechanism: &Mechanism, leg: &Leg, halt: &Halt, values: &[f64]) -> Fault {
+    let reached = leg.values(halt.place);
+    let [wanted, reached_in_words] = [values, &reached].map(|values| state(mechanism, values));
+    if halt.is_effort() {
+        let (state, reached) = (wanted, reached_in_words);
+        return Fault::general(FaultKind::TooFar { state, reached, steps: halt.steps });
+    }
+    let closest = closest(mechanism, &halt.poses, values);
+    if let Some(fault) = open_joint(mechanism, &closest, values, Some(&reached)) {
+        return fault;
+    }
+    let anchor = Anchor::new(mechanism, leg, halt.end, closest.clone());
+    if anchor.and_then(|anchor| anchor.tube(0.0)).is_none() {
+        return singular_state(mechanism, &closest);
+    }
+    Fault::general(FaultKind::NotFollowed { state: wanted, reached: reached_in_words, steps: halt.steps })
 }
 
 fn redundancy_fault(mechanism: &Mechanism, mobility: &Mobility, kind: FaultKind) -> Fault {
@@ -75,7 +91,7 @@ fn check_coordinate_count(
     }
     let values: Vec<f64> = drawing.coordinates.clone();
     let equations = JointEquations::with_coordinates(mechanism, &drawing.poses, &values);
-    let undetermined = moving_bodies(mechanism, &equations);
+    let undetermined = moving_bodies(mechanism, &equations, RANK_TOLERANCE);
     let kind = FaultKind::CoordinateCount { degrees_of_freedom, chosen, undetermined };
     Err(match mechanism.coordinates.last() {
         Some(last) if chosen > degrees_of_freedom => Fault::new(kind, last.place.clone()).into(),
@@ -84,79 +100,15 @@ fn check_coordinate_count(
 }
 
 /// The bodies that move while all rows of the equations stay satisfied.
-fn moving_bodies(mechanism: &Mechanism, equations: &JointEquations) -> Vec<String> {
-    let motions = null_space_within(&equations.jacobian, SINGULAR_STATE);
+fn moving_bodies(mechanism: &Mechanism, equations: &JointEquations, tolerance: f64) -> Vec<String> {
+    let motions = null_space_within(&equations.jacobian, tolerance);
     let moves = |body: usize| motions.ncols() > 0 && motions.rows(3 * body, 3).amax() > 1e-6;
     let bodies = mechanism.bodies.iter().enumerate();
     bodies.filter(|(index, _)| moves(*index)).map(|(_, body)| body.name.to_string()).collect()
 }
 
-/// The poses at the wanted coordinate values, on the assembly branch of the drawing.
-fn reach(mechanism: &Mechanism, values: &[f64]) -> Result<Vec<Pose>, Faults> {
-    let drawn: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect();
-    let at = |fraction: f64| -> Vec<f64> {
-        drawn.iter().zip(values).map(|(from, to)| from + fraction * (to - from)).collect()
-    };
-    let mut poses = newton(mechanism, drawing_poses(mechanism), &drawn)
-        .map_err(|poses| not_assembled(mechanism, &poses, &drawn, None))?;
-    let mut done = 0.0;
-    let way = longest_way(mechanism, values);
-    if way > LONGEST_WAY {
-        return Err(Fault::general(FaultKind::TooFar {
-            state: state(mechanism, values),
-            limit: LONGEST_WAY,
-        })
-        .into());
-    }
-    let mut stage = (STAGE / way).min(1.0);
-    while done < 1.0 {
-        let next = if done + 1.01 * stage >= 1.0 { 1.0 } else { done + stage };
-        let wanted = if next == 1.0 { values.to_vec() } else { at(next) };
-        match newton(mechanism, poses.clone(), &wanted) {
-            Ok(reached) => {
-                poses = reached;
-                done = next;
-            }
-            Err(_) if stage > LEAST_STAGE => stage /= 2.0,
-            Err(_) => return Err(not_assembled(mechanism, &poses, values, Some(&at(done))).into()),
-        }
-    }
-    Ok(poses)
-}
-
-/// The greatest change of a coordinate, in sizes of the mechanism or rad.
-fn longest_way(mechanism: &Mechanism, values: &[f64]) -> f64 {
-    let way = |(coordinate, value): (&crate::mechanism::Coordinate, &f64)| {
-        let scale = if coordinate.kind.is_angle() { 1.0 } else { mechanism.size };
-        (value - coordinate.drawn_at).abs() / scale
-    };
-    mechanism.coordinates.iter().zip(values).map(way).fold(1e-9, f64::max)
-}
-
-/// Poses that satisfy the joints and the coordinate values, from nearby ones; the last ones tried if there are
-/// none near enough.
-fn newton(mechanism: &Mechanism, mut poses: Vec<Pose>, values: &[f64]) -> Result<Vec<Pose>, Vec<Pose>> {
-    let mut polished = false;
-    for _ in 0..NEWTON_STEPS {
-        let equations = JointEquations::with_coordinates(mechanism, &poses, values);
-        let residual = equations.residual.amax();
-        if residual == 0.0 || (residual < CLOSED && polished) {
-            return Ok(poses);
-        }
-        // One step beyond the tolerance brings the residual to rounding.
-        polished = residual < CLOSED;
-        let Some(step) = equations.jacobian.lu().solve(&-equations.residual) else { return Err(poses) };
-        // A long step would leave the branch of the drawing.
-        if !step.iter().all(|s| s.abs() < 1.0) {
-            return Err(poses);
-        }
-        advance(mechanism, &mut poses, &step);
-    }
-    Err(poses)
-}
-
-/// Says which joint stays most open where the joints come closest to closing.
-fn not_assembled(mechanism: &Mechanism, poses: &[Pose], values: &[f64], reached: Option<&[f64]>) -> Fault {
+/// Where the joints come closest to closing at these values of the coordinates.
+fn closest(mechanism: &Mechanism, poses: &[Pose], values: &[f64]) -> Vec<Pose> {
     let mut poses = poses.to_vec();
     for _ in 0..100 {
         let equations = JointEquations::with_coordinates(mechanism, &poses, values);
@@ -164,11 +116,24 @@ fn not_assembled(mechanism: &Mechanism, poses: &[Pose], values: &[f64], reached:
         let damping = (0.2 / step.amax().max(1e-300)).min(1.0);
         advance(mechanism, &mut poses, &(step * damping));
     }
-    let equations = JointEquations::with_coordinates(mechanism, &poses, values);
+    poses
+}
+
+/// Says which joint stays most open, if one does.
+fn open_joint(
+    mechanism: &Mechanism,
+    poses: &[Pose],
+    values: &[f64],
+    reached: Option<&[f64]>,
+) -> Option<Fault> {
+    let equations = JointEquations::with_coordinates(mechanism, poses, values);
+    if equations.residual.amax() <= CLOSED {
+        return None;
+    }
     let open = (0..equations.joints.len())
         .filter_map(|row| equations.joints[row].map(|joint| (joint, row)))
         .max_by(|a, b| equations.residual[a.1].abs().total_cmp(&equations.residual[b.1].abs()));
-    let Some((joint, row)) = open else { return Fault::general(FaultKind::NoFreedom) };
+    let (joint, row) = open?;
     let is_angle = row > 0 && equations.joints[row - 1] == Some(joint) && is_slider(mechanism, joint);
     let residual = equations.residual[row].abs();
     let gap = if is_angle { in_units(residual, "rad") } else { in_units(residual * mechanism.size, "m") };
@@ -178,7 +143,7 @@ fn not_assembled(mechanism: &Mechanism, poses: &[Pose], values: &[f64], reached:
         gap,
         reached: reached.map(|values| state(mechanism, values)),
     };
-    Fault::new(kind, mechanism.joints[joint.index()].place.clone())
+    Some(Fault::new(kind, mechanism.joints[joint.index()].place.clone()))
 }
 
 fn in_units(value: f64, unit: &str) -> String {
@@ -229,51 +194,22 @@ fn state(mechanism: &Mechanism, values: &[f64]) -> String {
     list.join(", ")
 }
 
-/// Velocities of all bodies: G v = 0 and the rates of the coordinates.
-fn velocities(mechanism: &Mechanism, poses: &[Pose]) -> Result<Vec<Velocity>, Faults> {
-    let values: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
-    let equations = JointEquations::with_coordinates(mechanism, poses, &values);
-    let rows = equations.joints.len();
-    let joint_rows = rows - mechanism.coordinates.len();
-    let singular = rank(&equations.jacobian, SINGULAR_STATE) < rows && {
-        let drawn: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect();
-        let drawing = JointEquations::with_coordinates(mechanism, &drawing_poses(mechanism), &drawn);
-        let (here, there) = (regularity(&equations.jacobian), regularity(&drawing.jacobian));
-        here <= RANK_TOLERANCE || here < SINGULAR_LOSS * there
-    };
-    if singular {
-        return Err(singular_coordinates(mechanism, poses, &equations).into());
-    }
-    let mut rates = DVector::zeros(rows);
-    for (index, coordinate) in mechanism.coordinates.iter().enumerate() {
-        let scale = if coordinate.kind.is_angle() { 1.0 } else { mechanism.size };
-        rates[joint_rows + index] = coordinate.rate / scale;
-    }
-    let Some(solution) = equations.jacobian.clone().lu().solve(&rates) else {
-        return Err(singular_coordinates(mechanism, poses, &equations).into());
-    };
-    Ok((0..mechanism.bodies.len())
-        .map(|body| Velocity {
-            linear: Vector2::new(solution[3 * body], solution[3 * body + 1]) * mechanism.size,
-            angular: solution[3 * body + 2],
-        })
-        .collect())
-}
-
 /// Either the joints themselves have lost rank here, or only the chosen coordinates are at a dead centre.
-fn singular_coordinates(mechanism: &Mechanism, poses: &[Pose], equations: &JointEquations) -> Fault {
+pub(super) fn singular_state(mechanism: &Mechanism, poses: &[Pose]) -> Fault {
     let mut here = Configuration::drawing(mechanism);
     here.poses = poses.to_vec();
-    let mobility = Mobility::within(mechanism, &here, SINGULAR_STATE);
+    let equations = JointEquations::with_coordinates(mechanism, poses, &here.coordinates);
+    let free = FREE * regularity(&equations.jacobian).max(LEAST);
+    let mobility = Mobility::within(mechanism, &here, free);
     if let Some(kind) = mobility.fault(mechanism) {
         return redundancy_fault(mechanism, &mobility, kind);
     }
-    let bodies = moving_bodies(mechanism, equations);
+    let bodies = moving_bodies(mechanism, &equations, free);
     // The first coordinate that says nothing new.
     let joint_rows = equations.joints.len() - mechanism.coordinates.len();
     let dependent = (0..mechanism.coordinates.len()).find(|index| {
         let rows = joint_rows + index + 1;
-        rank(&equations.jacobian.rows(0, rows).into_owned(), SINGULAR_STATE) < rows
+        rank(&equations.jacobian.rows(0, rows).into_owned(), free) < rows
     });
     let kind = FaultKind::DependentCoordinates { bodies };
     match dependent {

@@ -4,6 +4,7 @@
 //! stays on the guide's centre line; no relative rotation), a pin in a slot one. Rows of length are divided by
 //! the size of the mechanism, and displacements are counted in it, so that all numbers are of order one.
 
+use super::curvature::{Curvature, End};
 use super::{Pose, middle_points, moved, turned};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
@@ -31,17 +32,29 @@ pub(crate) struct JointEquations<T = f64> {
 impl<T: Real> JointEquations<T> {
     /// The joint equations alone.
     pub(crate) fn of_joints(mechanism: &Mechanism<T>, poses: &[Pose<T>]) -> Self {
-        let mut rows = Rows { mechanism, poses, list: Vec::new() };
+        let mut rows = Rows { mechanism, poses, list: Vec::new(), curvature: None };
         rows.joints();
         rows.assemble()
     }
 
     /// The joint equations and one for each coordinate, which wants the given value.
     pub(crate) fn with_coordinates(mechanism: &Mechanism<T>, poses: &[Pose<T>], values: &[T]) -> Self {
-        let mut rows = Rows { mechanism, poses, list: Vec::new() };
+        let mut rows = Rows { mechanism, poses, list: Vec::new(), curvature: None };
         rows.joints();
         rows.coordinates(values);
         rows.assemble()
+    }
+}
+
+impl JointEquations {
+    /// [`Self::with_coordinates`], and how these equations bend.
+    pub(super) fn with_curvature(mechanism: &Mechanism, poses: &[Pose], values: &[f64]) -> (Self, Curvature) {
+        let curvature = Some(Curvature::default());
+        let mut rows = Rows { mechanism, poses, list: Vec::new(), curvature };
+        rows.joints();
+        rows.coordinates(values);
+        let curvature = rows.curvature.take().unwrap_or_default();
+        (rows.assemble(), curvature)
     }
 }
 
@@ -49,6 +62,8 @@ struct Rows<'m, T> {
     mechanism: &'m Mechanism<T>,
     poses: &'m [Pose<T>],
     list: Vec<Row<T>>,
+    /// How the rows bend, if that is asked for.
+    curvature: Option<Curvature>,
 }
 
 impl<T: Real> Rows<'_, T> {
@@ -137,7 +152,31 @@ impl<T: Real> Rows<'_, T> {
         if let Some(body) = axis_frame.and_then(Frame::body) {
             row.derivatives.push((3 * body.index() + 2, rot90(axis).dot(&between) / size));
         }
+        self.bend([(first, places[0]), (second, places[1])], axis, axis_frame);
         self.list.push(row);
+    }
+
+    /// Notes how the next row bends: the distance of two ends along an axis, which may turn with the frame of the second.
+    fn bend(&mut self, ends: [(&Attachment<T>, Vector2<T>); 2], axis: Vector2<T>, axis_frame: Option<Frame>) {
+        let (row, size) = (self.list.len(), self.mechanism.size);
+        let Some(curvature) = &mut self.curvature else { return };
+        let poses = self.poses;
+        let scaled = |vector: Vector2<T>| vector.map(|part| part.middle() / size);
+        let origin =
+            |frame: Frame, place: Vector2<T>| frame.body().map_or(place, |body| poses[body.index()].position);
+        let axis = axis.map(Real::middle);
+        let [first, second] = ends.map(|(point, place)| End {
+            frame: point.frame,
+            arm: scaled(place - origin(point.frame, place)),
+        });
+        match axis_frame.and_then(Frame::body) {
+            None => curvature.along_fixed_axis(row, [first, second], axis),
+            Some(guide) => {
+                let [(block, place), _] = ends;
+                let between = origin(block.frame, place) - poses[guide.index()].position;
+                curvature.along_guide(row, first, guide.index(), (axis, scaled(between)));
+            }
+        }
     }
 
     fn size(&self) -> T {

@@ -1,15 +1,19 @@
 //! Positions and velocities that satisfy the joints.
 //!
 //! Third stage of the pipeline: [`Mechanism`] in, [`Configuration`] out. The chosen coordinates and their rates
-//! are given; everything else follows from the joints, by Newton's method on the joint equations, led from the
-//! reference drawing to the wanted state in small steps so that the assembly branch of the drawing is kept.
+//! are given; everything else follows from the joints. The mechanism is led from the reference drawing to the wanted state in
+//! steps that are shown to stay on the assembly branch of the drawing.
 
+mod anchor;
 mod assembly;
 mod clearance;
+mod curvature;
+mod follower;
+mod following;
 mod joint_equations;
 mod mobility;
-mod near;
 
+pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{advance, free_motions, motion_in_words, null_space};
@@ -52,6 +56,8 @@ pub struct Configuration<T = f64> {
     pub rates: Vec<T>,
     /// Time (s).
     pub time: T,
+    /// Steps in which the positions were followed from the drawing; 0 if they are those of the drawing, or of a motion.
+    pub steps: usize,
 }
 
 /// A sliding joint in a configuration.
@@ -79,35 +85,15 @@ pub struct ContactGeometry<T = f64> {
 }
 
 impl Configuration {
-    /// The state that the model's coordinate values and rates describe.
+    /// The state that the model's coordinate values and rates describe: the one to which the straight way of the
+    /// coordinates leads from the drawing, without leaving its assembly branch.
     ///
     /// # Errors
     /// A redundant structure, a singular position, a wrong number of coordinates, a state that cannot be
-    /// assembled, an overlap that has vanished, travel limits that are exceeded.
+    /// assembled or to which the branch could not be followed, an overlap that has vanished, travel limits that are
+    /// exceeded.
     pub fn new(mechanism: &Mechanism) -> Result<Self, Faults> {
-        assembly::assemble(mechanism)
-    }
-
-    /// The state that the model's coordinate values and rates describe, from earlier ones nearby: the last one first. It is
-    /// [`Self::new`] in fewer steps, for sweeps; three evenly spaced states are extrapolated.
-    ///
-    /// None where it is not certain that the state is regular and near enough: then [`Self::new`] has to tell.
-    ///
-    /// ```
-    /// use slideway::configuration::Configuration;
-    /// use slideway::mechanism::Mechanism;
-    /// use slideway::model::{Model, Settings};
-    /// let text = slideway::gallery::find("slider-crank").expect("in the gallery").text;
-    /// let model = Model::parse(text)?;
-    /// let here = Configuration::new(&Mechanism::new(&model)?)?;
-    /// let moved = Mechanism::new(&model.with(&Settings::default().position("phi", "61 deg"))?)?;
-    /// let near = Configuration::near(&moved, &[here]).expect("a small step");
-    /// let direct = Configuration::new(&moved)?;
-    /// assert!((near.poses[1].angle - direct.poses[1].angle).abs() < 1e-14);
-    /// # Ok::<(), slideway::fault::Faults>(())
-    /// ```
-    pub fn near(mechanism: &Mechanism, earlier: &[Self]) -> Option<Self> {
-        near::near(mechanism, earlier)
+        Follower::default().configuration(mechanism)
     }
 
     /// The reference drawing itself, at rest; its joints need not be closed.
@@ -118,6 +104,7 @@ impl Configuration {
             coordinates: mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect(),
             rates: vec![0.0; mechanism.coordinates.len()],
             time: mechanism.time,
+            steps: 0,
         }
     }
 }

@@ -81,14 +81,33 @@ impl Coefficients<'_> {
             let joint = JointId(index);
             let slider = self.mechanism.slider(joint)?;
             let row = self.equations.layout.reaction(Reaction::Couple(joint))?;
+            let contact = slider.contacts.first()?.index();
+            let positive: Vec<Interval> = unknowns.row(row).iter().skip(1).copied().collect();
+            // At the other face the slider's own friction turns by h more the one way, and its couple the other way.
+            let mut negative = positive.clone();
+            negative[contact] -= slider.height;
+            let influence = BySide { positive, negative };
             Some(EnclosedCouple {
-                contact: slider.contacts.first()?.index(),
+                contact,
                 half_length: slider.length * Interval::point(0.5),
                 frictionless: unknowns[(row, 0)],
-                influence: unknowns.row(row).iter().skip(1).copied().collect(),
+                influence_preload: self.couple_of_preload(&influence),
+                influence,
             })
         };
         joints.filter_map(couple).collect()
+    }
+
+    /// The influence of the preload's friction on a couple: at the pressed face, or in the middle between both.
+    fn couple_of_preload(&self, influence: &BySide<Vec<Interval>>) -> BySide<Vec<Interval>> {
+        let mut preload = influence.clone();
+        for (k, contact) in self.mechanism.contacts.iter().enumerate() {
+            if contact.preload_line == PreloadLine::Centre {
+                let centre = (influence.positive[k] + influence.negative[k]) * Interval::point(0.5);
+                (preload.positive[k], preload.negative[k]) = (centre, centre);
+            }
+        }
+        preload
     }
 
     /// The greatest sum of sizes of forces in an equation of motion, for given unknowns (N).
@@ -191,9 +210,11 @@ impl Coefficients<'_> {
 
     /// Whether `d_k^+` and `d_k^-` are the same number: one formula of the preload, and one line of its friction.
     fn has_shared_jump(&self, contact: usize) -> bool {
-        let Contact { joint, preload_line, .. } = self.mechanism.contacts[contact];
+        let joint = self.mechanism.contacts[contact].joint;
         let Some(slider) = self.mechanism.slider(joint) else { return false };
-        let one_line = preload_line == PreloadLine::Centre || !has_two_faces(slider);
+        // The couple of a guided slider takes up the moment of friction.
+        let one_line =
+            slider.kind == SliderKind::Guided || !self.mechanism.preload_changes_face(ContactId(contact));
         let JointKind::Slider(written) = &self.model.joints[joint.index()].kind else { return false };
         let at = slider.contacts.iter().position(|id| id.index() == contact);
         let formulas =

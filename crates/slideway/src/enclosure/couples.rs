@@ -2,10 +2,9 @@
 
 use super::EnclosedModeProblem;
 use crate::interval::Interval;
-use crate::modes::{ContactState, Side};
+use crate::modes::{BySide, ContactState, Side};
 
-/// Bounds of what the couple of a guided slider is made of: `C = C(0) + sum_k gamma_k F_k`. Friction has the same
-/// influence at both faces of its contact (the couple between them stays in its own joint).
+/// Bounds of what the couple of a guided slider is made of: `C = C(0) + sum_k gamma_k F_k`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnclosedCouple {
     /// The slider's only contact, from 0.
@@ -14,8 +13,11 @@ pub struct EnclosedCouple {
     pub half_length: Interval,
     /// `C(0)`, the couple without friction (N m).
     pub frictionless: Interval,
-    /// `gamma_k`, what a unit friction force of each contact adds (m).
-    pub influence: Vec<Interval>,
+    /// `gamma_k`, what a unit friction force of each contact adds (m), at either of its faces: the same but for the
+    /// slider's own contact.
+    pub influence: BySide<Vec<Interval>>,
+    /// The same for the friction of the preload.
+    pub influence_preload: BySide<Vec<Interval>>,
 }
 
 /// Whether some guided slider tips.
@@ -30,36 +32,22 @@ pub enum Tipping {
 }
 
 impl EnclosedModeProblem {
-    /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|` (theory, section 1); what stands for a
-    /// contact in its gap does not count.
+    /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|`, or of the share of a contact in its gap
+    /// (theory, section 1).
     ///
     /// # Panics
     /// If `pattern` and `y` do not have one entry for each contact.
     pub fn tipping(&self, pattern: &[ContactState], y: &[Interval]) -> Tipping {
-        let friction: Vec<Interval> =
-            pattern.iter().enumerate().map(|(k, state)| self.friction(k, *state, y[k])).collect();
-        let pressure = |k: usize| if pattern[k] == ContactState::Gap { Interval::ZERO } else { y[k] };
-        let worst = self.couples.iter().map(|couple| couple.tipping(&friction, pressure(couple.contact)));
+        let worst = self.couples.iter().map(|couple| self.tipping_of(couple, pattern, y));
         worst.max().unwrap_or(Tipping::Never)
     }
 
-    /// `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap something between the preloads of both faces.
-    fn friction(&self, contact: usize, state: ContactState, y: Interval) -> Interval {
-        let influence = &self.influence;
-        let preload = |side: Side| influence.preload.get(side).entry(contact, 0);
-        let size = match state.side() {
-            Some(side) => influence.mu.get(side).entry(contact, 0) * y + preload(side),
-            None => preload(Side::Positive).hull(preload(Side::Negative)),
-        };
-        size * Interval::point(influence.velocity_signs[contact])
-    }
-}
-
-impl EnclosedCouple {
-    fn tipping(&self, friction: &[Interval], y: Interval) -> Tipping {
-        let terms = self.influence.iter().zip(friction);
-        let couple = terms.fold(self.frictionless, |sum, (&gamma, &force)| sum + gamma * force);
-        let slack = self.half_length * y - couple.abs();
+    fn tipping_of(&self, couple: &EnclosedCouple, pattern: &[ContactState], y: &[Interval]) -> Tipping {
+        let terms = (0..pattern.len()).map(|k| self.couple_of_friction(couple, k, pattern[k], y[k]));
+        let size = terms.fold(couple.frictionless, |sum, term| sum + term).abs();
+        let k = couple.contact;
+        let pressure = if pattern[k] == ContactState::Gap { Interval::ZERO } else { y[k] };
+        let slack = couple.half_length * pressure - size;
         if slack.lower() >= 0.0 {
             Tipping::Never
         } else if slack.upper() < 0.0 {
@@ -67,5 +55,28 @@ impl EnclosedCouple {
         } else {
             Tipping::Open
         }
+    }
+
+    /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.
+    fn couple_of_friction(
+        &self,
+        couple: &EnclosedCouple,
+        k: usize,
+        state: ContactState,
+        y: Interval,
+    ) -> Interval {
+        let influence = &self.influence;
+        let preload =
+            |side: Side| couple.influence_preload.get(side)[k] * influence.preload.get(side).entry(k, 0);
+        let force = match state.side() {
+            Some(side) => {
+                couple.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side)
+            }
+            None => {
+                let [positive, negative] = Side::BOTH.map(preload);
+                negative + y * (positive - negative)
+            }
+        };
+        force * Interval::point(influence.velocity_signs[k])
     }
 }

@@ -27,7 +27,8 @@ pub(super) fn enclosed(
     let poses = positions(mechanism, computed, &coordinates).ok_or(NotEnclosed::Positions)?;
     let velocities = velocities(mechanism, &poses, &coordinates).ok_or(NotEnclosed::Velocities)?;
     let rates = mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect();
-    Ok(Configuration { poses, velocities, coordinates, rates, time: mechanism.time })
+    let (time, steps) = (mechanism.time, computed.steps);
+    Ok(Configuration { poses, velocities, coordinates, rates, time, steps })
 }
 
 /// A box of poses that holds exactly one solution of the joint equations with the wanted coordinates, for every value

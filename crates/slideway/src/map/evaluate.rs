@@ -4,7 +4,6 @@ use super::class::{ClassKey, class, reason};
 use super::{Axis, ColourBy};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{backwards, mechanism_with};
-use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::solve::{Parts, Stages, Trail};
 
@@ -95,27 +94,10 @@ impl Source {
             Self::Anew(model) => {
                 let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
                 let (mechanism, friction) = mechanism_with(model, &[x, y])?;
-                if !is_reached_from_neighbours(model, axes, &mechanism) {
-                    *trail = Trail::default();
-                }
                 Stages::along(trail, mechanism)?.parts(friction)
             }
         }
     }
-}
-
-/// Whether a position that neighbouring points lead to is the one to which the way from the drawing leads: where dimensions
-/// change, that way may be blocked while neighbours have passed the place, unless the mechanism is in its drawing.
-fn is_reached_from_neighbours(model: &Model, axes: &[Axis; 2], mechanism: &Mechanism) -> bool {
-    let keeps_dimensions = |Axis { varied, .. }: &Axis| {
-        let mut parameters = model.parameters.iter();
-        varied.is_coordinate()
-            || varied.is_friction_factor()
-            || parameters
-                .position(|other| *other.name == *varied.name)
-                .is_some_and(|index| model.changes_friction_alone(index))
-    };
-    mechanism.is_in_drawing() || axes.iter().all(keeps_dimensions)
 }
 
 /// The corners with their weights at a place of the unit square.

@@ -336,11 +336,6 @@ impl Mechanism {
         Self::with_parameters(model, &[])
     }
 
-    /// Whether all coordinates have the values of the drawing.
-    pub(crate) fn is_in_drawing(&self) -> bool {
-        self.coordinates.iter().all(|coordinate| coordinate.value == coordinate.drawn_at)
-    }
-
     /// [`Self::new`] with other values of some parameters, which are given by their numbers.
     ///
     /// # Errors
@@ -414,6 +409,20 @@ impl<T: Real> Mechanism<T> {
             JointKind::Slider(slider) => Some(slider),
             JointKind::Hinge(_) => None,
         }
+    }
+
+    /// Whether the friction of a contact's preload acts at another face when the contact changes its side.
+    pub fn preload_changes_face(&self, contact: ContactId) -> bool {
+        let Contact { joint, preload, preload_line, .. } = &self.contacts[contact.index()];
+        let has_two_faces = self.slider(*joint).is_some_and(|slider| slider.height != T::zero());
+        *preload_line == PreloadLine::Pressed && has_two_faces && *preload != [T::zero(); 2]
+    }
+
+    /// Whether the friction of a contact's preload is another one when the contact changes its side: another force, or
+    /// one at another face. Only then may the contact rest between its faces (theory, section 3: preload gap).
+    pub fn preload_jumps(&self, contact: ContactId) -> bool {
+        let [positive, negative] = &self.contacts[contact.index()].preload;
+        positive != negative || self.preload_changes_face(contact)
     }
 
     /// Name of a frame.

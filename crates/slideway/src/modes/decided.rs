@@ -128,7 +128,7 @@ fn decided_candidate(
     Candidate {
         unknowns: nalgebra::DVector::from_iterator(
             unknowns.len(),
-            unknowns.iter().map(|value| value.middle()),
+            unknowns.iter().map(|value| value.nonzero_middle()),
         ),
         zero: none.clone(),
         at_end: none,

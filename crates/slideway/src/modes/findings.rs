@@ -218,7 +218,8 @@ impl<'a> Findings<'a> {
         let key = SharedPattern { states: canonical(pattern, &free), free };
         let new = Found::new(pattern, candidate, certificate);
         match self.shared.get(&key) {
-            Some(&index) if self.found[index].agrees_with(&new) => {
+            // Contacts that are exactly zero drop out of the equations, and the others have the same.
+            Some(&index) if self.exact || self.found[index].agrees_with(&new) => {
                 self.found[index].absorb(new, self.limits.listed);
             }
             _ => {
@@ -314,22 +315,23 @@ impl<'a> Findings<'a> {
         }
         let gaps = new_gaps;
         let solutions: Vec<ModeSolution> = ordinary.into_iter().map(Found::into_mode_solution).collect();
-        let exact = self.exact;
-        for mode in &mut self.singular {
+        let mut singular = std::mem::take(&mut self.singular);
+        for mode in &mut singular {
             let vertices = mode.set.vertices();
-            let same = |one: &DVector<f64>, other: &DVector<f64>| {
-                if exact { one == other } else { same_point(one, other) }
+            let is_vertex = |solution: &ModeSolution| {
+                vertices.iter().any(|vertex| self.is_same_point(vertex, &solution.normal_force))
             };
-            let is_vertex =
-                |solution: &ModeSolution| vertices.iter().any(|vertex| same(vertex, &solution.normal_force));
             let contained = solutions.iter().enumerate().filter(|(_, solution)| is_vertex(solution));
             let contained = contained.map(|(index, _)| index).collect();
             mode.contains = contained;
         }
         let closest = if solutions.is_empty() { self.closest_modes() } else { Vec::new() };
-        let (counts, gap_counts, singular) = (self.counts, self.gap_counts, self.singular);
-        let undecided = self.undecided;
+        let (counts, gap_counts, undecided) = (self.counts, self.gap_counts, self.undecided);
         Solutions { counts, gap_counts, solutions, gaps, singular, undecided, closest }
+    }
+
+    fn is_same_point(&self, one: &DVector<f64>, other: &DVector<f64>) -> bool {
+        if self.exact { one == other } else { same_point(one, other) }
     }
 
     /// Merges boundary solutions with the solution of a neighbour that was not quite on the
@@ -382,8 +384,12 @@ impl<'a> Findings<'a> {
             return false;
         }
         let mut vertices = self.singular.iter().flat_map(|mode| mode.set.vertices());
-        ordinary.iter().chain(gaps).any(|other| gap.ends_at(other, &self.problem.has_jump))
-            || vertices.any(|vertex| same_point(vertex, &gap.normal_force))
+        // What is exactly at its end solves the equations at that face, which have one solution.
+        let ends_at = |other: &Found| {
+            gap.closes_to(other, &self.problem.has_jump) && (self.exact || gap.agrees_with(other))
+        };
+        ordinary.iter().chain(gaps).any(ends_at)
+            || vertices.any(|vertex| self.is_same_point(vertex, &gap.normal_force))
     }
 
     fn closest_modes(&self) -> Vec<ClosestMode> {

@@ -48,9 +48,9 @@ impl Found {
         }
     }
 
-    /// Whether another finding is the same state with some gaps closed, at the face where this
+    /// Whether the pattern of another finding is this one with some gaps closed, at the face where this
     /// state's shares end.
-    pub(super) fn ends_at(&self, other: &Self, has_jump: &[bool]) -> bool {
+    pub(super) fn closes_to(&self, other: &Self, has_jump: &[bool]) -> bool {
         let states = self.pattern().iter().zip(other.pattern()).enumerate();
         let mut closed = 0;
         for (contact, (&state, &face)) in states.filter(|(contact, _)| has_jump[*contact]) {
@@ -68,7 +68,7 @@ impl Found {
             }
             closed += 1;
         }
-        closed > 0 && self.agrees_with(other)
+        closed > 0
     }
 
     fn signs(&self) -> Vec<i8> {

@@ -4,8 +4,8 @@ use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
-/// Relative difference below which `d_k^+` and `d_k^-` count as the same vector.
-pub(super) const SAME_JUMP: f64 = 1e-12;
+use super::certificate::Radii;
+use crate::interval::two_sum_remainder;
 
 /// The side on which a contact is pressed: the sign `sigma` of its normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -168,6 +168,26 @@ pub struct ModeProblem {
     jumps: BySide<DMatrix<f64>>,
     right_hand_side: DVector<f64>,
     has_jump: Vec<bool>,
+    remainder: Option<Box<Remainder>>,
+}
+
+/// What rounding took from columns that are sums: the exact columns are `columns + remainder`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Remainder {
+    pub(super) columns: BySide<DMatrix<f64>>,
+    /// Its sizes, as the radii of a problem within bounds.
+    pub(super) radii: Radii,
+}
+
+impl Remainder {
+    /// None if nothing was lost.
+    fn new(columns: BySide<DMatrix<f64>>) -> Option<Box<Self>> {
+        let radii = Radii {
+            columns: BySide { positive: columns.positive.abs(), negative: columns.negative.abs() },
+            ..Radii::zero(columns.positive.nrows())
+        };
+        (!radii.are_zero()).then(|| Box::new(Self { columns, radii }))
+    }
 }
 
 impl ModeProblem {
@@ -204,8 +224,10 @@ impl ModeProblem {
             check_matrix(ProblemPart::Columns(side), columns.get(side), contacts)?;
             check_matrix(ProblemPart::Jumps(side), jumps.get(side), contacts)?;
         }
-        let has_jump = (0..contacts).map(|contact| jumps_differ(&jumps, contact)).collect();
-        Ok(Self { columns, jumps, right_hand_side, has_jump })
+        let has_jump = (0..contacts)
+            .map(|contact| jumps.positive.column(contact) != jumps.negative.column(contact))
+            .collect();
+        Ok(Self { columns, jumps, right_hand_side, has_jump, remainder: None })
     }
 
     /// The problem of contacts with dry friction, from their influence coefficients:
@@ -297,7 +319,15 @@ impl ModeProblem {
         check_matrix(ProblemPart::Columns(Side::Positive), a, contacts)?;
         check_matrix(ProblemPart::Columns(Side::Negative), b, contacts)?;
         let none = DMatrix::zeros(contacts, contacts);
-        Self::new(a + b, b - a, none.clone(), none, right_hand_side)
+        let mut problem = Self::new(a + b, b - a, none.clone(), none, right_hand_side)?;
+        let lost = |one: &DMatrix<f64>, other: &DMatrix<f64>, sum: &DMatrix<f64>| {
+            one.zip_zip_map(other, sum, two_sum_remainder)
+        };
+        problem.remainder = Remainder::new(BySide {
+            positive: lost(a, b, &problem.columns.positive),
+            negative: lost(b, &-a, &problem.columns.negative),
+        });
+        Ok(problem)
     }
 
     /// The problem that lists all solutions of the linear complementarity problem
@@ -360,9 +390,56 @@ impl ModeProblem {
         self.right_hand_side.len()
     }
 
-    /// The columns `c_k` of one side (r x r).
+    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`.
+    pub(super) fn restricted(
+        &self,
+        contacts: &[usize],
+        right_hand_side: &DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let size = contacts.len();
+        let of = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
+        };
+        let by_side = |part: &BySide<DMatrix<f64>>| BySide {
+            positive: of(&part.positive),
+            negative: of(&part.negative),
+        };
+        let (columns, jumps) = (by_side(&self.columns), by_side(&self.jumps));
+        let right = DVector::from_fn(size, |row, _| right_hand_side[contacts[row]]);
+        let problem = Self::new(columns.positive, columns.negative, jumps.positive, jumps.negative, right)?;
+        let remainder = self.remainder.as_ref();
+        Ok(Self { remainder: remainder.and_then(|lost| Remainder::new(by_side(&lost.columns))), ..problem })
+    }
+
+    /// The columns `c_k` of one side (r x r); where they are sums of two matrices, rounded: see
+    /// [`Self::remainder`].
     pub fn columns(&self, side: Side) -> &DMatrix<f64> {
         self.columns.get(side)
+    }
+
+    /// What rounding took from [`Self::columns`] (r x r), exactly; none if that is nothing. The problem is the
+    /// one with the columns `columns + remainder`.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway::modes::{ModeProblem, Side};
+    /// let problem = ModeProblem::from_absolute_value_equation(&dmatrix![1.0], &dmatrix![1e-20], dvector![1.0])?;
+    /// assert_eq!(problem.columns(Side::Positive)[0], 1.0);
+    /// assert_eq!(problem.remainder(Side::Positive).map(|lost| lost[0]), Some(1e-20));
+    /// # Ok::<(), slideway::modes::ModeProblemError>(())
+    /// ```
+    pub fn remainder(&self, side: Side) -> Option<&DMatrix<f64>> {
+        self.remainder.as_ref().map(|lost| lost.columns.get(side))
+    }
+
+    /// The sizes of the remainder as radii of the rounded columns; none if nothing was rounded.
+    pub(super) fn remainder_radii(&self) -> Option<&Radii> {
+        self.remainder.as_ref().map(|lost| &lost.radii)
+    }
+
+    /// The problem with the rounded columns.
+    pub(super) fn rounded(&self) -> Self {
+        Self { remainder: None, ..self.clone() }
     }
 
     /// The jump vectors `d_k` of one side (r x r).
@@ -375,19 +452,18 @@ impl ModeProblem {
         &self.right_hand_side
     }
 
-    /// Whether the right-hand side jumps where this contact changes its side: `d_k^+ != d_k^-`,
-    /// by more than rounding.
+    /// Whether the right-hand side jumps where this contact changes its side: `d_k^+ != d_k^-`, exactly.
     ///
     /// # Panics
     /// If there is no such contact.
     pub fn has_jump(&self, contact: usize) -> bool {
         self.has_jump[contact]
     }
-}
 
-fn jumps_differ(jumps: &BySide<DMatrix<f64>>, contact: usize) -> bool {
-    let (positive, negative) = (jumps.positive.column(contact), jumps.negative.column(contact));
-    (positive - negative).amax() > SAME_JUMP * positive.amax().max(negative.amax())
+    /// [`has_jump`](Self::has_jump) of every contact.
+    pub(crate) fn jumps_of_contacts(&self) -> Vec<bool> {
+        self.has_jump.clone()
+    }
 }
 
 fn check_matrix(part: ProblemPart, matrix: &DMatrix<f64>, contacts: usize) -> Result<(), ModeProblemError> {

@@ -4,7 +4,7 @@
 //! boundary, where elimination alone decides every pattern. This tree allocates nothing, and gives up the whole problem as
 //! soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a problem needs the careful search.
 
-use super::problem::{SAME_JUMP, Side};
+use super::problem::Side;
 use super::solutions::ContactState;
 
 /// Largest number of contacts.
@@ -61,12 +61,8 @@ impl SmallProblem {
     }
 
     fn has_jump(&self, contact: usize) -> bool {
-        let [positive, negative] = &self.jumps;
-        let pairs = positive[contact].iter().zip(&negative[contact]).take(self.contacts);
-        let (difference, size) = pairs.fold((0.0_f64, 0.0_f64), |(difference, size), (one, other)| {
-            (difference.max((one - other).abs()), size.max(one.abs()).max(other.abs()))
-        });
-        difference > SAME_JUMP * size
+        let [positive, negative] = [0, 1].map(|side| &self.jumps[side][contact][..self.contacts]);
+        positive != negative
     }
 
     /// Matrix (columns) and right-hand side of a pattern.

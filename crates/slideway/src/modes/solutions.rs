@@ -91,6 +91,16 @@ impl Certificate {
 }
 
 impl Certificate {
+    /// Replaces the bounds of the unknown of a contact, where there are bounds.
+    pub(crate) fn set_bounds(&mut self, contact: usize, bounds: Interval) {
+        if let Self::Proven { unknowns }
+        | Self::Boundary { unknowns, .. }
+        | Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), .. } = self
+        {
+            unknowns[contact] = bounds;
+        }
+    }
+
     /// Whether `D = 0` could not be ruled out for all values within bounds.
     pub fn has_open_determinant(&self) -> bool {
         matches!(self, Self::OnBoundaryWithinBounds { unknowns: None, .. })
@@ -130,7 +140,8 @@ pub struct ModeSolution {
     pub pattern: Vec<Side>,
     /// Sign of every normal force, 0 for a contact on the boundary.
     pub signs: Vec<i8>,
-    /// `y_k = |N_k|`, exactly 0 on the boundary.
+    /// `y_k = |N_k|`, exactly 0 on the boundary. Of an exact problem it is infinite where `y_k` is too large for
+    /// `f64`, and no less than the least positive number where it is too small.
     pub y: DVector<f64>,
     /// Signed normal forces `N_k = sigma_k y_k`.
     pub normal_force: DVector<f64>,

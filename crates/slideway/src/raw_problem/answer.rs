@@ -2,14 +2,17 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-use super::report::{GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, Unknowns};
-use super::rounding::Proved;
+use super::range::in_range;
+use super::report::{RawContinuum, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, Unknowns};
+use super::residual::Equations;
+use super::values::Values;
 use super::{RawKind, RawProblem};
+use crate::modes::certificate::{Decision, Interval, decide};
 use crate::modes::{
     BigCount, CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem,
-    ModeProblemError, Progress, SearchOptions, SearchResult, Side, SolutionProduct, StopReason, search,
+    ModeProblemError, Progress, SearchOptions, SearchResult, SolutionProduct, StopReason, search,
 };
 use crate::report::Status;
 
@@ -30,7 +33,7 @@ const SAME: f64 = 1e-9;
 /// counts are those of all. `progress` is called at every node and ends the search when it breaks.
 ///
 /// # Errors
-/// [`ModeProblemError::NotFinite`] if numbers overflow.
+/// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
 pub fn solve(
     raw: &RawProblem,
     options: &SearchOptions,
@@ -39,9 +42,8 @@ pub fn solve(
 ) -> Result<RawReport, ModeProblemError> {
     let problem = raw.mode_problem()?;
     let result = search(&problem, options, progress)?;
-    let proved = Proved::of(raw, &problem);
     let counts = Counts::of(&result.product);
-    let open = open(&result, &proved, &counts);
+    let open = open(&result);
     let mut report = RawReport {
         schema: SCHEMA,
         kind: raw.kind(),
@@ -61,7 +63,7 @@ pub fn solve(
         nodes: result.nodes(),
         groups: result.groups.iter().map(group).collect(),
     };
-    let teller = Teller { raw, problem: &problem, proved: &proved };
+    let teller = Teller { raw, problem: &problem, equations: Equations::of(raw) };
     teller.list(&result.product, &counts, listed, &mut report);
     Ok(report)
 }
@@ -127,20 +129,19 @@ fn status(result: &SearchResult, counts: &Counts) -> Status {
     match counts.points.to_u64() {
         Some(1) => Status::One,
         Some(0) if !counts.gaps.is_zero() => Status::PreloadGap,
-        Some(0) if is_partial(result.completeness) => Status::Unknown,
-        Some(0) => Status::None,
+        Some(0) if result.completeness == Completeness::Proven => Status::None,
+        Some(0) => Status::Unknown,
         _ => Status::Several,
     }
 }
 
 /// What keeps the list from being proven complete.
-fn open(result: &SearchResult, proved: &Proved, counts: &Counts) -> Vec<String> {
-    let mut open = Vec::new();
+fn open(result: &SearchResult) -> Vec<String> {
     match result.completeness {
-        Completeness::Proven => {}
-        Completeness::NotProven => open.push(not_proven(&result.groups)),
+        Completeness::Proven => Vec::new(),
+        Completeness::NotProven => vec![not_proven(&result.groups)],
         Completeness::Unexamined => {
-            open.push("singular patterns were not examined, because there are too many of them".to_owned());
+            vec!["singular patterns were not examined, because there are too many of them".to_owned()]
         }
         Completeness::Partial(reason) => {
             let groups = result.groups.iter().filter(|group| group.shares.unexplored > 0.0).count();
@@ -148,21 +149,9 @@ fn open(result: &SearchResult, proved: &Proved, counts: &Counts) -> Vec<String> 
                 StopReason::Cancelled => "the search was ended by a time limit or on request".to_owned(),
                 limit => limit.to_string(),
             };
-            open.push(format!("{reason}; {}", unexplored(groups)));
+            vec![format!("{reason}; {}", unexplored(groups))]
         }
     }
-    // A list that is not complete stays so whatever the rounding.
-    let rounded = match proved {
-        Proved::Exact => None,
-        Proved::Within { rounded, .. } => Some(format!("rounded in {rounded} of their entries")),
-        Proved::Nothing => Some("rounded".to_owned()),
-    };
-    if let Some(rounded) = rounded.filter(|_| !proven_within(result, proved, counts)) {
-        open.push(format!(
-            "A + B and A - B are {rounded}: what is proven holds for the problem with the rounded numbers"
-        ));
-    }
-    open
 }
 
 fn unexplored(groups: usize) -> String {
@@ -183,17 +172,6 @@ fn not_proven(groups: &[GroupReport]) -> String {
             format!("the search was complete, but the outcomes of {patterns} patterns are not proven")
         }
     }
-}
-
-/// Whether it is proven for the numbers before rounding, too, that the list is complete.
-fn proven_within(result: &SearchResult, proved: &Proved, counts: &Counts) -> bool {
-    let Some(points) = counts.points.to_u64().filter(|_| counts.continua.is_zero()) else { return false };
-    let only = || {
-        let mut states = result.product.states();
-        points == 1
-            && states.next().is_some_and(|state| proved.only_solution(&state.pattern(result.contacts)))
-    };
-    proved.number_of_solutions() == Some(points) || only()
 }
 
 fn group(report: &GroupReport) -> RawGroup {
@@ -219,7 +197,7 @@ fn group(report: &GroupReport) -> RawGroup {
 struct Teller<'a> {
     raw: &'a RawProblem,
     problem: &'a ModeProblem,
-    proved: &'a Proved,
+    equations: Equations<'a>,
 }
 
 impl Teller<'_> {
@@ -261,69 +239,29 @@ impl Teller<'_> {
     fn point(&self, state: &CombinedState<'_>, number: usize) -> RawSolution {
         let size = self.problem.contacts();
         let pattern = state.pattern(size);
-        let signed = state.normal_force(size).unwrap_or_else(|| DVector::zeros(size));
+        let mut values = Values::new(state, size);
+        let signs: Vec<i8> = values.signed.iter().map(|value| sign(*value)).collect();
         let in_gap = |at: usize| pattern[at] == ContactState::Gap;
-        let gaps = gap_shares(state);
-        let signs: Vec<i8> = signed.iter().map(|value| sign(*value)).collect();
         let on_boundary = signs.iter().enumerate().any(|(at, &sign)| sign == 0 && !in_gap(at));
+        let beyond_range = values.settle(self.kind(), self.problem, &pattern);
         let singular = state.parts.iter().any(|(_, part)| matches!(part, GroupState::Singular(_)));
         let work = (number as f64 + 1.0) * (size as f64).powi(3);
+        let exactly = on_boundary || !beyond_range.is_empty();
         let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
-            && (!on_boundary || size <= EXACT_UNKNOWNS);
-        let enclosure_radius = (affordable && !singular && gaps.is_empty())
-            .then(|| self.proved.radius(self.problem, &pattern, signed.as_slice()))
+            && (!exactly || size <= EXACT_UNKNOWNS);
+        let enclosure_radius = (affordable && !singular && values.gaps.is_empty())
+            .then(|| radius(self.problem, &pattern, &values.signed))
             .flatten();
         RawSolution {
-            unknowns: Unknowns::new(self.kind(), signed.as_slice()),
+            unknowns: Unknowns::new(self.kind(), &values.signed),
             signs,
             on_boundary,
             enclosure_radius,
-            residual: self.residual(&signed, &pattern, &gaps),
-            gaps,
+            residual: values.residual(&self.equations, &pattern),
+            beyond_range,
+            gaps: values.gaps,
             end_of_continuum: None,
         }
-    }
-
-    /// What is left over in the equations as they were given, without use of the mode problem's
-    /// columns for those that are not one.
-    fn residual(&self, signed: &DVector<f64>, pattern: &[ContactState], gaps: &[GapShare]) -> f64 {
-        let (positive, negative) = (signed.map(|v| v.max(0.0)), signed.map(|v| (-v).max(0.0)));
-        let terms: Vec<(&DMatrix<f64>, DVector<f64>)>;
-        let load;
-        match self.raw {
-            // M z - w + q = 0
-            RawProblem::LinearComplementarity { m, q } => {
-                let size = m.abs() * &positive + &negative + q.abs();
-                return relative(&(m * &positive - &negative + q), &size);
-            }
-            // A x + B |x| - b = 0
-            RawProblem::AbsoluteValue { a, b, right_hand_side } => {
-                terms = vec![(a, signed.clone()), (b, signed.abs())];
-                load = right_hand_side.clone();
-            }
-            // A w - B z - q = 0
-            RawProblem::HorizontalComplementarity { a, b, q } => {
-                terms = vec![(a, negative), (b, -positive)];
-                load = q.clone();
-            }
-            // sum c_k y_k - N(0) - sum d_k = 0
-            RawProblem::Modes(problem) => {
-                terms = Side::BOTH
-                    .map(|side| {
-                        let y = if side == Side::Positive { positive.clone() } else { negative.clone() };
-                        (problem.columns(side), y)
-                    })
-                    .to_vec();
-                load = with_jumps(problem, pattern, gaps);
-            }
-        }
-        let mut sum = -&load;
-        let mut size = load.abs();
-        for (matrix, values) in &terms {
-            sum += *matrix * values;
-            size += matrix.abs() * values.abs();
-        }
-        relative(&sum, &size)
     }
 
     fn continuum(&self, state: &CombinedState<'_>) -> RawContinuum {
@@ -397,41 +335,21 @@ fn sort(state: &CombinedState<'_>) -> Sort {
     state.parts.iter().map(|(_, part)| Sort::of(part)).max().unwrap_or(Sort::Point)
 }
 
-fn gap_shares(state: &CombinedState<'_>) -> Vec<GapShare> {
-    let mut shares = Vec::new();
-    for (indices, part) in &state.parts {
-        if let GroupState::Gap(gap) = part {
-            let share = |share: &crate::modes::GapShare| GapShare {
-                index: indices[share.contact],
-                lambda: share.lambda,
-            };
-            shares.extend(gap.shares.iter().map(share));
-        }
-    }
-    shares.sort_by_key(|share| share.index);
-    shares
-}
-
-/// `N(0) + sum_k d_k`, in a gap `lambda d_k^+ + (1 - lambda) d_k^-`.
-fn with_jumps(problem: &ModeProblem, pattern: &[ContactState], gaps: &[GapShare]) -> DVector<f64> {
-    let mut load = problem.right_hand_side().clone();
-    for (at, state) in pattern.iter().enumerate() {
-        let gap = gaps.iter().find(|gap| gap.index == at);
-        let positive = match state {
-            ContactState::Positive => 1.0,
-            ContactState::Negative => 0.0,
-            ContactState::Gap => gap.map_or(0.5, |gap| gap.lambda),
-        };
-        load.axpy(positive, &problem.jumps(Side::Positive).column(at), 1.0);
-        load.axpy(1.0 - positive, &problem.jumps(Side::Negative).column(at), 1.0);
-    }
-    load
-}
-
-/// The largest entry of `sum` against the largest entry of `size`.
-fn relative(sum: &DVector<f64>, size: &DVector<f64>) -> f64 {
-    let scale = size.amax();
-    if scale > 0.0 && scale.is_finite() { sum.amax() / scale } else { 0.0 }
+/// How far values of a pattern may be from those of its exact solution; none if that is not known. Values that have
+/// no floating-point number are left out.
+fn radius(problem: &ModeProblem, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
+    let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
+        decide(problem, pattern).decision
+    else {
+        return None;
+    };
+    let distance = |(bounds, value): (&Interval, &f64)| {
+        let largest = (bounds.upper() - value.abs()).max(value.abs() - bounds.lower());
+        if largest > 0.0 { largest.next_up() } else { 0.0 }
+    };
+    let known = unknowns.iter().zip(values).filter(|(_, value)| in_range(**value));
+    let radius = known.map(distance).fold(0.0, f64::max);
+    radius.is_finite().then_some(radius)
 }
 
 /// Whether two solutions are the same but for rounding.

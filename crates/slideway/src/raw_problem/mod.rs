@@ -27,7 +27,8 @@
 //!
 //! # Numbers
 //! Every number is a 64-bit floating-point number; decimal fractions and large integers are rounded
-//! to the nearest one. Proofs refer to these numbers, taken as exact.
+//! to the nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
+//! unknown whose value is beyond the range of such numbers has none, and is told as text: [`BeyondRange`].
 
 mod answer;
 mod assemble;
@@ -36,16 +37,20 @@ mod json;
 mod kind;
 mod npy;
 mod npz;
+mod range;
 mod report;
-mod rounding;
+mod residual;
 mod shape;
 mod tables;
 mod text;
+mod values;
 
 pub use answer::solve;
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
-pub use report::{GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns, to_json};
+pub use report::{
+    BeyondRange, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns, to_json,
+};
 pub use shape::Shape;
 pub use tables::to_npz;
 pub use text::to_text;

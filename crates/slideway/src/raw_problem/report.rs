@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::kind::RawKind;
+use super::range::in_range;
 use crate::report::Status;
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
@@ -47,7 +48,8 @@ pub struct RawReport {
     pub groups: Vec<RawGroup>,
 }
 
-/// The unknowns by the names that the problem's type has for them.
+/// The unknowns by the names that the problem's type has for them. NaN (in JSON `null`) is no value: see
+/// [`BeyondRange`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Unknowns {
@@ -76,17 +78,26 @@ impl Unknowns {
     /// The unknowns that have these signed values `N`, which are `z - w`, or `x`.
     pub(super) fn new(kind: RawKind, signed: &[f64]) -> Self {
         // Without the sign of a zero.
-        let positive = |value: &f64| if *value > 0.0 { *value } else { 0.0 };
+        let number = |value: f64| if in_range(value) { value + 0.0 } else { f64::NAN };
+        let all = |of: fn(f64) -> f64| signed.iter().map(|&value| number(of(value))).collect();
         match kind {
-            RawKind::Lcp | RawKind::Hlcp => Self::Complementary {
-                z: signed.iter().map(positive).collect(),
-                w: signed.iter().map(|value| positive(&-value)).collect(),
-            },
-            RawKind::Ave => Self::AbsoluteValue { x: signed.iter().map(|value| value + 0.0).collect() },
-            RawKind::Modes => Self::Modes {
-                normal_forces: signed.iter().map(|value| value + 0.0).collect(),
-                y: signed.iter().map(|value| value.abs()).collect(),
-            },
+            RawKind::Lcp | RawKind::Hlcp => {
+                Self::Complementary { z: all(|value| value.max(0.0)), w: all(|value| (-value).max(0.0)) }
+            }
+            RawKind::Ave => Self::AbsoluteValue { x: all(|value| value) },
+            RawKind::Modes => Self::Modes { normal_forces: all(|value| value), y: all(f64::abs) },
+        }
+    }
+
+    /// The names of the unknown that a signed value other than zero belongs to, with its sign under that name.
+    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(&'static str, f64)] {
+        match kind {
+            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[("z", 1.0)],
+            RawKind::Lcp | RawKind::Hlcp => &[("w", 1.0)],
+            RawKind::Ave if signed > 0.0 => &[("x", 1.0)],
+            RawKind::Ave => &[("x", -1.0)],
+            RawKind::Modes if signed > 0.0 => &[("normal_forces", 1.0), ("y", 1.0)],
+            RawKind::Modes => &[("normal_forces", -1.0), ("y", 1.0)],
         }
     }
 
@@ -110,13 +121,17 @@ pub struct RawSolution {
     pub signs: Vec<i8>,
     /// Whether some sign is 0 outside of a gap: the solution is on the boundary between patterns.
     pub on_boundary: bool,
-    /// No unknown is farther than this from the exact solution of the numbers given; absent if that
-    /// was not established.
+    /// No unknown that has a number is farther than this from the exact solution of the numbers given; absent
+    /// if that was not established.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enclosure_radius: Option<f64>,
     /// What is left over in the problem's equations, relative to the largest sum of sizes of terms
-    /// in an equation.
-    pub residual: f64,
+    /// in an equation; absent where an unknown has no value at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual: Option<f64>,
+    /// Unknowns that exist and have no floating-point number: theirs is `null`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beyond_range: Vec<BeyondRange>,
     /// The continuum of the list `continua`, from 0, of which this is a vertex; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_of_continuum: Option<usize>,
@@ -125,17 +140,30 @@ pub struct RawSolution {
     pub gaps: Vec<GapShare>,
 }
 
+/// An unknown that is not zero and beyond the range of floating-point numbers of full precision: larger than
+/// 1.8e308, or smaller than 2.2e-308 in size.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct BeyondRange {
+    /// The name of the unknown: "z", "w", "x", "normal_forces", "y" or "lambda".
+    pub name: &'static str,
+    /// Which unknown, from 0.
+    pub index: usize,
+    /// The exact value rounded to 17 digits ("1.5e310"); in words where it was not computed.
+    pub value: String,
+}
+
 /// An unknown in its preload gap.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct GapShare {
     /// Which unknown, from 0.
     pub index: usize,
-    /// The share lambda of `jumps_positive`, from 0 to 1.
+    /// The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if that is beyond the range.
     pub lambda: f64,
 }
 
 /// Infinitely many solutions: all convex combinations of the vertices plus all non-negative multiples
-/// of the directions.
+/// of the directions. NaN (in JSON `null`) is a value that is not zero and beyond the range of floating-point numbers,
+/// as of a [`BeyondRange`]; its sign is that of the pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RawContinuum {
     /// "+", "-" or "0" (in the gap) for every unknown.

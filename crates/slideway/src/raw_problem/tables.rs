@@ -1,15 +1,17 @@
 //! The report as a NumPy archive.
 
-use super::report::{RawReport, RawSolution, Unknowns};
+use super::report::{BeyondRange, RawReport, RawSolution, Unknowns};
 use super::{npy, npz};
 
 /// The report as a NumPy archive (`.npz`).
 ///
 /// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and
-/// `y`; likewise `signs`, `on_boundary`, `residual` and `enclosure_radius` (NaN where it was not
+/// `y`; likewise `signs`, `on_boundary`, `residual` and `enclosure_radius` (NaN where they were not
 /// established). States in preload gaps are in arrays with the prefix `gap_`, `gap_shares` being NaN
 /// outside of a gap. The rows of `vertex_...` and `direction_...` belong to the continua whose numbers
-/// are in `vertex_continuum` and `direction_continuum`. `status`, `complete`, `partial`, `open`, `type`,
+/// are in `vertex_continuum` and `direction_continuum`. Unknowns beyond the range of floating-point numbers are NaN;
+/// if there are some, `beyond_range_row` (of the solution), `beyond_range_index`, `beyond_range_name` and
+/// `beyond_range_value` tell of them one by one, of gap states likewise with the prefix. `status`, `complete`, `partial`, `open`, `type`,
 /// `count`, `gap_state_count`, `continuum_count` and `schema` are those of [`RawReport`].
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let mut archive = Archive { size: report.size, arrays: Vec::new() };
@@ -74,9 +76,31 @@ impl Archive {
             npy::write_numbers(&[solutions.len()], &solutions.iter().map(value).collect::<Vec<_>>())
         };
         let radius = column(|solution| solution.enclosure_radius.unwrap_or(f64::NAN));
-        let residual = column(|solution| solution.residual);
+        let residual = column(|solution| solution.residual.unwrap_or(f64::NAN));
         self.push("enclosure_radius", radius);
         self.push("residual", residual);
+        self.beyond_range("", solutions);
+    }
+
+    /// One entry for each unknown that has no floating-point number.
+    fn beyond_range(&mut self, prefix: &str, solutions: &[RawSolution]) {
+        let rows = (0_i64..).zip(solutions);
+        let all: Vec<(i64, &BeyondRange)> = rows
+            .flat_map(|(row, solution)| solution.beyond_range.iter().map(move |one| (row, one)))
+            .collect();
+        if all.is_empty() {
+            return;
+        }
+        let rows: Vec<i64> = all.iter().map(|(row, _)| *row).collect();
+        let index: Vec<i64> =
+            all.iter().map(|(_, one)| i64::try_from(one.index).unwrap_or(i64::MAX)).collect();
+        let names: Vec<&str> = all.iter().map(|(_, one)| one.name).collect();
+        let values: Vec<&str> = all.iter().map(|(_, one)| one.value.as_str()).collect();
+        let size = [all.len()];
+        self.push(&format!("{prefix}beyond_range_row"), npy::write_integers(&size, &rows));
+        self.push(&format!("{prefix}beyond_range_index"), npy::write_integers(&size, &index));
+        self.push(&format!("{prefix}beyond_range_name"), npy::write_texts(&size, &names));
+        self.push(&format!("{prefix}beyond_range_value"), npy::write_texts(&size, &values));
     }
 
     fn signs(&self, solutions: &[RawSolution]) -> Vec<u8> {
@@ -104,6 +128,7 @@ impl Archive {
             }
         }
         self.push("gap_shares", npy::write_numbers(&[states.len(), self.size], &shares));
+        self.beyond_range("gap_", states);
     }
 
     fn continua(&mut self, report: &RawReport) {

@@ -1,8 +1,8 @@
 //! The report of a raw problem as text for people.
 
 use super::RawKind;
-use super::report::{RawReport, RawShares, RawSolution, Unknowns};
-use crate::report::number::{against, number};
+use super::report::{BeyondRange, RawReport, RawShares, RawSolution, Unknowns};
+use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
 use crate::report::{Status, Style, count};
@@ -45,9 +45,10 @@ impl Text<'_> {
         let single = format!("{single}{found}");
         let verdict = match report.status {
             Status::None => "No solution.".to_owned(),
-            Status::Unknown => {
+            Status::Unknown if report.partial => {
                 "Nothing found, but not every pattern of signs could be dealt with.".to_owned()
             }
+            Status::Unknown => "Nothing found, but that is not proven.".to_owned(),
             Status::Continuum => {
                 let continua = match report.continuum_count.as_str() {
                     "1" => "one continuum".to_owned(),
@@ -55,7 +56,10 @@ impl Text<'_> {
                 };
                 format!("Infinitely many solutions: {continua}{found}.")
             }
-            Status::PreloadGap => "No solution, but a state with an unknown in its preload gap.".to_owned(),
+            Status::PreloadGap => {
+                let none = if report.open.is_empty() { "No solution" } else { "No solution found" };
+                format!("{none}, but a state with an unknown in its preload gap.")
+            }
             Status::One | Status::Several => format!("{single}."),
         };
         self.line(&self.style.verdict(report.status, &verdict));
@@ -78,17 +82,20 @@ impl Text<'_> {
             if let Some(continuum) = solution.end_of_continuum {
                 self.line(&format!("  An end of continuum {}", continuum + 1));
             }
-            let rows = rows(self.report.kind, &[&solution.unknowns]);
-            self.out.push_str(&rows);
+            self.out.push_str(&rows(self.report.kind, solution));
             for gap in &solution.gaps {
-                self.line(&format!("  N_{} is in its gap, share {}", gap.index + 1, number(gap.lambda)));
+                let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
+                self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
+            }
+            if !solution.beyond_range.is_empty() {
+                self.line("  Values that have an exponent beyond -308 or 308 have no floating-point number: 17 digits are shown");
             }
             if let Some(radius) = solution.enclosure_radius {
                 let bound = power_of_ten_above(radius);
-                self.line(&if radius == 0.0 {
-                    "  exact".to_owned()
-                } else {
-                    format!("  proven to within {bound}")
+                self.line(&match radius {
+                    0.0 if solution.beyond_range.is_empty() => "  exact".to_owned(),
+                    0.0 => "  all others: exact".to_owned(),
+                    _ => format!("  proven to within {bound}"),
                 });
             }
         }
@@ -145,7 +152,7 @@ impl Text<'_> {
                     }
                 };
                 let labels: Vec<String> = (0..chunk.len()).map(label).collect();
-                self.out.push_str(&labelled_rows(report.kind, chunk, &labels));
+                self.out.push_str(&labelled_rows(report.kind, chunk, &labels, &[]));
             }
             if !continuum.all_vertices {
                 self.line("  There are more ends.");
@@ -182,24 +189,39 @@ fn signs(solution: &RawSolution) -> String {
     format!("signs{}", signs.collect::<String>())
 }
 
-fn rows(kind: RawKind, columns: &[&Unknowns]) -> String {
-    labelled_rows(kind, columns, &[String::new()])
+fn rows(kind: RawKind, solution: &RawSolution) -> String {
+    labelled_rows(kind, &[&solution.unknowns], &[String::new()], &solution.beyond_range)
+}
+
+/// A value as text; of an unknown, by name and number, that has none as it is told beside.
+fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
+    let is_it = |one: &&BeyondRange| one.name == name && one.index == index;
+    match beyond_range.iter().find(is_it) {
+        Some(one) => one.value.clone(),
+        None if value.is_nan() => "beyond the range of numbers".to_owned(),
+        None => number(value),
+    }
 }
 
 /// One row for each index, with the unknowns of each column.
-fn labelled_rows(kind: RawKind, columns: &[&Unknowns], labels: &[String]) -> String {
+fn labelled_rows(
+    kind: RawKind,
+    columns: &[&Unknowns],
+    labels: &[String],
+    beyond_range: &[BeyondRange],
+) -> String {
     let named: Vec<_> = columns.iter().map(|unknowns| shown(kind, unknowns)).collect();
     let mut header = vec!["k".to_owned()];
     for (column, label) in named.iter().zip(labels) {
-        header.extend(column.iter().map(|(name, _)| format!("{name} {label}").trim_end().to_owned()));
+        header.extend(
+            column.iter().map(|(name, _)| format!("{} {label}", shown_as(name)).trim_end().to_owned()),
+        );
     }
-    let scale = |values: &[f64]| values.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
     let size = named.first().map_or(0, |column| column[0].1.len());
     let row = |at: usize| {
         let mut row = vec![(at + 1).to_string()];
         for column in &named {
-            let scale = column.iter().map(|(_, values)| scale(values)).fold(0.0, f64::max);
-            row.extend(column.iter().map(|(_, values)| against(values[at], scale)));
+            row.extend(column.iter().map(|(name, values)| value(values[at], (name, at), beyond_range)));
         }
         row
     };
@@ -210,7 +232,11 @@ fn labelled_rows(kind: RawKind, columns: &[&Unknowns], labels: &[String]) -> Str
 /// What a person wants to see: of a mode problem the normal forces alone, whose sizes are the `y`.
 fn shown(kind: RawKind, unknowns: &Unknowns) -> Vec<(&'static str, &[f64])> {
     let named = unknowns.named();
-    if kind == RawKind::Modes { vec![("N", named[0].1)] } else { named }
+    if kind == RawKind::Modes { named[..1].to_vec() } else { named }
+}
+
+fn shown_as(name: &str) -> &str {
+    if name == "normal_forces" { "N" } else { name }
 }
 
 /// "75 % excluded by interval propagation, 25 % solved one by one"

@@ -36,7 +36,8 @@ pub enum Status {
     Several,
     /// Infinitely many: a mode with a vanishing determinant admits a continuum.
     Continuum,
-    /// No sign pattern gives a solution, but a state with the preload between the faces does.
+    /// No solution in a sign pattern was found, but a state with the preload between the faces; what may be open besides is
+    /// told by `partial` and `undecided_modes`.
     PreloadGap,
     /// Nothing was found, but not every pattern could be decided.
     Unknown,
@@ -69,6 +70,10 @@ pub struct Report {
     pub state: Vec<CoordinateState>,
     /// Time of the state (s).
     pub time: f64,
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
+    /// if they are those of the drawing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_from_drawing: Option<usize>,
     /// The outcome of all sign patterns; absent if there are so many that not each was tried by itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub patterns: Option<PatternSummary>,
@@ -88,7 +93,8 @@ pub struct Report {
     pub closest_modes: Vec<ClosestMode>,
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
-    /// By which factors all friction may grow; absent if that was not computed, because there are too many modes.
+    /// By which factors all friction may grow; absent if that was not computed: there are too many modes, or a guided
+    /// slider is between its faces, which is no mode that could be followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins: Option<Margins>,
     /// What parameters known within bounds leave certain; absent if there are none. Everything else in the report

@@ -94,6 +94,12 @@ impl Text<'_> {
         if self.report.time != 0.0 {
             self.line(&format!("t = {} s", number(self.report.time)));
         }
+        if let Some(steps) = self.report.steps_from_drawing {
+            let steps = count(steps, "step", "steps");
+            self.line(&format!(
+                "followed from the drawing in {steps}, proven to stay on its assembly branch"
+            ));
+        }
         self.line("");
     }
 
@@ -113,6 +119,10 @@ impl Text<'_> {
             }
             Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
+            Status::PreloadGap if report.partial || !report.undecided_modes.is_empty() => {
+                "A state with the preload between the faces; whether a contact mode has a solution is open."
+                    .to_owned()
+            }
             Status::PreloadGap => {
                 "No contact mode has a solution, but a state with the preload between the faces has."
                     .to_owned()
@@ -149,11 +159,16 @@ impl Text<'_> {
         self.line("");
         let signs = format!("signs {}", spaced(&solution.pattern));
         self.line(&format!("{}   {signs}", self.style.heading(title)));
+        let contacts = &solution.contacts;
+        let about_to_change = are(contacts.iter().filter(|c| c.side == 0 && c.preload_share.is_none()));
+        let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
-            self.line(&format!(
-                "  On the boundary between modes: {} about to change side.",
-                about_to_change(&solution.contacts)
-            ));
+            if let Some(are) = about_to_change {
+                self.line(&format!("  On the boundary between modes: {are} about to change side."));
+            }
+            if let Some(are) = guided_in_gap {
+                self.line(&format!("  On the boundary: only as long as {are} exactly without normal force."));
+            }
         } else if solution.certificate == CertificateKind::OnBoundary {
             self.line("  On the boundary within rounding: a normal force or the determinant may be zero.");
         }
@@ -188,7 +203,13 @@ impl Text<'_> {
 
     fn margins(&mut self) {
         let Some(margins) = &self.report.margins else {
-            self.line("Margins of friction: not computed, there are too many modes.");
+            let mut gaps = self.report.preload_gap_states.iter().flat_map(|state| &state.contacts);
+            let reason = if gaps.any(is_guided_in_gap) {
+                "a guided slider is between its faces"
+            } else {
+                "there are too many modes"
+            };
+            self.line(&format!("Margins of friction: not computed, {reason}."));
             return;
         };
         let mut parts = Vec::new();
@@ -463,15 +484,17 @@ fn vector(components: &[f64], unit: &str) -> String {
     format!("({}){unit}", list.join(", "))
 }
 
-fn about_to_change(contacts: &[Contact]) -> String {
-    let names: Vec<&str> = contacts
-        .iter()
-        .filter(|c| c.side == 0 && c.preload_share.is_none())
-        .map(|contact| contact.name.as_str())
-        .collect();
+fn is_guided_in_gap(contact: &Contact) -> bool {
+    contact.couple.is_some() && contact.preload_share.is_some()
+}
+
+/// The contacts with "is" or "are"; nothing if there are none.
+fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
+    let names: Vec<&str> = contacts.map(|contact| contact.name.as_str()).collect();
     match names.as_slice() {
-        [name] => format!("{name} is"),
-        names => format!("{} are", names.join(", ")),
+        [] => None,
+        [name] => Some(format!("{name} is")),
+        names => Some(format!("{} are", names.join(", "))),
     }
 }
 

@@ -34,6 +34,13 @@ struct Tipped {
     unproven: Vec<String>,
 }
 
+/// Solutions, and states of preload gaps.
+#[derive(Default)]
+struct States {
+    solutions: Vec<report::Solution>,
+    gaps: Vec<report::Solution>,
+}
+
 /// A mechanism in its state, with the stages that lead to its mode problem.
 pub(super) struct Answer<'a> {
     pub(super) mechanism: &'a Mechanism,
@@ -41,6 +48,8 @@ pub(super) struct Answer<'a> {
     pub(super) equations: &'a KineticEquations,
     pub(super) influence: &'a Influence,
     pub(super) velocity_signs: &'a DVector<f64>,
+    /// For each contact, whether the right-hand side of the mode problem jumps with its side.
+    pub(super) jumps: Vec<bool>,
     /// Bounds of the exact numbers, if they could be enclosed.
     pub(super) enclosed: Option<&'a EnclosedModeProblem>,
 }
@@ -50,16 +59,14 @@ impl<'a> Answer<'a> {
     pub(super) fn report(&self, found: &Found<'_>) -> Result<Report, Faults> {
         let lists = found.lists();
         let mut tipping = Tipped::default();
-        let mut keep = |state: &State<'_>| self.kept(state, &mut tipping);
-        let mut solutions: Vec<_> = lists
-            .solutions
-            .iter()
-            .filter_map(|solution| keep(&regular(solution, &pressed(&solution.pattern))))
-            .collect();
+        let mut states = States::default();
+        let mut keep = |state: &State<'_>| self.keep(state, &mut states, &mut tipping);
+        lists.solutions.iter().for_each(|solution| keep(&regular(solution, &pressed(&solution.pattern))));
         let singular: Vec<SingularMode> =
             lists.singular.iter().map(|mode| self.without_tipping(mode)).collect();
-        solutions.extend(singular.iter().filter_map(|mode| keep(&point(mode)?)));
-        let gaps: Vec<_> = lists.gaps.iter().filter_map(|gap| keep(&in_gap(gap))).collect();
+        singular.iter().filter_map(point).for_each(|state| keep(&state));
+        lists.gaps.iter().for_each(|gap| keep(&in_gap(gap)));
+        let States { solutions, gaps } = states;
         let mut solutions = distinct(solutions, &[]);
         self.examine(&mut solutions)?;
         let gaps = distinct(gaps, &solutions);
@@ -88,6 +95,7 @@ impl<'a> Answer<'a> {
             model: self.model(),
             state: self.state(),
             time: self.configuration.time,
+            steps_from_drawing: Some(self.configuration.steps).filter(|steps| *steps > 0),
             patterns: outcomes.map(|outcomes| pattern_summary(outcomes, tipping.count)),
             solutions,
             preload_gap_states: gaps,
@@ -106,6 +114,14 @@ impl<'a> Answer<'a> {
         };
         check_finite(&report)?;
         Ok(report)
+    }
+
+    /// Files the states of the mechanism that a state of the mode problem stands for, unless a guided slider would tip.
+    fn keep(&self, state: &State<'_>, states: &mut States, tipping: &mut Tipped) {
+        for faces in self.faces(state) {
+            let kept = self.kept(&faces.state(state), tipping);
+            if faces.in_gap() { &mut states.gaps } else { &mut states.solutions }.extend(kept);
+        }
     }
 
     /// A state as a solution, unless a guided slider would tip in it.
@@ -423,7 +439,7 @@ fn tips_everywhere(mode: &SingularMode, cut: &SingularMode) -> bool {
 fn status(undecided: bool, solutions: usize, gaps: usize, continua: usize) -> Status {
     match (solutions, gaps, continua) {
         (_, _, 1..) => Status::Continuum,
-        (0, _, 0) if undecided => Status::Unknown,
+        (0, 0, 0) if undecided => Status::Unknown,
         (0, 0, 0) => Status::None,
         (0, _, 0) => Status::PreloadGap,
         (1, _, 0) => Status::One,

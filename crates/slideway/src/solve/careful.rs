@@ -33,9 +33,11 @@ pub(crate) fn careful_report(
     velocity_signs: &DVector<f64>,
 ) -> Result<Report, Faults> {
     let problem = mode_problem(mechanism, influence, velocity_signs)?;
+    let jumps = problem.jumps_of_contacts();
     let problem = IntervalModeProblem::widened(&problem, KNOWN_TO).map_err(|_| overflow())?;
     let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))
         .map_err(|_| overflow())?;
-    let answer = Answer { mechanism, configuration, equations, influence, velocity_signs, enclosed: None };
+    let answer =
+        Answer { mechanism, configuration, equations, influence, velocity_signs, jumps, enclosed: None };
     answer.report(&Found { result: &result, rounded: None, most: MOST_STATES })
 }

@@ -18,7 +18,7 @@ const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.
 const AT_ONCE: f64 = 1e-9;
 
-/// Adds the margins to a report, if there are few enough modes.
+/// Adds the margins to a report, if there are few enough modes, and each can be followed.
 pub(super) fn add(
     report: &mut Report,
     mechanism: &Mechanism,
@@ -27,6 +27,14 @@ pub(super) fn add(
 ) {
     let friction = Friction { mechanism, influence, velocity_signs };
     let Some(all) = friction.along(&|_| true) else { return };
+    // Such a state hangs on a normal force that is zero, and is no mode that could be followed.
+    let hangs = |state: &report::Solution| {
+        let mut jumps = state.pattern.chars().zip(&all.line.has_jump);
+        jumps.any(|(sign, jumps)| sign == '0' && !jumps)
+    };
+    if report.preload_gap_states.iter().any(hangs) {
+        return;
+    }
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {
         solution.margin = all.end_of(&solution.pattern).map(|mode| mode_margin(mechanism, mode));
     }

@@ -23,6 +23,7 @@ mod careful;
 mod continuum;
 mod distinct;
 mod equilibrium;
+mod faces;
 mod found;
 mod friction;
 mod margins;
@@ -103,11 +104,11 @@ pub fn solve_with(
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;
     let ranges = model.ranges()?;
     let enclosed = enclosure(model, &middle(&ranges), &mechanism, &configuration);
-    let result = if let Ok(enclosed) = &enclosed {
-        search(&enclosed.problem, &options.search, progress)
+    let (result, jumps) = if let Ok(enclosed) = &enclosed {
+        (search(&enclosed.problem, &options.search, progress), enclosed.problem.centre().jumps_of_contacts())
     } else {
         let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
-        search(&problem, &options.search, progress)
+        (search(&problem, &options.search, progress), problem.jumps_of_contacts())
     };
     let result = result.map_err(|_| mode_problem::overflow())?;
     let answer = answer::Answer {
@@ -116,6 +117,7 @@ pub fn solve_with(
         equations: &equations,
         influence: &influence,
         velocity_signs: &velocity_signs,
+        jumps,
         enclosed: enclosed.as_ref().ok(),
     };
     let mut report = answer.report(&found::Found {

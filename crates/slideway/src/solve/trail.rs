@@ -1,17 +1,14 @@
 //! States one after another, each reached from those before it.
 
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
 use crate::kinetics::{Elimination, Influences, KineticEquations};
 use crate::mechanism::Mechanism;
 
-/// States that are extrapolated.
-const REMEMBERED: usize = 3;
-
 /// The states of the last points, from which the next one is reached.
 #[derive(Debug, Default)]
 pub(crate) struct Trail {
-    reached: Vec<Configuration>,
+    follower: Follower,
     elimination: Elimination,
 }
 
@@ -22,16 +19,11 @@ impl Trail {
     /// # Errors
     /// Whatever `solve` refuses, but for contacts at rest.
     pub(crate) fn state(&mut self, mechanism: &Mechanism) -> Result<(Configuration, Influences), Faults> {
-        let configuration = match Configuration::near(mechanism, &self.reached) {
-            Some(configuration) => configuration,
-            None => Configuration::new(mechanism).inspect_err(|_| self.reached.clear())?,
-        };
+        let configuration = self.follower.configuration(mechanism)?;
         let influences = match Influences::new(mechanism, &configuration, &mut self.elimination)? {
             Some(influences) => influences,
             None => KineticEquations::new(mechanism, &configuration)?.influences(),
         };
-        self.reached.insert(0, configuration.clone());
-        self.reached.truncate(REMEMBERED);
         Ok((configuration, influences))
     }
 }

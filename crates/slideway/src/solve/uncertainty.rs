@@ -55,10 +55,72 @@ impl Answer<'_> {
                 .map_err(|reason| reason.to_string())?;
             let result = search(&enclosed.problem, &options.search, progress)
                 .map_err(|_| "numbers overflow".to_owned())?;
-            presences(&enclosed, &result, options)
+            self.presences(&enclosed, &result, options)
         };
         let searched = subdivide(ranges, &mut search_box);
         Some(self.summary(ranges, &searched))
+    }
+
+    /// The modes of a box.
+    fn presences(
+        &self,
+        enclosed: &EnclosedModeProblem,
+        result: &SearchResult,
+        options: &SolveOptions,
+    ) -> Searched {
+        let lists: StateLists = result.lists(options.most, 1);
+        let unfinished = matches!(result.completeness, Completeness::Partial(_) | Completeness::Unexamined);
+        if unfinished || !lists.all_listed {
+            return Err("the search was not completed".to_owned());
+        }
+        let mut modes = BTreeMap::new();
+        let mut add = |mode: Vec<ContactState>, certificate: &Certificate| {
+            let unknowns = certificate.unknowns().map(<[Interval]>::to_vec);
+            let tipping = match &unknowns {
+                Some(unknowns) => enclosed.tipping(&mode, unknowns),
+                None => Tipping::Open,
+            };
+            let proven = matches!(certificate, Certificate::Proven { .. });
+            if tipping != Tipping::Always {
+                modes.insert(mode, Presence { certain: proven && tipping == Tipping::Never, unknowns });
+            } else if let Some((mode, bounds)) =
+                unknowns.and_then(|bounds| self.in_gap(enclosed, mode, bounds))
+            {
+                modes.insert(mode, Presence { certain: false, unknowns: Some(bounds) });
+            }
+        };
+        for solution in &lists.solutions {
+            add(pressed(&solution.pattern), &solution.certificate);
+        }
+        for gap in &lists.gaps {
+            add(gap.pattern.clone(), &gap.certificate);
+        }
+        for mode in &lists.singular {
+            add(mode.pattern.clone(), &mode.certificate);
+        }
+        for undecided in lists.undecided {
+            modes
+                .entry(undecided.pattern)
+                .or_insert(Presence { certain: false, unknowns: undecided.unknowns });
+        }
+        Ok(modes)
+    }
+
+    /// A mode in which guided sliders tip, with those in their preload gap that may be without normal force (see
+    /// [`super::faces`]); none if some slider tips all the same.
+    fn in_gap(
+        &self,
+        enclosed: &EnclosedModeProblem,
+        mut mode: Vec<ContactState>,
+        mut bounds: Vec<Interval>,
+    ) -> Option<(Vec<ContactState>, Vec<Interval>)> {
+        for k in enclosed.couples.iter().map(|couple| couple.contact) {
+            if mode[k] != ContactState::Gap && bounds[k].contains(0.0) && self.has_free_face(k) {
+                mode[k] = ContactState::Gap;
+                bounds[k] = Interval::ZERO.hull(Interval::ONE);
+            }
+        }
+        (enclosed.tipping(&mode, &bounds) != Tipping::Always).then_some((mode, bounds))
     }
 
     fn summary(&self, ranges: &[ParameterRange], searched: &[Searched]) -> report::Uncertainty {
@@ -141,40 +203,6 @@ fn halves(part: &[Interval], whole: &[Interval]) -> Option<[Vec<Interval>; 2]> {
         Some(half)
     };
     Some([half(part[longest].lower(), middle)?, half(middle, part[longest].upper())?])
-}
-
-/// The modes of a box.
-fn presences(enclosed: &EnclosedModeProblem, result: &SearchResult, options: &SolveOptions) -> Searched {
-    let lists: StateLists = result.lists(options.most, 1);
-    if matches!(result.completeness, Completeness::Partial(_) | Completeness::Unexamined) || !lists.all_listed
-    {
-        return Err("the search was not completed".to_owned());
-    }
-    let mut modes = BTreeMap::new();
-    let mut add = |mode: Vec<ContactState>, certificate: &Certificate| {
-        let unknowns = certificate.unknowns().map(<[Interval]>::to_vec);
-        let tipping = match &unknowns {
-            Some(unknowns) => enclosed.tipping(&mode, unknowns),
-            None => Tipping::Open,
-        };
-        if tipping != Tipping::Always {
-            let proven = matches!(certificate, Certificate::Proven { .. });
-            modes.insert(mode, Presence { certain: proven && tipping == Tipping::Never, unknowns });
-        }
-    };
-    for solution in &lists.solutions {
-        add(pressed(&solution.pattern), &solution.certificate);
-    }
-    for gap in &lists.gaps {
-        add(gap.pattern.clone(), &gap.certificate);
-    }
-    for mode in &lists.singular {
-        add(mode.pattern.clone(), &mode.certificate);
-    }
-    for undecided in lists.undecided {
-        modes.entry(undecided.pattern).or_insert(Presence { certain: false, unknowns: undecided.unknowns });
-    }
-    Ok(modes)
 }
 
 /// Bounds of the signed normal forces; a `y_k` is not negative.

@@ -3,14 +3,11 @@
 use super::affine::AffineSet;
 use super::region::{Affine, Region};
 use super::setup::Setup;
-use crate::ids::DriveId;
+use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Contact, Effort};
 use crate::model::PreloadLine;
 use nalgebra::{DMatrix, DVector};
-
-/// Columns of friction at both faces that differ by less than this are equal.
-const SAME: f64 = 1e-12;
 
 /// Which face of a contact is pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -172,7 +169,10 @@ impl<'s> State<'s> {
         let contact = self.contact(k);
         let side = self.pattern.sides[k];
         let places = match (self.sliding(k), side) {
-            (Sliding::Stick, Side::Gap) => vec![Place::Face(0), Place::Face(1)],
+            (Sliding::Stick, Side::Gap) if self.setup.mechanism.preload_changes_face(ContactId(k)) => {
+                vec![Place::Face(0), Place::Face(1)]
+            }
+            (Sliding::Stick, Side::Gap) => vec![Place::Centre],
             (Sliding::Slip(_), Side::Gap) => vec![Place::Share],
             (Sliding::Stick, _) if contact.preload_line == PreloadLine::Centre => {
                 vec![Place::Face(side.index()), Place::Centre]
@@ -194,10 +194,20 @@ impl<'s> State<'s> {
             Place::Face(side) => face(side),
             Place::Centre => (face(0) + face(1)) / 2.0,
             Place::Share => {
-                let [plus, minus] = self.contact(k).preload;
-                (face(0) * plus - face(1) * minus) * (self.slip_sign(k) / self.setup.units.force)
+                let [plus, minus] = [0, 1].map(|side| self.preload_friction(k, side));
+                (plus - minus) * (self.slip_sign(k) / self.setup.units.force)
             }
         }
+    }
+
+    /// F_k0^side W_k^side, the friction of a preload in the equations of motion.
+    fn preload_friction(&self, k: usize, side: usize) -> DVector<f64> {
+        let contact = self.contact(k);
+        let place = match contact.preload_line {
+            PreloadLine::Pressed => Place::Face(side),
+            PreloadLine::Centre => Place::Centre,
+        };
+        self.friction_column(k, place) * contact.preload[side]
     }
 
     fn slip_sign(&self, k: usize) -> f64 {
@@ -278,18 +288,13 @@ impl<'s> State<'s> {
         let (contact, side, sign) = (self.contact(k), self.pattern.sides[k], f64::from(sign));
         if side == Side::Gap {
             // (share F_k0^+ W^+ + (1 - share) F_k0^- W^-) s_k: the part without the share.
-            *right_hand_side += self.friction_column(k, Place::Face(1)) * (contact.preload[1] * sign);
+            *right_hand_side += self.preload_friction(k, 1) * sign;
             return;
         }
         let face = self.friction_column(k, Place::Face(side.index()));
         let pressure = contact.mu[side.index()] * side.sign() * sign * self.setup.units.force;
         matrix.column_mut(self.normal_column(k)).axpy(-pressure, &face, 1.0);
-        let place = if contact.preload_line == PreloadLine::Centre {
-            Place::Centre
-        } else {
-            Place::Face(side.index())
-        };
-        *right_hand_side += self.friction_column(k, place) * (contact.preload[side.index()] * sign);
+        *right_hand_side += self.preload_friction(k, side.index()) * sign;
     }
 
     /// G a = 0, C a = 0 and, for joints that stick, S_j a = 0.
@@ -351,7 +356,7 @@ impl<'s> State<'s> {
     }
 
     fn normal_column(&self, k: usize) -> usize {
-        let reaction = Reaction::Normal(crate::ids::ContactId(k));
+        let reaction = Reaction::Normal(ContactId(k));
         self.force(self.setup.assembled.layout.reaction(reaction).expect("every contact has a normal force"))
     }
 }
@@ -473,12 +478,17 @@ impl State<'_> {
         constraints
     }
 
-    /// |F_k^+| <= share F_k0^+ and |F_k^-| <= (1 - share) F_k0^- for some share from 0 to 1.
+    /// |F_k^+| <= share F_k0^+ and |F_k^-| <= (1 - share) F_k0^- for some share from 0 to 1; where both act in the middle
+    /// between the faces |F_k| is at most the greater preload.
     fn gap_constraints(&self, k: usize) -> Vec<Expression> {
         let preload = self.contact(k).preload.map(|preload| preload / self.setup.units.force);
         match self.friction[k][..] {
             [(Place::Share, column)] => {
                 vec![Expression::unknown(column, -1.0), Expression::unknown(column, 1.0).shifted(-1.0)]
+            }
+            [(Place::Centre, column)] => {
+                let most = preload[0].max(preload[1]);
+                [1.0, -1.0].map(|sign| Expression::unknown(column, sign).shifted(-most)).to_vec()
             }
             [(_, plus), (_, minus)] => {
                 let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
@@ -513,8 +523,7 @@ impl State<'_> {
     }
 }
 
-/// All combinations of sides of the contacts; a gap only where the preload acts at the pressed face and both faces
-/// differ.
+/// All combinations of sides of the contacts; a gap only where the friction of the preload jumps.
 pub(super) fn sides(setup: &Setup) -> Vec<Vec<Side>> {
     let mut all = vec![Vec::new()];
     for options in side_options(setup) {
@@ -528,11 +537,9 @@ pub(super) fn sides(setup: &Setup) -> Vec<Vec<Side>> {
 
 /// The sides that each contact may take.
 pub(super) fn side_options(setup: &Setup) -> Vec<&'static [Side]> {
-    let one = |(contact, [plus, minus]): (&Contact, &[DVector<f64>; 2])| -> &'static [Side] {
-        let jumps = contact.preload_line == PreloadLine::Pressed
-            && contact.preload.iter().any(|preload| *preload > 0.0)
-            && (plus - minus).amax() > SAME * plus.amax();
+    let one = |k: usize| -> &'static [Side] {
+        let jumps = setup.mechanism.preload_jumps(ContactId(k));
         if jumps { &[Side::Positive, Side::Negative, Side::Gap] } else { &[Side::Positive, Side::Negative] }
     };
-    setup.mechanism.contacts.iter().zip(&setup.assembled.friction).map(one).collect()
+    (0..setup.mechanism.contacts.len()).map(one).collect()
 }

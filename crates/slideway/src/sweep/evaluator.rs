@@ -204,10 +204,6 @@ impl<'p> Evaluator<'p> {
                 Kind::Time => self.mechanism.time = *value,
             }
         }
-        // Where dimensions change the way from the drawing may be blocked while neighbours have passed the place.
-        if plan.friction.is_none() && !self.mechanism.is_in_drawing() {
-            self.trail = Trail::default();
-        }
         self.put_friction(values)?;
         if self.stages.is_none() || !plan.same_state() {
             self.stages = None;
@@ -313,6 +309,7 @@ fn refusal(faults: &Faults) -> PointStatus {
             fault.kind,
             FaultKind::NotAssembled { .. }
                 | FaultKind::TooFar { .. }
+                | FaultKind::NotFollowed { .. }
                 | FaultKind::OverlapVanished { .. }
                 | FaultKind::TravelExceeded { .. }
                 | FaultKind::SingularPosition { .. }

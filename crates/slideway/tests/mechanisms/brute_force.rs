@@ -48,15 +48,6 @@ impl Solved {
         let report = match try_report_on(&text) {
             Ok(report) => report,
             Err(faults) => {
-                let unreachable = |kind: &FaultKind| {
-                    matches!(
-                        kind,
-                        FaultKind::NotAssembled { .. }
-                            | FaultKind::SingularPosition { .. }
-                            | FaultKind::DependentCoordinates { .. }
-                            | FaultKind::OverlapVanished { .. }
-                    )
-                };
                 let accepted = faults.sorted().iter().all(|fault| unreachable(&fault.kind));
                 assert!(accepted, "{faults}\n{text}");
                 return None;
@@ -78,6 +69,17 @@ impl Solved {
     pub(crate) fn solution(&self, pattern: &str) -> Option<&Solution> {
         self.report.solutions.iter().find(|solution| solution.pattern == pattern)
     }
+}
+
+/// Whether a random state cannot be reached for this reason.
+pub(crate) fn unreachable(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::NotAssembled { .. }
+            | FaultKind::SingularPosition { .. }
+            | FaultKind::DependentCoordinates { .. }
+            | FaultKind::OverlapVanished { .. }
+    )
 }
 
 /// s_k, the signs of the sliding velocities.

@@ -3,8 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::matrix::IntervalMatrix;
-use crate::interval::Interval;
-use crate::modes::problem::SAME_JUMP;
+use crate::interval::{Interval, add_up};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, ProblemPart, Side};
 
 /// Bounds that do not make a mode problem.
@@ -110,18 +109,28 @@ impl IntervalModeProblem {
             return Err(IntervalModeProblemError::Radius { part, value: relative });
         }
         let radius = |value: f64| if value == 0.0 { 0.0 } else { (value.abs() * relative).next_up() };
+        // What rounding took from a column changes its size by less than one part in 2^52.
+        let of_columns = |side: Side| {
+            let plain = problem.columns(side).map(radius);
+            match problem.remainder(side) {
+                None => plain,
+                Some(lost) => plain.zip_map(lost, |radius, lost| {
+                    add_up(radius * (1.0 + 2.0 * f64::EPSILON), lost.abs()).next_up()
+                }),
+            }
+        };
         let by_side = |part: &dyn Fn(Side) -> DMatrix<f64>| BySide {
-            positive: part(Side::Positive).map(radius),
-            negative: part(Side::Negative).map(radius),
+            positive: part(Side::Positive),
+            negative: part(Side::Negative),
         };
         let radii = Radii {
-            columns: by_side(&|side| problem.columns(side).clone()),
-            jumps: by_side(&|side| problem.jumps(side).clone()),
+            columns: by_side(&of_columns),
+            jumps: by_side(&|side| problem.jumps(side).map(radius)),
             right_hand_side: problem.right_hand_side().map(radius),
         };
         match radii.first_not_finite() {
             Some((part, value)) => Err(IntervalModeProblemError::Radius { part, value }),
-            None => Ok(Self { centre: problem.clone(), radii }),
+            None => Ok(Self { centre: problem.rounded(), radii }),
         }
     }
 
@@ -132,6 +141,12 @@ impl IntervalModeProblem {
 }
 
 impl Radii {
+    /// Those of exact numbers.
+    pub(in crate::modes) fn zero(contacts: usize) -> Self {
+        let none = BySide::same(DMatrix::zeros(contacts, contacts));
+        Self { columns: none.clone(), jumps: none, right_hand_side: DVector::zeros(contacts) }
+    }
+
     /// Whether all numbers are exact.
     pub(in crate::modes) fn are_zero(&self) -> bool {
         let parts = [&self.columns, &self.jumps].map(|part| part.positive.iter().chain(&part.negative));
@@ -157,18 +172,21 @@ impl Radii {
 #[derive(Debug, Clone, Copy)]
 pub struct ProblemView<'a> {
     pub(in crate::modes) centre: &'a ModeProblem,
+    /// How far numbers may be from those of `centre`; of an exact problem what its remainder amounts to.
     pub(in crate::modes) radii: Option<&'a Radii>,
+    /// Whether the problem is `centre` itself, with its remainder.
+    pub(in crate::modes) exact: bool,
 }
 
 impl<'a> From<&'a ModeProblem> for ProblemView<'a> {
     fn from(problem: &'a ModeProblem) -> Self {
-        Self { centre: problem, radii: None }
+        Self { centre: problem, radii: problem.remainder_radii(), exact: true }
     }
 }
 
 impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
     fn from(problem: &'a IntervalModeProblem) -> Self {
-        Self { centre: &problem.centre, radii: Some(&problem.radii) }
+        Self { centre: &problem.centre, radii: Some(&problem.radii), exact: false }
     }
 }
 
@@ -177,9 +195,18 @@ impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
 pub(in crate::modes) struct Column<'a> {
     pub(in crate::modes) centre: &'a [f64],
     pub(in crate::modes) radius: Option<&'a [f64]>,
+    /// If there is one, the column is exactly `centre + remainder`, and `radius` is the size of the remainder.
+    remainder: Option<&'a [f64]>,
 }
 
 impl Column<'_> {
+    /// The terms that add up to the column: one, or two where it is exact but rounded in its middle.
+    pub(super) fn terms(self) -> impl Iterator<Item = Self> {
+        let radius = self.radius.filter(|_| self.remainder.is_none());
+        let rest = self.remainder.map(|centre| Self { centre, radius: None, remainder: None });
+        std::iter::once(Self { radius, remainder: None, ..self }).chain(rest)
+    }
+
     /// The middle of an entry, and how far it may be off.
     pub(in crate::modes) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
         (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
@@ -198,7 +225,8 @@ impl<'a> ProblemView<'a> {
 
     /// The same problem, as an exact one if all radii are zero.
     pub(in crate::modes) fn without_zero_radii(self) -> Self {
-        Self { radii: self.radii.filter(|radii| !radii.are_zero()), ..self }
+        let radii = self.radii.filter(|radii| !radii.are_zero());
+        Self { exact: self.exact || radii.is_none(), radii, ..self }
     }
 
     /// `c_k^{side}`.
@@ -206,6 +234,7 @@ impl<'a> ProblemView<'a> {
         Column {
             centre: column_slice(self.centre.columns(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.columns.get(side), contact)),
+            remainder: self.centre.remainder(side).map(|lost| column_slice(lost, contact)),
         }
     }
 
@@ -214,6 +243,7 @@ impl<'a> ProblemView<'a> {
         Column {
             centre: column_slice(self.centre.jumps(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.jumps.get(side), contact)),
+            remainder: None,
         }
     }
 
@@ -222,26 +252,16 @@ impl<'a> ProblemView<'a> {
         Column {
             centre: self.centre.right_hand_side().as_slice(),
             radius: self.radii.map(|radii| radii.right_hand_side.as_slice()),
+            remainder: None,
         }
     }
 
-    /// Whether `d_k^+` and `d_k^-` may differ at all.
-    pub(in crate::modes) fn may_jump(self, contact: usize) -> bool {
+    /// Whether the right-hand side may jump where this contact changes its side: whether `d_k^+` and `d_k^-`
+    /// differ for some value within the bounds.
+    pub(in crate::modes) fn has_jump(self, contact: usize) -> bool {
         let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
         let spread = |column: Column<'_>| column.radius.is_some_and(|r| r.iter().any(|&value| value > 0.0));
         one.centre != other.centre || spread(one) || spread(other)
-    }
-
-    /// Whether the right-hand side may jump where this contact changes its side, by more than rounding.
-    pub(in crate::modes) fn has_jump(self, contact: usize) -> bool {
-        let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
-        let (Some(one_radius), Some(other_radius)) = (one.radius, other.radius) else {
-            return self.centre.has_jump(contact);
-        };
-        let rows = 0..self.contacts();
-        let spread = rows.clone().map(|row| one_radius[row] + other_radius[row]).fold(0.0, f64::max);
-        let size = rows.map(|row| one.centre[row].abs().max(other.centre[row].abs())).fold(0.0, f64::max);
-        self.centre.has_jump(contact) || spread > SAME_JUMP * size
     }
 
     /// Whether an entry of a column or a jump vector differs from zero for some value within the bounds.

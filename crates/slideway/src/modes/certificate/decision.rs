@@ -156,7 +156,7 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
             }
         }
     }
-    if problem.radii.is_none() {
+    if problem.exact {
         return Verdict { decision: decide_exactly(problem, pattern), precision: Precision::Rational };
     }
     let in_doubt = enclosure.as_ref().map_or_else(Vec::new, |found| found.in_doubt(pattern));

@@ -146,7 +146,7 @@ fn dyadic_row(view: ProblemView<'_>, pattern: &[ContactState], row: usize) -> Ve
         .iter()
         .enumerate()
         .map(|(contact, &state)| {
-            view.matrix_column(contact, state).map(|(column, sign)| sign * column.centre[row]).collect()
+            view.matrix_terms(contact, state).map(|(term, sign)| sign * term.centre[row]).collect()
         })
         .collect();
     let jumps = pattern

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
+use super::data::ProblemView;
 use super::elimination::{Echelon, IntegerSystem};
 use super::polyhedron::ExactSet;
 use crate::interval::{Interval, Sign};
@@ -54,6 +55,57 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64
     ExactOutcome::Singular(ExactSet::new(&echelon, pattern, bases))
 }
 
+/// Solves the equations of one pattern for some contacts, with those of whatever acts on them and no others.
+///
+/// Returns these contacts in increasing order, and the outcome in that order; none if they are more than `most`.
+/// See [`solve_exactly`].
+///
+/// # Panics
+/// If the pattern does not have one state per contact.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use slideway::modes::certificate::{solve_part_exactly, ExactOutcome};
+/// use slideway::modes::{ContactState, ModeProblem};
+/// // The second pair does not act on the first.
+/// let m = dmatrix![2.0, 0.0; 1.0, 1.0];
+/// let problem = ModeProblem::from_linear_complementarity(&m, dvector![-4.0, -1.0])?;
+/// let pattern = [ContactState::Positive, ContactState::Negative];
+/// let (contacts, outcome) = solve_part_exactly(&problem, &pattern, &[0], 48).expect("few contacts");
+/// assert_eq!(contacts, [0]);
+/// let ExactOutcome::Regular { unknowns, .. } = outcome else { panic!("D is not 0") };
+/// assert_eq!(unknowns[0].to_f64().value(), 2.0);
+/// # Ok::<(), slideway::modes::ModeProblemError>(())
+/// ```
+pub fn solve_part_exactly(
+    problem: &ModeProblem,
+    pattern: &[ContactState],
+    contacts: &[usize],
+    most: usize,
+) -> Option<(Vec<usize>, ExactOutcome)> {
+    let view = ProblemView::from(problem);
+    let mut part = contacts.to_vec();
+    let mut followed = 0;
+    while let Some(&row) = part.get(followed).filter(|_| part.len() <= most) {
+        let acting = (0..problem.contacts()).filter(|&contact| view.couples(contact, row));
+        let new: Vec<usize> = acting.filter(|contact| !part.contains(contact)).collect();
+        part.extend(new);
+        followed += 1;
+    }
+    if part.len() > most {
+        return None;
+    }
+    part.sort_unstable();
+    let alone = problem.restricted(&part, problem.right_hand_side()).ok()?;
+    let states: Vec<ContactState> = part.iter().map(|&contact| pattern[contact]).collect();
+    Some((part, solve_exactly(&alone, &states, 0)))
+}
+
+/// The sign of `D`.
+pub(in crate::modes) fn determinant_sign(problem: &ModeProblem, pattern: &[ContactState]) -> Sign {
+    IntegerSystem::new(problem, pattern).eliminate().determinant_sign()
+}
+
 /// The signs that decide on a regular pattern, without fractions.
 pub(super) struct ExactSolution {
     numerators: Vec<IBig>,
@@ -86,6 +138,16 @@ impl ExactSolution {
 }
 
 impl Interval {
+    /// The middle; the least number on the interval's side of zero if that would be zero by underflow. So the sign
+    /// is that of what the interval encloses, and a number too large for `f64` is infinite.
+    pub(in crate::modes) fn nonzero_middle(self) -> f64 {
+        match self.middle() {
+            0.0 if self.lower() == 0.0 => self.upper(),
+            0.0 if self.upper() == 0.0 => self.lower(),
+            middle => middle,
+        }
+    }
+
     /// The narrowest interval with bounds in `f64` that holds a rational number.
     ///
     /// ```

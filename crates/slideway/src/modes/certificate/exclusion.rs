@@ -12,6 +12,8 @@ use crate::modes::{ContactState, Side};
 const NEARLY_ZERO: f64 = 1e-3;
 /// Columns whose products are below this multiple of what is missing are moved away from zero, too.
 const NEARBY: f64 = 64.0;
+/// What the bounds of the data can do to a product is less than the size of its terms by this factor.
+const ABOVE_SPREAD: f64 = 1e12;
 /// How much further weights are moved than they miss.
 const STEPS: [f64; 2] = [2.0, 8.0];
 
@@ -95,7 +97,7 @@ fn usable_columns<'a>(
     sides.flat_map(move |(contact, sides)| sides.iter().map(move |&side| problem.column(contact, side)))
 }
 
-/// By how much at most `w . c_k^{sigma} >= 0` is not verified, as a fraction of `|w| . |c_k^{sigma}|`:
+/// By how much at most `w . c_k^{sigma} >= 0` is not verified, as a fraction of the size of its terms:
 /// 0 if it is for all columns. None if that is more than rounding and the bounds of the data can do.
 fn missing_fraction(
     problem: ProblemView<'_>,
@@ -108,7 +110,7 @@ fn missing_fraction(
         if product.lower() >= 0.0 || exact_where_possible(weights, column).lower() >= 0.0 {
             continue;
         }
-        let missing = -product.lower() / product_size(weights, column.centre);
+        let missing = -product.lower() / product_size(weights, column);
         if missing > NEARLY_ZERO || missing.is_nan() {
             return None;
         }
@@ -118,23 +120,25 @@ fn missing_fraction(
 }
 
 /// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of
-/// `|w| . |c_k^{sigma}|`, or negative.
+/// its size, or negative.
 fn nearly_zero_columns<'a>(
     problem: ProblemView<'a>,
     partial: &[Option<ContactState>],
     weights: &[f64],
     fraction: f64,
-) -> Vec<&'a [f64]> {
+) -> Vec<Column<'a>> {
     let is_nearly_zero = |column: &Column<'_>| {
         let product = inner_product(weights, column.centre, column.radius);
-        product.lower() < fraction * product_size(weights, column.centre)
+        product.lower() < fraction * product_size(weights, *column)
     };
-    usable_columns(problem, partial).filter(is_nearly_zero).map(|column| column.centre).collect()
+    usable_columns(problem, partial).filter(is_nearly_zero).collect()
 }
 
-/// `|w| . |c|`.
-fn product_size(weights: &[f64], column: &[f64]) -> f64 {
-    weights.iter().zip(column).map(|(w, c)| (w * c).abs()).sum()
+/// The size of the terms of `w . c`: `|w| . |c|`, but far more than the bounds of the data can do where nothing else is in
+/// the equations that count.
+fn product_size(weights: &[f64], column: Column<'_>) -> f64 {
+    let of = |values: &[f64]| weights.iter().zip(values).map(|(w, value)| (w * value).abs()).sum::<f64>();
+    of(column.centre).max(column.radius.map_or(0.0, of) * ABOVE_SPREAD)
 }
 
 /// `w . c` with no rounding where every partial sum is an `f64`.
@@ -142,16 +146,16 @@ fn exact_where_possible(weights: &[f64], column: Column<'_>) -> Interval {
     (0..weights.len()).map(|row| Interval::point(weights[row]) * column.entry(row)).sum()
 }
 
-/// The shortest `v` with `v . c_k = |w| . |c_k|` for the given columns; none if they depend on each
+/// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns; none if they depend on each
 /// other.
-fn direction_inwards(columns: &[&[f64]], weights: &[f64]) -> Option<Vec<f64>> {
+fn direction_inwards(columns: &[Column<'_>], weights: &[f64]) -> Option<Vec<f64>> {
     let rows = weights.len();
     if columns.len() > rows {
         return None;
     }
-    let sizes = columns.iter().map(|column| product_size(weights, column));
+    let sizes = columns.iter().map(|&column| product_size(weights, column));
     let sizes = DVector::from_iterator(columns.len(), sizes);
-    let factors = DMatrix::from_fn(rows, columns.len(), |row, column| columns[column][row]).qr();
+    let factors = DMatrix::from_fn(rows, columns.len(), |row, column| columns[column].centre[row]).qr();
     // C = Q R: v = Q R^-T sizes.
     let inner = factors.r().tr_solve_upper_triangular(&sizes)?;
     let direction = factors.q() * inner;

@@ -11,14 +11,15 @@
 //! - [`proves_empty`], [`propagate`] and [`proves_at_most_one`] verify the arguments by which a
 //!   search leaves out whole sets of patterns (theory, section 4).
 //!
-//! Each of them takes a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact, or an
+//! Each of them takes a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact (sums of two
+//! matrices unrounded), or an
 //! [`IntervalModeProblem`], whose numbers lie anywhere within bounds. In the second case a result
 //! holds for all values within the bounds, and what differs between them is
 //! [`Decision::Undecided`].
 //!
 //! Contacts in their gap have the column `-(d_k^+ - d_k^-)`, and their unknown is the share
 //! `lambda_k`, `0 <= lambda_k <= 1`. A jump is any difference between `d_k^+` and `d_k^-`, however
-//! small, unlike in [`ModeProblem::has_jump`](super::ModeProblem::has_jump).
+//! small.
 
 mod data;
 mod decision;
@@ -39,7 +40,8 @@ pub(super) use data::{Column, Radii};
 pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
-pub use exact::{ExactOutcome, solve_exactly};
+pub(super) use exact::determinant_sign;
+pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub use exclusion::proves_empty;
 pub use influence::IntervalInfluence;
 pub use matrix::IntervalMatrix;

@@ -41,7 +41,7 @@ pub fn proves_at_most_one<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Op
     let problem = problem.into();
     assert_eq!(partial.len(), problem.contacts(), "one entry per contact");
     let jumps =
-        |(contact, state): (usize, &Option<ContactState>)| state.is_none() && problem.may_jump(contact);
+        |(contact, state): (usize, &Option<ContactState>)| state.is_none() && problem.has_jump(contact);
     if partial.iter().enumerate().any(jumps) {
         return false;
     }

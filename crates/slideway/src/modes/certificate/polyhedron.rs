@@ -259,7 +259,7 @@ fn scaled_to_one(direction: Vec<RBig>) -> Option<Vec<RBig>> {
 }
 
 fn nearest(value: &RBig) -> f64 {
-    Interval::around_ratio(value).middle()
+    Interval::around_ratio(value).nonzero_middle()
 }
 
 fn distinct(points: impl Iterator<Item = Vec<RBig>>) -> Vec<Vec<RBig>> {

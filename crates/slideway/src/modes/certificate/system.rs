@@ -4,14 +4,14 @@ use nalgebra::{DMatrix, DVector};
 
 use super::data::ProblemView;
 use super::matrix::{IntervalMatrix, rounding};
-use crate::interval::two_sum_remainder;
+use crate::interval::{add_up, two_sum_remainder};
 use crate::modes::{ContactState, Side};
 
 /// The equations `A z = b` of one pattern; `z_k` is `y_k`, or `lambda_k` for a contact in its gap.
 pub(super) struct PatternSystem<'a> {
     problem: ProblemView<'a>,
     pattern: &'a [ContactState],
-    /// Differences `-(d_k^+ - d_k^-)` are rounded, and the radius covers that.
+    /// Entries that are sums are rounded, and the radius covers that.
     pub(super) matrix: IntervalMatrix,
     right_hand_side: DVector<f64>,
     /// Covers the rounding of sums, besides the bounds of the data.
@@ -42,14 +42,15 @@ impl<'a> PatternSystem<'a> {
                 right_size[row] += jump.centre[row].abs();
             }
             jump.add_radius_to(&mut right_radius);
-            for (column, sign) in problem.matrix_column(contact, state) {
+            for (term, sign) in problem.matrix_terms(contact, state) {
                 for row in 0..contacts {
-                    centre[(row, contact)] += sign * column.centre[row];
-                    radius[(row, contact)] += column.radius.map_or(0.0, |radius| radius[row]);
+                    let at = (row, contact);
+                    let (before, added) = (centre[at], sign * term.centre[row]);
+                    centre[at] = before + added;
+                    let lost = two_sum_remainder(before, added, centre[at]).abs();
+                    let spread = term.radius.map_or(0.0, |radius| radius[row]);
+                    radius[at] = add_up(add_up(radius[at], spread), lost);
                 }
-            }
-            if state == ContactState::Gap {
-                widen_for_difference(&centre, &mut radius, contact);
             }
         }
         let covered = right_radius + right_size * rounding(contacts + 1);
@@ -89,9 +90,9 @@ impl<'a> PatternSystem<'a> {
             let jump = self.problem.jump(contact, ProblemView::constant_jump_side(state));
             accumulate(&mut sums, jump.centre, 1.0);
             jump.add_radius_to(&mut spread);
-            for (column, sign) in self.problem.matrix_column(contact, state) {
-                accumulate(&mut sums, column.centre, -sign * z[contact]);
-                if let Some(radius) = column.radius {
+            for (term, sign) in self.problem.matrix_terms(contact, state) {
+                accumulate(&mut sums, term.centre, -sign * z[contact]);
+                if let Some(radius) = term.radius {
                     for row in 0..contacts {
                         spread[row] += radius[row] * z[contact].abs();
                     }
@@ -110,7 +111,7 @@ impl<'a> PatternSystem<'a> {
 
 impl<'a> ProblemView<'a> {
     /// The terms of the matrix column of a contact in a state, with their signs.
-    pub(super) fn matrix_column(
+    pub(super) fn matrix_terms(
         self,
         contact: usize,
         state: ContactState,
@@ -121,17 +122,9 @@ impl<'a> ProblemView<'a> {
                 ((self.jump(contact, Side::Positive), -1.0), Some((self.jump(contact, Side::Negative), 1.0)))
             }
         };
-        std::iter::once(first).chain(second)
-    }
-}
-
-/// Covers the rounding of a difference of two columns and of the sum of their radii.
-fn widen_for_difference(centre: &DMatrix<f64>, radius: &mut DMatrix<f64>, column: usize) {
-    for row in 0..centre.nrows() {
-        let at = (row, column);
-        let rounded = centre[at].abs() * f64::EPSILON + radius[at];
-        radius[at] =
-            if rounded > 0.0 { rounded * (1.0 + 4.0 * f64::EPSILON) + f64::MIN_POSITIVE } else { 0.0 };
+        std::iter::once(first)
+            .chain(second)
+            .flat_map(|(column, sign)| column.terms().map(move |term| (term, sign)))
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) fn new(problem: ProblemView<'_>, instructions: Instructions) -> Self {
         let contacts = 0..problem.contacts();
-        let (jumping, mut order): (Vec<usize>, Vec<usize>) = contacts.partition(|&k| problem.may_jump(k));
+        let (jumping, mut order): (Vec<usize>, Vec<usize>) = contacts.partition(|&k| problem.has_jump(k));
         let padding = SOLVED.saturating_sub(order.len());
         let plain = order.len() + padding;
         order.extend(jumping);

@@ -109,24 +109,39 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         if rest.is_empty() {
             return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts: first });
         }
+        let left = (work.0 + own, work.1 - own);
         if admits_sets(&answer.solutions) {
-            // The others would have to be solved for a whole set of loads: solve all together.
-            let mut contacts: Vec<usize> =
-                part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
-            contacts.sort_unstable();
-            self.monitor.start_group(work.0 + own, work.1 - own);
-            let answer = self.solve_group(&contacts, load)?;
-            return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts });
+            // The others would have to be solved for a whole set of loads.
+            return self.solve_together(part, load, left);
         }
         let mut alternatives = alternatives(&answer.solutions);
         let share = (work.1 - own) / alternatives.len().max(1) as f64;
         let mut done = work.0 + own;
         for alternative in &mut alternatives {
-            let load = self.load_with(&first, &alternative.state, load);
-            alternative.dependents = self.solve_groups(rest, &load, (done, share))?;
+            let acting = self.load_with(&first, &alternative.state, load);
+            if !acting.is_finite() {
+                // No floating-point number tells the others what acts on them.
+                return self.solve_together(part, load, left);
+            }
+            alternative.dependents = self.solve_groups(rest, &acting, (done, share))?;
             done += share;
         }
         Ok(Factor { contacts: first, alternatives })
+    }
+
+    /// The solutions of groups that hang together, searched as one.
+    fn solve_together(
+        &mut self,
+        part: &[usize],
+        load: &Load,
+        work: (f64, f64),
+    ) -> Result<Factor, ModeProblemError> {
+        let mut contacts: Vec<usize> =
+            part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
+        contacts.sort_unstable();
+        self.monitor.start_group(work.0, work.1);
+        let answer = self.solve_group(&contacts, load)?;
+        Ok(Factor { alternatives: alternatives(&answer.solutions), contacts })
     }
 
     /// The solutions of one group's equations, each right-hand side solved once.

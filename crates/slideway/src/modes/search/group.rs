@@ -82,7 +82,7 @@ fn search_large_group(
     } else {
         None
     };
-    let continuous = (0..scaled.contacts()).all(|contact| !loaded.view().may_jump(contact));
+    let continuous = scaled.has_jump.iter().all(|jump| !jump);
     let proof = solved.as_ref().filter(|_| arguments.uniqueness && continuous);
     let unique = proof.and_then(|solved| by_uniqueness(scaled, solved, leaves, monitor));
     let answered = unique.or_else(|| {

@@ -90,7 +90,7 @@ fn coupling_graph(problem: ProblemView<'_>) -> Vec<Vec<usize>> {
         for row in (0..contacts).filter(|&row| row != contact) {
             if problem.couples(contact, row) {
                 graph[contact].push(row);
-                if problem.has_jump(contact) && problem.jumps_in_row(contact, row) {
+                if problem.jumps_in_row(contact, row) {
                     graph[row].push(contact);
                 }
             }

@@ -1,8 +1,10 @@
 //! The outcome of single patterns, and whether it is proven.
 
 use super::load::LoadedProblem;
+use super::relaxation::Relaxation;
 use super::report::StopReason;
-use crate::modes::certificate::{Decision, decide};
+use super::states::StateSet;
+use crate::modes::certificate::{Decision, decide, proves_empty};
 use crate::modes::decided::Filed;
 use crate::modes::findings::Findings;
 use crate::modes::solutions::ContactState;
@@ -36,7 +38,27 @@ impl<'a> Leaves<'a> {
             return Ok(());
         }
         let decision = self.decide(pattern);
+        if matches!(decision, Decision::Undecided { .. }) && self.is_infeasible(pattern) {
+            self.exclude(pattern);
+            return Ok(());
+        }
         self.file(pattern, decision)
+    }
+
+    /// Whether the linear program of a pattern has no solution for any value within bounds, proven by a Farkas vector.
+    ///
+    /// This decides patterns whose determinant is zero by theory, as of a block with both ends in their preload gaps:
+    /// both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel but for rounding. Shares are from 0 to 1, so that
+    /// such columns reach nothing across their direction.
+    fn is_infeasible(&self, pattern: &[ContactState]) -> bool {
+        let problem = self.findings.problem;
+        let load_radius = problem.scaled_load_radius(&self.problem.right_hand_side_radius());
+        let relaxation = Relaxation::new(problem, &load_radius, vec![f64::INFINITY; pattern.len()]);
+        let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
+        let Some(farkas) = relaxation.farkas(&states) else { return false };
+        let decided: Vec<Option<ContactState>> = pattern.iter().copied().map(Some).collect();
+        let weights: Vec<f64> = problem.unscaled_rows(&farkas).iter().map(|entry| -entry).collect();
+        proves_empty(self.problem.view(), &decided, &weights)
     }
 
     /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
@@ -77,7 +99,7 @@ impl<'a> Leaves<'a> {
         if certain { self.file(pattern, decision).map(|()| true) } else { Ok(false) }
     }
 
-    /// Counts a pattern that is proven to have no solution and `D != 0`.
+    /// Counts a pattern that is proven to have no solution.
     pub(super) fn exclude(&mut self, pattern: &[ContactState]) {
         self.findings.count_no_solution(pattern.contains(&ContactState::Gap));
     }

@@ -28,8 +28,9 @@ pub(super) struct LoadedProblem<'p> {
     contacts: &'p [usize],
     ancestors: &'p [(usize, ContactState)],
     problem: ModeProblem,
-    /// None if all numbers are exact.
+    /// None if no number may be off.
     radii: Option<Radii>,
+    exact: bool,
 }
 
 impl Load {
@@ -56,6 +57,11 @@ impl Load {
             self.add(problem.column(contact, side), (-y.0, y.1));
         }
         self.ancestors.push((contact, state));
+    }
+
+    /// Whether all bounds are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        self.middle.iter().chain(&self.radius).all(|value| value.is_finite())
     }
 
     /// Widens the bounds by what a contact that may have changed to `side` adds with `y_k` up to `most`.
@@ -90,9 +96,10 @@ impl<'p> LoadedProblem<'p> {
         contacts: &'p [usize],
         load: &'p Load,
     ) -> Result<Self, ModeProblemError> {
-        let problem = restricted(whole.centre, contacts, &load.middle)?;
+        let problem = whole.centre.restricted(contacts, &load.middle)?;
         let radii = Self::radii(whole, contacts, load);
-        Ok(Self { whole, contacts, ancestors: &load.ancestors, problem, radii })
+        let exact = whole.exact && contacts.iter().all(|&contact| load.radius[contact] == 0.0);
+        Ok(Self { whole, contacts, ancestors: &load.ancestors, problem, radii, exact })
     }
 
     fn radii(whole: ProblemView<'_>, contacts: &[usize], load: &Load) -> Option<Radii> {
@@ -112,17 +119,16 @@ impl<'p> LoadedProblem<'p> {
     }
 
     pub(super) fn view(&self) -> ProblemView<'_> {
-        ProblemView { centre: &self.problem, radii: self.radii.as_ref() }
+        ProblemView { centre: &self.problem, radii: self.radii.as_ref(), exact: self.exact }
     }
 
     /// Whether the problem that this is a part of has exact numbers, so that every pattern can be
     /// decided.
     pub(super) fn is_part_of_exact_problem(&self) -> bool {
-        self.whole.radii.is_none()
+        self.whole.exact
     }
 
-    /// How far each entry of the right-hand side of any pattern may be off from `N(0) + sum_k d_k`, where
-    /// contacts without a jump have `d_k^-`.
+    /// How far each entry of the right-hand side of any pattern may be off from `N(0) + sum_k d_k`.
     pub(super) fn right_hand_side_radius(&self) -> DVector<f64> {
         let view = self.view();
         let load = view.load();
@@ -130,9 +136,7 @@ impl<'p> LoadedProblem<'p> {
             let radius = |column: Column<'_>| column.radius.map_or(0.0, |radius| radius[row]);
             let jumps = (0..view.contacts()).map(|contact| {
                 let [one, other] = Side::BOTH.map(|side| view.jump(contact, side));
-                let ignored =
-                    if view.has_jump(contact) { 0.0 } else { (one.centre[row] - other.centre[row]).abs() };
-                radius(one).max(radius(other)) + ignored
+                radius(one).max(radius(other))
             });
             (radius(load) + jumps.sum::<f64>()) * (1.0 + 4.0 * f64::EPSILON * (view.contacts() + 2) as f64)
         })
@@ -149,7 +153,7 @@ impl<'p> LoadedProblem<'p> {
         let contacts: Vec<usize> = ancestors.chain(self.contacts.iter().copied()).collect();
         let states = self.ancestors.iter().map(|(_, state)| *state);
         let joint_pattern: Vec<ContactState> = states.chain(pattern.iter().copied()).collect();
-        let problem = restricted(self.whole.centre, &contacts, self.whole.centre.right_hand_side()).ok()?;
+        let problem = self.whole.centre.restricted(&contacts, self.whole.centre.right_hand_side()).ok()?;
         let own_sign = || match solve_exactly(&self.problem, pattern, 0) {
             ExactOutcome::Regular { determinant, .. } => determinant,
             ExactOutcome::Singular(_) => Sign::Zero,
@@ -162,20 +166,6 @@ impl<'p> LoadedProblem<'p> {
             other => other,
         })
     }
-}
-
-fn restricted(
-    problem: &ModeProblem,
-    contacts: &[usize],
-    load: &DVector<f64>,
-) -> Result<ModeProblem, ModeProblemError> {
-    ModeProblem::new(
-        submatrix(problem.columns(Side::Positive), contacts),
-        submatrix(problem.columns(Side::Negative), contacts),
-        submatrix(problem.jumps(Side::Positive), contacts),
-        submatrix(problem.jumps(Side::Negative), contacts),
-        DVector::from_fn(contacts.len(), |row, _| load[contacts[row]]),
-    )
 }
 
 fn submatrix(matrix: &DMatrix<f64>, contacts: &[usize]) -> DMatrix<f64> {

@@ -24,7 +24,7 @@
 //! [`certificate::decide`](super::certificate::decide), and each state carries what is proven of it, its
 //! [`Certificate`](super::Certificate).
 //!
-//! - Exact numbers: every pattern is decided, in rational numbers if need be. A group's right-hand side that
+//! - Exact numbers (sums of two matrices are not rounded): every pattern is decided, in rational numbers if need be. A group's right-hand side that
 //!   follows from other groups has a rounding error; where that leaves a pattern open, it is decided together
 //!   with their contacts (up to 48 of them).
 //! - Numbers within bounds: a pattern whose outcome differs between values, or of which that could not be
@@ -99,8 +99,8 @@ use monitor::Monitor;
 /// breaks (the library has no clock; compare times there). The answer is then labelled as partial.
 ///
 /// # Errors
-/// [`ModeProblemError::NotFinite`] if numbers overflow when the solution of one group of contacts
-/// is put into the equations of another.
+/// [`ModeProblemError`] if a part of the problem were no mode problem, which no problem of finite numbers has: groups of
+/// contacts whose solutions overflow are searched together with those that they act on.
 ///
 /// ```
 /// use std::ops::ControlFlow;

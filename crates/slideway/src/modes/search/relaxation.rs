@@ -120,6 +120,16 @@ impl Relaxation {
         (relaxed, basis)
     }
 
+    /// A vector that excludes a node but for rounding errors; none if the relaxation may have a solution.
+    pub(super) fn farkas(&self, states: &[StateSet]) -> Option<Vec<f64>> {
+        let bounds = self.bounds(states);
+        let mut basis = self.first_basis().restricted(&bounds);
+        match self.program.solve(&mut basis, &bounds, &mut 0) {
+            LinearOutcome::Infeasible(farkas) => Some(farkas),
+            LinearOutcome::Feasible(_) | LinearOutcome::Undecided => None,
+        }
+    }
+
     fn bounds(&self, states: &[StateSet]) -> Bounds {
         let mut bounds =
             Bounds { lower: vec![0.0; self.program.columns()], upper: vec![0.0; self.program.columns()] };

@@ -1,11 +1,11 @@
 //! Whether a problem has exactly one solution for every load.
 
-mod exact;
 mod proofs;
 
 use nalgebra::DMatrix;
 
 use self::proofs::Family;
+use super::certificate::{Sign, determinant_sign};
 use super::problem::{ModeProblem, Side};
 use super::scaling::ScaledProblem;
 use super::solutions::ContactState;
@@ -74,11 +74,10 @@ pub enum Uniqueness {
 /// pattern (theory, section 5), positive or negative. With jumps the statement does not hold. For a
 /// linear complementarity problem it says whether `M` is a P-matrix.
 ///
-/// The decision refers to the numbers given, and is rigorous. Two sufficient conditions come first
+/// The decision refers to the numbers given (sums of two matrices unrounded), and is rigorous. Two sufficient conditions come first
 /// (a spectral radius, a largest singular value), for the whole and for large parts of the tree of
 /// patterns. The tree's eliminations carry error bounds. Where these leave a sign open, the
-/// determinants are computed exactly (up to 14 contacts, with entries that do not differ by many
-/// orders of magnitude). In general the question is co-NP-hard: past the limits the answer is
+/// determinants are computed exactly. In general the question is co-NP-hard: past the limits the answer is
 /// [`Uniqueness::NotComputed`], or [`Uniqueness::InDoubt`].
 ///
 /// ```
@@ -125,10 +124,9 @@ struct Level {
     errors: Vec<f64>,
 }
 
-struct Search {
+struct Search<'p> {
+    problem: &'p ModeProblem,
     contacts: usize,
-    /// `c_k^+` and `-c_k^-`, scaled by rows.
-    columns: Vec<[Vec<f64>; 2]>,
     levels: Vec<Level>,
     pattern: Vec<Side>,
     /// Patterns with `p > 0` and with `p < 0`.
@@ -138,43 +136,35 @@ struct Search {
     exact: u64,
 }
 
-impl Search {
-    fn new(problem: &ModeProblem, limits: &UniquenessLimits) -> Self {
+impl<'p> Search<'p> {
+    fn new(problem: &'p ModeProblem, limits: &UniquenessLimits) -> Self {
         let contacts = problem.contacts();
         let scaled = ScaledProblem::within(problem.into());
-        let columns: Vec<[Vec<f64>; 2]> = (0..contacts)
-            .map(|contact| {
-                let column = |state| scaled.column(contact, state).as_slice().to_vec();
-                let negative = column(ContactState::Negative);
-                [column(ContactState::Positive), negative.iter().map(|entry| -entry).collect()]
-            })
-            .collect();
         let mut levels: Vec<Level> = (0..contacts)
             .map(|level| {
                 let size = 2 * (contacts - level) * (contacts - level);
                 Level { values: vec![0.0; size], errors: vec![0.0; size] }
             })
             .collect();
-        for (contact, sides) in columns.iter().enumerate() {
-            for (side, column) in sides.iter().enumerate() {
-                for (row, &entry) in column.iter().enumerate() {
+        for contact in 0..contacts {
+            for (side, state) in ContactState::PRESSED.into_iter().enumerate() {
+                for (row, &entry) in scaled.column(contact, state).iter().enumerate() {
                     let at = 2 * (row * contacts + contact) + side;
-                    levels[0].values[at] = entry;
+                    levels[0].values[at] = state.sign() * entry;
                     levels[0].errors[at] =
                         scaled.column_radii().map_or(0.0, |radii| radii[side][(row, contact)]);
                 }
             }
         }
         Self {
+            problem,
             contacts,
-            columns,
             levels,
             pattern: vec![Side::Positive; contacts],
             found: [None, None],
             in_doubt: None,
             nodes: limits.nodes,
-            // What scaling may have lost cannot be decided exactly.
-            exact: if scaled.column_radii().is_none() { limits.exact } else { 0 },
+            exact: limits.exact,
         }
     }
 
@@ -294,16 +284,13 @@ impl Search {
             return Ok(());
         }
         self.exact -= 1;
-        let chosen = self.pattern.iter().zip(&self.columns);
-        let columns: Vec<Vec<f64>> =
-            chosen.map(|(side, columns)| columns[usize::from(*side == Side::Negative)].clone()).collect();
-        match exact::determinant_sign(&columns) {
-            Some(0) => Err(Found::Singular),
-            Some(sign) => self.file(sign),
-            None => {
-                self.leave_in_doubt();
-                Ok(())
-            }
+        let pattern: Vec<ContactState> = self.pattern.iter().map(|&side| side.into()).collect();
+        let negative = self.pattern.iter().filter(|side| **side == Side::Negative).count();
+        let orientation = if negative % 2 == 0 { 1 } else { -1 };
+        match determinant_sign(self.problem, &pattern) {
+            Sign::Zero => Err(Found::Singular),
+            Sign::Positive => self.file(orientation),
+            Sign::Negative => self.file(-orientation),
         }
     }
 

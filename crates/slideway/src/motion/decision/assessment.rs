@@ -3,6 +3,7 @@
 use super::instant::{Group, Instant};
 use super::program::{Affine, Unsolved, highest};
 use super::system::{Forces, Inequality, Question, Subject, System};
+use crate::ids::ContactId;
 use crate::influence::ContactFriction;
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
@@ -193,7 +194,7 @@ fn without_rounding(slack: f64) -> f64 {
     if slack.abs() <= ROUNDING { 0.0 } else { slack }
 }
 
-/// The sides that a contact may take: a gap only where the right-hand side jumps.
+/// The sides that a contact may take: a gap only where the friction of its preload jumps.
 pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [ContactPhase] {
     const PRESSED: [ContactPhase; 2] =
         [ContactPhase::Pressed(Side::Positive), ContactPhase::Pressed(Side::Negative)];
@@ -202,7 +203,7 @@ pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [Contact
         ContactPhase::Pressed(Side::Negative),
         ContactPhase::PreloadGap,
     ];
-    if instant.has_jump[k] { &ALL } else { &PRESSED }
+    if instant.mechanism.preload_jumps(ContactId(k)) { &ALL } else { &PRESSED }
 }
 
 /// The contacts of a group that stick, with their possible sides, the phase's own one first.

@@ -199,5 +199,6 @@ fn advanced(from: &Configuration, start: &Accelerations, end: &Accelerations, st
         coordinates: coordinates.zip(both.clone()).map(|((q, qd), (a, b))| q + way(*qd, *a, *b)).collect(),
         rates: from.rates.iter().zip(both).map(|(qd, (a, b))| qd + gain(*a, *b)).collect(),
         time: from.time + step,
+        steps: from.steps,
     }
 }

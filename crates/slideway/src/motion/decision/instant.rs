@@ -97,8 +97,6 @@ pub(super) struct Instant<'m> {
     pub(super) shift: DVector<f64>,
     /// The sliding joints in groups that are decided separately.
     pub(super) groups: Vec<Group>,
-    /// For each contact, whether the right-hand side jumps with its side.
-    pub(super) has_jump: Vec<bool>,
 }
 
 impl<'m> Instant<'m> {
@@ -114,16 +112,7 @@ impl<'m> Instant<'m> {
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);
         let shift = DVector::zeros(outputs.base.len());
-        let has_jump = (0..mechanism.contacts.len())
-            .map(|k| {
-                let contact = &mechanism.contacts[k];
-                let [plus, minus] = [0, 1].map(|side| outputs.columns[side].column(k));
-                contact.preload_line == PreloadLine::Pressed
-                    && contact.preload.iter().any(|preload| *preload > 0.0)
-                    && plus != minus
-            })
-            .collect();
-        Ok(Self { mechanism, equations, influence, joints, units, outputs, shift, groups, has_jump })
+        Ok(Self { mechanism, equations, influence, joints, units, outputs, shift, groups })
     }
 
     /// Takes over the loads at another time, where nothing has moved.

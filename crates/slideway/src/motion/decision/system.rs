@@ -2,6 +2,7 @@
 
 use super::instant::{Group, Instant, Outputs};
 use super::program::Affine;
+use crate::ids::ContactId;
 use crate::influence::ContactFriction;
 use crate::model::PreloadLine;
 use crate::modes::Side;
@@ -161,22 +162,40 @@ impl<'s> System<'s> {
                 self.share[k] = Some(share);
                 // (share F_0^+ W^+ + (1 - share) F_0^- W^-) s
                 let [plus, minus] = self.preload(k).map(|preload| preload * sign);
-                [Expression::unknown(share, plus), Expression::unknown(share, -minus).shifted(minus)]
-            }
-            (JointPhase::Sticking, ContactPhase::Pressed(side)) => self.held(k, side),
-            (JointPhase::Sticking, ContactPhase::PreloadGap) => {
-                let preload = self.preload(k);
-                let mut faces = [Expression::default(), Expression::default()];
-                for face in [0, 1] {
-                    if preload[face] > 0.0 {
-                        let unknown = self.new_unknown();
-                        self.sticking[k][face] = Some(unknown);
-                        faces[face] = Expression::unknown(unknown, 1.0);
+                let faces =
+                    [Expression::unknown(share, plus), Expression::unknown(share, -minus).shifted(minus)];
+                match self.instant.contact(k).preload_line {
+                    PreloadLine::Pressed => faces,
+                    PreloadLine::Centre => {
+                        let [plus, minus] = &faces;
+                        let half = Expression::default().plus(0.5, plus).plus(0.5, minus);
+                        [half.clone(), half]
                     }
                 }
-                faces
+            }
+            (JointPhase::Sticking, ContactPhase::Pressed(side)) => self.held(k, side),
+            (JointPhase::Sticking, ContactPhase::PreloadGap) => self.held_in_gap(k),
+        }
+    }
+
+    /// The unknown friction of a contact that sticks in its preload gap: at both faces, or in the middle between them where
+    /// it is the same there.
+    fn held_in_gap(&mut self, k: usize) -> [Expression; 2] {
+        let mut faces = [Expression::default(), Expression::default()];
+        if !self.instant.mechanism.preload_changes_face(ContactId(k)) {
+            let unknown = self.new_unknown();
+            self.sticking[k][2] = Some(unknown);
+            return faces.map(|both| both.plus(0.5, &Expression::unknown(unknown, 1.0)));
+        }
+        let preload = self.preload(k);
+        for face in [0, 1] {
+            if preload[face] > 0.0 {
+                let unknown = self.new_unknown();
+                self.sticking[k][face] = Some(unknown);
+                faces[face] = Expression::unknown(unknown, 1.0);
             }
         }
+        faces
     }
 
     /// F_k = (mu_k |N_k| + F_k0) s_k, eq. (2).
@@ -353,8 +372,11 @@ impl<'s> System<'s> {
                 signs.into_iter().map(corner).collect()
             }
             (ContactPhase::PreloadGap, faces) => {
-                let found = (0..2).filter_map(|face| faces[face].map(|unknown| (unknown, preload[face])));
+                // In the middle between the faces share F_0^+ + (1 - share) F_0^- is at most the greater of both.
+                let limits = [preload[0], preload[1], preload[0].max(preload[1])];
+                let found = faces.into_iter().zip(limits);
                 found
+                    .filter_map(|(unknown, limit)| Some((unknown?, limit)))
                     .flat_map(|(unknown, limit)| both(unknown, &Expression::default().shifted(limit)))
                     .collect()
             }

@@ -1,0 +1,177 @@
+//! Second derivatives of the joint equations at given poses, and bounds of the third ones anywhere.
+//!
+//! Only rotations bend the equations. Two terms occur, in lengths divided by the size of the mechanism; `a` is the
+//! axis of the equation, `w` an arm that turns with a body, `m` what lies between the origin of a body and that of the
+//! guide or a fixed point, `n = rot90(a)`, and dots are changes along a vector of (x, y, angle) of every body:
+//!
+//! ```text
+//! a . w     turned by psi, an angle of a body against the axis:   D2 = -(a . w) psi'^2
+//!                                                                 |D3| <= |w| |psi'|^3
+//! a . m     the axis turned by phi, m linear in the positions:    D2 = 2 (n . m') phi' - (a . m) phi'^2
+//!                                                                 |D3| <= 3 |m'| phi'^2 + |m| |phi'|^3
+//! ```
+
+use crate::ids::{BodyId, Frame};
+use crate::mechanism::rot90;
+use nalgebra::{DMatrix, DVector, Vector2};
+
+/// An arm that turns against the axis of its equation.
+#[derive(Debug, Clone, Copy)]
+struct Turn {
+    row: usize,
+    body: usize,
+    /// The body with which the axis turns.
+    against: Option<usize>,
+    /// a . w, with the sign of the term.
+    value: f64,
+    /// |w|
+    length: f64,
+}
+
+/// A distance along an axis that turns with a guide.
+#[derive(Debug, Clone, Copy)]
+struct Swing {
+    row: usize,
+    guide: usize,
+    /// The body at the other end of m; none if that is fixed.
+    block: Option<usize>,
+    normal: Vector2<f64>,
+    /// a . m
+    value: f64,
+    /// |m|
+    length: f64,
+}
+
+/// An end of a distance: what it is on, and its arm from the centre of mass of that body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct End {
+    pub(super) frame: Frame,
+    pub(super) arm: Vector2<f64>,
+}
+
+/// How the joint equations bend.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Curvature {
+    turns: Vec<Turn>,
+    swings: Vec<Swing>,
+}
+
+impl Curvature {
+    /// Adds the distance of two ends along a fixed axis as the equation `row`.
+    pub(super) fn along_fixed_axis(&mut self, row: usize, ends: [End; 2], axis: Vector2<f64>) {
+        for (end, sign) in ends.iter().zip([1.0, -1.0]) {
+            if let Some(body) = end.frame.body() {
+                let (value, length) = (sign * axis.dot(&end.arm), end.arm.norm());
+                self.turns.push(Turn { row, body: body.index(), against: None, value, length });
+            }
+        }
+    }
+
+    /// Adds the distance of an end along an axis that turns with a guide as the equation `row`; `between` leads from the
+    /// origin of the guide to that of the end's body, or to the fixed end itself.
+    pub(super) fn along_guide(
+        &mut self,
+        row: usize,
+        end: End,
+        guide: usize,
+        (axis, between): (Vector2<f64>, Vector2<f64>),
+    ) {
+        let block = end.frame.body().map(BodyId::index);
+        if let Some(body) = block {
+            let (value, length) = (axis.dot(&end.arm), end.arm.norm());
+            self.turns.push(Turn { row, body, against: Some(guide), value, length });
+        }
+        let (value, length) = (axis.dot(&between), between.norm());
+        self.swings.push(Swing { row, guide, block, normal: rot90(axis), value, length });
+    }
+
+    /// The change of the Jacobian along a vector: the matrix of D2 F[along, .].
+    pub(super) fn along(&self, along: &DVector<f64>) -> DMatrix<f64> {
+        let size = along.len();
+        let mut change = DMatrix::zeros(size, size);
+        for turn in &self.turns {
+            let (own, other) = turn.angles();
+            let entry = -turn.value * (along[own] - other.map_or(0.0, |other| along[other]));
+            change[(turn.row, own)] += entry;
+            if let Some(other) = other {
+                change[(turn.row, other)] -= entry;
+            }
+        }
+        for swing in &self.swings {
+            let angle = 3 * swing.guide + 2;
+            let mut moved = -Vector2::new(along[3 * swing.guide], along[3 * swing.guide + 1]);
+            if let Some(block) = swing.block {
+                moved += Vector2::new(along[3 * block], along[3 * block + 1]);
+            }
+            change[(swing.row, angle)] += swing.normal.dot(&moved) - swing.value * along[angle];
+            for axis in 0..2 {
+                let entry = swing.normal[axis] * along[angle];
+                change[(swing.row, 3 * swing.guide + axis)] -= entry;
+                if let Some(block) = swing.block {
+                    change[(swing.row, 3 * block + axis)] += entry;
+                }
+            }
+        }
+        change
+    }
+
+    /// Adds bounds of |D2 F[u, v]| for all |u| <= `one` and |v| <= `other`, row by row.
+    pub(super) fn add_second(&self, one: &DVector<f64>, other: &DVector<f64>, bounds: &mut DVector<f64>) {
+        for turn in &self.turns {
+            bounds[turn.row] += turn.value.abs() * turn.angle(one) * turn.angle(other);
+        }
+        for swing in &self.swings {
+            let [u, v] = [one, other].map(|vector| swing.moved(vector));
+            let across = |moved: Vector2<f64>| swing.normal.abs().dot(&moved);
+            let [phi, psi] = [one, other].map(|vector| vector[3 * swing.guide + 2]);
+            bounds[swing.row] += across(u) * psi + across(v) * phi + swing.value.abs() * phi * psi;
+        }
+    }
+
+    /// Adds `factor` times bounds of |D3 F[u, u, v]| for all |u| <= `one` and |v| <= `other`, row by row, wherever the
+    /// bodies have moved by up to `one` from here.
+    pub(super) fn add_third(
+        &self,
+        factor: f64,
+        one: &DVector<f64>,
+        other: &DVector<f64>,
+        bounds: &mut DVector<f64>,
+    ) {
+        for turn in &self.turns {
+            bounds[turn.row] += factor * turn.length * turn.angle(one).powi(2) * turn.angle(other);
+        }
+        for swing in &self.swings {
+            let [u, v] = [one, other].map(|vector| swing.moved(vector).norm());
+            let [phi, psi] = [one, other].map(|vector| vector[3 * swing.guide + 2]);
+            bounds[swing.row] +=
+                factor * (2.0 * u * phi * psi + v * phi * phi + (swing.length + u) * phi * phi * psi);
+        }
+    }
+
+    /// The greatest length of a term.
+    pub(super) fn greatest_length(&self) -> f64 {
+        let turns = self.turns.iter().map(|turn| turn.length);
+        turns.chain(self.swings.iter().map(|swing| swing.length)).fold(0.0, f64::max)
+    }
+}
+
+impl Turn {
+    /// The places of both angles in a vector of (x, y, angle) of every body.
+    fn angles(&self) -> (usize, Option<usize>) {
+        (3 * self.body + 2, self.against.map(|against| 3 * against + 2))
+    }
+
+    /// The greatest relative rotation.
+    fn angle(&self, greatest: &DVector<f64>) -> f64 {
+        let (own, other) = self.angles();
+        greatest[own] + other.map_or(0.0, |other| greatest[other])
+    }
+}
+
+impl Swing {
+    /// The greatest change of both components of m.
+    fn moved(&self, greatest: &DVector<f64>) -> Vector2<f64> {
+        let of = |body: usize| Vector2::new(greatest[3 * body], greatest[3 * body + 1]);
+        of(self.guide) + self.block.map_or(Vector2::zeros(), of)
+    }
+}

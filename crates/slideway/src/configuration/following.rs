@@ -1,0 +1,263 @@
+//! Follows the branch of the drawing from place to place, by steps that are shown to stay on it.
+//!
+//! What a state is near says nothing about its branch, and Newton's method goes wherever it goes. So a step counts only if
+//! [`Anchor`] proves that the way has one continuous solution, and that the state at its end is that one; else it is halved.
+//! Before a fold or a dead centre steps shrink in proportion to the distance from it, so that it is approached to within
+//! rounding in some hundred steps, and never passed.
+
+use super::Pose;
+use super::anchor::Anchor;
+use super::joint_equations::JointEquations;
+use super::mobility::advance;
+use crate::mechanism::Mechanism;
+use nalgebra::{DMatrix, DVector, Dyn, LU};
+
+/// Steps after which a place counts as too far away.
+const MOST_STEPS: usize = 5000;
+/// The way that is tried first (sizes of the mechanism, or rad).
+const FIRST_WAY: f64 = 0.1;
+/// Newton steps after which a state counts as not found; quadratic convergence needs far fewer.
+const NEWTON_STEPS: usize = 25;
+/// A residual (sizes of the mechanism, or rad) that one more Newton step brings to rounding, in a regular state.
+const CLOSED: f64 = 1e-12;
+/// The joint equations are certainly regular if no pivot is below this multiple of the greatest.
+const REGULAR: f64 = 1e-3;
+
+/// A straight way of the coordinates, or the way of residuals to zero.
+#[derive(Debug, Clone)]
+pub(super) struct Leg {
+    /// Values of the coordinates at its beginning.
+    from: Vec<f64>,
+    /// Their change for each unit of the way; the way is counted in sizes of the mechanism or rad.
+    direction: Vec<f64>,
+    /// Residuals that are left open at the beginning, and closed at the place 1.
+    open: Option<DVector<f64>>,
+    /// By how much the values may differ from those of the leg, in the same unit.
+    spread: Vec<f64>,
+}
+
+impl Leg {
+    /// From the drawing as it is to the closed one.
+    pub(super) fn closing(mechanism: &Mechanism, open: DVector<f64>) -> Self {
+        let coordinates = mechanism.coordinates.len();
+        let zeros = vec![0.0; coordinates];
+        Self { from: drawn(mechanism), direction: zeros.clone(), open: Some(open), spread: zeros }
+    }
+
+    /// From the drawing to these values, with what is shown beside it; and the length of the way.
+    pub(super) fn to(mechanism: &Mechanism, values: &[f64], spread: Vec<f64>) -> (Self, f64) {
+        let from = drawn(mechanism);
+        let length = way(mechanism, &from, values);
+        let direction = from.iter().zip(values).map(|(from, to)| (to - from) / length).collect();
+        (Self { from, direction, open: None, spread }, length)
+    }
+
+    /// From the drawing along one coordinate, in both directions.
+    pub(super) fn along(mechanism: &Mechanism, coordinate: usize) -> Self {
+        let from = drawn(mechanism);
+        let mut direction = vec![0.0; from.len()];
+        direction[coordinate] = scale(mechanism, coordinate);
+        Self { spread: vec![0.0; from.len()], from, direction, open: None }
+    }
+
+    /// The values of the coordinates at a place.
+    pub(super) fn values(&self, place: f64) -> Vec<f64> {
+        self.from.iter().zip(&self.direction).map(|(from, change)| from + place * change).collect()
+    }
+
+    /// The place on a leg along one coordinate at which these values are; none if others have left the drawing, too.
+    pub(super) fn place(&self, mechanism: &Mechanism, coordinate: usize, values: &[f64]) -> Option<f64> {
+        let stays = |index: usize| index == coordinate || values[index] == self.from[index];
+        let moved = (values[coordinate] - self.from[coordinate]) / scale(mechanism, coordinate);
+        (0..values.len()).all(stays).then_some(moved)
+    }
+
+    /// Whether values differ from those at the end of this leg by no more than what is shown beside it.
+    pub(super) fn is_beside(&self, mechanism: &Mechanism, end: &[f64], values: &[f64]) -> bool {
+        (0..values.len())
+            .all(|index| (values[index] - end[index]).abs() <= self.spread[index] * scale(mechanism, index))
+    }
+
+    /// F(x; s), from the joint equations with the values of a place.
+    pub(super) fn residual(&self, equations: DVector<f64>, place: f64) -> DVector<f64> {
+        match &self.open {
+            Some(open) => equations - open * (1.0 - place),
+            None => equations,
+        }
+    }
+
+    /// dF/ds
+    pub(super) fn slope(&self, mechanism: &Mechanism) -> DVector<f64> {
+        let mut slope =
+            self.coordinate_rows(mechanism, |index| -self.direction[index] / scale(mechanism, index));
+        if let Some(open) = &self.open {
+            slope += open;
+        }
+        slope
+    }
+
+    /// By how much each equation may differ from that of the leg.
+    pub(super) fn beside(&self, mechanism: &Mechanism) -> DVector<f64> {
+        self.coordinate_rows(mechanism, |index| self.spread[index])
+    }
+
+    fn coordinate_rows(&self, mechanism: &Mechanism, entry: impl Fn(usize) -> f64) -> DVector<f64> {
+        let rows = 3 * mechanism.bodies.len();
+        let first = rows - self.from.len();
+        DVector::from_fn(rows, |row, _| if row < first { 0.0 } else { entry(row - first) })
+    }
+}
+
+/// Positions that satisfy the joints and the wanted coordinates to rounding.
+#[derive(Debug, Clone)]
+pub(super) struct Settled {
+    pub(super) poses: Vec<Pose>,
+    /// Factors of the Jacobian there.
+    pub(super) factors: LU<f64, Dyn, Dyn>,
+}
+
+/// The end of a leg, or of a part of it.
+#[derive(Debug, Clone)]
+pub(super) struct Arrival {
+    pub(super) settled: Settled,
+    pub(super) steps: usize,
+    /// The beginning of the last step, and how far its proof reaches.
+    anchor: Anchor,
+    reach: f64,
+    tube: DVector<f64>,
+}
+
+impl Arrival {
+    /// The positions on the tangent at a place, if the last step is shown as far as there.
+    pub(super) fn predicted(&self, mechanism: &Mechanism, place: f64) -> Option<Vec<Pose>> {
+        let way = place - self.anchor.place;
+        (way.abs() <= self.reach).then(|| self.anchor.predicted(mechanism, way))
+    }
+
+    /// Whether positions that satisfy the equations at a place are those of the branch.
+    pub(super) fn holds(&self, place: f64, poses: &[Pose]) -> bool {
+        self.anchor.holds(place - self.anchor.place, &self.tube, poses)
+    }
+}
+
+/// Where a leg could not be followed any further.
+#[derive(Debug, Clone)]
+pub(super) struct Halt {
+    pub(super) place: f64,
+    /// The place that was wanted.
+    pub(super) end: f64,
+    pub(super) poses: Vec<Pose>,
+    pub(super) steps: usize,
+}
+
+impl Halt {
+    /// Whether the number of steps is the reason; else the joint equations are singular there within rounding.
+    pub(super) fn is_effort(&self) -> bool {
+        self.steps >= MOST_STEPS
+    }
+}
+
+/// Follows a leg from a place with known positions to another one with these values of the coordinates.
+pub(super) fn follow(
+    mechanism: &Mechanism,
+    leg: &Leg,
+    (mut place, mut poses): (f64, Vec<Pose>),
+    (end, values): (f64, &[f64]),
+) -> Result<Arrival, Halt> {
+    let mut guess = FIRST_WAY;
+    for steps in 1..=MOST_STEPS {
+        let rest = end - place;
+        let halt = |poses: Vec<Pose>| Halt { place, end, poses, steps: steps - 1 };
+        let Some(anchor) = Anchor::new(mechanism, leg, place, poses.clone()) else { return Err(halt(poses)) };
+        let longest = rest.abs().max(1.0);
+        let Some((mut reach, mut tube)) = anchor.reach(guess, longest) else { return Err(halt(poses)) };
+        guess = reach;
+        let (next, settled) = loop {
+            let arrives = rest.abs() <= reach;
+            let next = if arrives { end } else { place + reach.copysign(rest) };
+            let between;
+            let wanted = if arrives {
+                values
+            } else {
+                between = leg.values(next);
+                &between
+            };
+            let way = next - place;
+            let predicted = anchor.predicted(mechanism, way);
+            let settled = settle(mechanism, leg, (next, wanted), predicted);
+            if let Some(settled) = settled.filter(|settled| anchor.holds(way, &tube, &settled.poses)) {
+                break (next, settled);
+            }
+            // Newton's method has not come to the solution that is there.
+            reach /= 2.0;
+            match anchor.tube(reach) {
+                Some(narrower) if place + reach.copysign(rest) != place => tube = narrower,
+                _ => return Err(halt(poses)),
+            }
+        };
+        if next == end {
+            return Ok(Arrival { settled, steps, anchor, reach, tube });
+        }
+        if next == place {
+            return Err(halt(poses));
+        }
+        (place, poses) = (next, settled.poses);
+    }
+    Err(Halt { place, end, poses, steps: MOST_STEPS })
+}
+
+/// Newton's method, from positions nearby.
+pub(super) fn settle(
+    mechanism: &Mechanism,
+    leg: &Leg,
+    (place, values): (f64, &[f64]),
+    mut poses: Vec<Pose>,
+) -> Option<Settled> {
+    let mut last = f64::INFINITY;
+    for _ in 0..NEWTON_STEPS {
+        let equations = JointEquations::with_coordinates(mechanism, &poses, values);
+        let residual = leg.residual(equations.residual, place);
+        let size = residual.amax();
+        let (factors, regular) = factored(equations.jacobian);
+        // As small as rounding lets it be.
+        if size == 0.0 || (size < CLOSED && size > last / 2.0) {
+            return Some(Settled { poses, factors });
+        }
+        let step = factors.solve(&-residual)?;
+        if !step.iter().all(|part| part.abs() < 1.0) {
+            return None;
+        }
+        advance(mechanism, &mut poses, &step);
+        // This last step has brought the residual to rounding, and has changed the matrix by no more than that.
+        if size < CLOSED && regular {
+            return Some(Settled { poses, factors });
+        }
+        last = size;
+    }
+    None
+}
+
+/// Factors of a Jacobian, and whether it is certainly regular.
+fn factored(jacobian: DMatrix<f64>) -> (LU<f64, Dyn, Dyn>, bool) {
+    let factors = jacobian.lu();
+    let pivots = factors.lu_internal().diagonal();
+    let sizes = pivots.iter().map(|pivot| pivot.abs());
+    let (least, greatest) =
+        sizes.fold((f64::INFINITY, 0.0_f64), |(least, greatest), size| (least.min(size), greatest.max(size)));
+    (factors, least > REGULAR * greatest)
+}
+
+/// Values of the coordinates in the drawing.
+pub(super) fn drawn(mechanism: &Mechanism) -> Vec<f64> {
+    mechanism.coordinates.iter().map(|coordinate| coordinate.drawn_at).collect()
+}
+
+/// The unit in which changes of a coordinate are counted: the size of the mechanism, or rad.
+pub(super) fn scale(mechanism: &Mechanism, coordinate: usize) -> f64 {
+    if mechanism.coordinates[coordinate].kind.is_angle() { 1.0 } else { mechanism.size }
+}
+
+/// The greatest change of a coordinate, in sizes of the mechanism or rad.
+fn way(mechanism: &Mechanism, from: &[f64], to: &[f64]) -> f64 {
+    (0..to.len()).map(|index| (to[index] - from[index]).abs() / scale(mechanism, index)).fold(0.0, f64::max)
+}
