@@ -1,7 +1,7 @@
 //! Mechanisms that stand still: only their loads change.
 
 use super::BOUNDARY;
-use super::assessment::best_sides;
+use super::assessment::assess;
 use super::instant::Instant;
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
@@ -41,7 +41,7 @@ impl<'m> Holding<'m> {
     pub(crate) fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
         self.instant.change_loads(configuration)?;
         let question = self.instant.question(&self.stopped);
-        let found = best_sides(&self.instant, &question, &self.phase, (BOUNDARY, ENOUGH)).ok().flatten();
+        let found = assess(&self.instant, &question, &self.phase, (BOUNDARY, ENOUGH)).ok().flatten();
         Ok(found.map_or(NONE, |assessment| {
             self.phase = assessment.phase;
             assessment.margin
