@@ -262,6 +262,8 @@ pub enum FaultKind {
     TableOfTime,
     #[error("{what} is not a finite number")]
     NotFinite { what: String },
+    #[error("the loads or drives grow beyond all bounds")]
+    LoadsWithoutBounds,
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
     StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
     #[error("the points `{first}` and `{second}` coincide: they give no direction")]

@@ -105,7 +105,7 @@ impl Told {
 
 fn outcome(end: &End) -> Outcome {
     match end {
-        End::NoContinuation | End::Jammed | End::ReactionLimit(_) => Outcome::NoSolution,
+        End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_) => Outcome::NoSolution,
         End::NoValue(_) | End::NoSuchBranch { .. } => Outcome::Refused,
         End::Accumulation | End::StepLimit | End::EventLimit | End::Undecided(_) | End::Interrupted => {
             Outcome::Unknown

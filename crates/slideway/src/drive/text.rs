@@ -3,6 +3,7 @@
 use super::report::{
     BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
 };
+use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
@@ -168,8 +169,8 @@ impl Page<'_, DriveReport> {
                     course.vary.unit
                 ));
             }
-            for [from, to] in direction.without_mode_problem.iter().map(|gap| gap.map(precise)) {
-                self.line(&format!("  From {from} to {to} the mechanism cannot be assembled or solved."));
+            for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
+                self.line(&no_answer([*from, *to], reason));
             }
         }
         self.line("");

@@ -35,6 +35,7 @@
 //! ```
 
 mod decimal;
+mod degree;
 mod dimension;
 mod evaluate;
 mod fault;
@@ -49,6 +50,7 @@ mod relation;
 mod table;
 mod unit;
 
+pub use degree::Degree;
 pub use dimension::{Dimension, Inferred};
 pub use evaluate::Values;
 pub use fault::{ExpressionFault, ExpressionFaultKind};

@@ -101,6 +101,21 @@ impl Expression {
         })
     }
 
+    /// The expression with the opposite sign.
+    ///
+    /// ```
+    /// use slideway::expression::{Names, Values, parse};
+    ///
+    /// let values = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
+    /// assert_eq!(parse("2 - 5", &Names::new()).unwrap().negated().evaluate(&values), Ok(3.0));
+    /// ```
+    #[must_use]
+    pub fn negated(mut self) -> Self {
+        let span = self.steps.last().map_or(0..0, |step| step.span.clone());
+        self.push(Operation::Unary(Unary::Negate), span);
+        self
+    }
+
     pub(super) fn steps(&self) -> &[Step] {
         &self.steps
     }

@@ -17,7 +17,7 @@ use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
-const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+pub(crate) const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// A mechanism in its reference drawing: its numbers are rounded (`T` is `f64`), or lie within intervals.
 #[derive(Debug, Clone)]

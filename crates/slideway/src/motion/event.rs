@@ -108,6 +108,14 @@ impl Cause {
         }
     }
 
+    /// The contact whose normal force, or whose preload gap, has come to its end.
+    pub(super) fn vanishing_contact(&self) -> Option<ContactId> {
+        match self {
+            Self::NormalForceZero(contact) | Self::PreloadGapEnds(contact, _) => Some(*contact),
+            _ => None,
+        }
+    }
+
     /// Whether the phase cannot simply go on.
     pub(super) fn ends_phase(&self) -> bool {
         !matches!(self, Self::User(..))

@@ -11,7 +11,7 @@ use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
-use crate::fault::Faults;
+use crate::fault::{Fault, FaultKind, Faults};
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -145,6 +145,14 @@ impl<'o, 'm> Smooth<'o, 'm> {
             self.next = self.first_step();
         }
         Ok(())
+    }
+
+    /// The contacts whose normal forces are beyond the limit where the phase begins.
+    pub(super) fn exceeded_reactions(&self) -> Vec<Cause> {
+        let values = self.watch.list.iter().zip(&self.values[0]);
+        let exceeded =
+            values.filter(|(watched, value)| matches!(watched, Watched::ReactionLimit(_)) && **value <= 0.0);
+        exceeded.filter_map(|(watched, _)| Cause::of(*watched, &self.equations.sliders, |_| String::new())).collect()
     }
 
     /// A step within which neither positions nor velocities change much.
@@ -343,11 +351,20 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 }
                 Ok(error) if step > least => self.next = step * self.control.rejected(error),
                 Err(_) if step > least => self.next = step * self.control.rejected(f64::INFINITY),
-                Ok(_) => return Err(Failure::Singular),
+                Ok(_) => return Err(self.without_bounds(phase)),
                 Err(failure) => return Err(failure),
             }
             history.statistics.rejected += 1;
         }
+    }
+
+    /// Why no step is short enough: the mode locks, or the loads grow beyond all bounds.
+    fn without_bounds(&self, phase: &Phase) -> Failure {
+        let determinant = self.watch.value(Watched::Determinant, phase, &self.equations);
+        if determinant.is_ok_and(|determinant| determinant > 0.0) {
+            return Failure::Loads(Fault::general(FaultKind::LoadsWithoutBounds).into());
+        }
+        Failure::Singular
     }
 
     fn try_step(
@@ -545,6 +562,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
             return after <= 0.0 && before > USER_ZERO * after.abs();
         }
         let tolerance = self.watch.tolerance(self.watch.list[fall.index], &self.equations);
+        if self.watch.list[fall.index] == Watched::Sticking {
+            // What just reaches the limit sticks.
+            return after < -tolerance && after < before;
+        }
         if before > tolerance { after <= 0.0 } else { after < -tolerance && after < before }
     }
 

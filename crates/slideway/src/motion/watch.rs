@@ -15,6 +15,8 @@ use crate::modes::Side;
 const FORCE_TOLERANCE: f64 = 1e-9;
 /// Velocities, likewise.
 const VELOCITY_TOLERANCE: f64 = 1e-10;
+/// Margins of sticking closer to zero than this are rounding: linear programs miss their optimum by it.
+const MARGIN_TOLERANCE: f64 = 1e-10;
 /// Lengths below this multiple of the size are rounding.
 const LENGTH_TOLERANCE: f64 = 1e-12;
 /// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as locked.
@@ -233,7 +235,8 @@ impl<'o> Watch<'o> {
             Watched::Share(..) => FORCE_TOLERANCE,
             Watched::Velocity(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity,
             Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * equations.mechanism.size,
-            Watched::Sticking | Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
+            Watched::Sticking => MARGIN_TOLERANCE,
+            Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
     }
 }

@@ -190,16 +190,23 @@ impl Text<'_> {
             return;
         };
         let mut parts = Vec::new();
+        // Solutions may come back where friction is greater still.
+        let beyond = |factor: f64| match margins.solutions_again {
+            None => format!("beyond {} times", number(factor)),
+            Some(again) => {
+                format!("just beyond {} times, but again from {} times on", number(factor), number(again))
+            }
+        };
         match (margins.no_solution, margins.another_count) {
             _ if self.report.status == Status::None => {}
             (Some(jams), Some(changes)) if jams == changes => {
-                parts.push(format!("there is no solution beyond {} times", number(jams)));
+                parts.push(format!("there is no solution {}", beyond(jams)));
             }
             (jams, changes) => {
                 let text =
                     |factor: f64| format!("another number of solutions beyond {} times", number(factor));
                 parts.extend(changes.map(text));
-                parts.extend(jams.map(|factor| format!("none beyond {} times", number(factor))));
+                parts.extend(jams.map(|factor| format!("none {}", beyond(factor))));
             }
         }
         if parts.is_empty() && self.report.status != Status::None {

@@ -1,7 +1,7 @@
 //! Mechanisms that stand still: only their loads change.
 
 use super::BOUNDARY;
-use super::assessment::{assess_sides, best_sides};
+use super::assessment::assess;
 use super::instant::Instant;
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
@@ -117,12 +117,11 @@ impl<'m> Holding<'m> {
     /// The margin with the loads that are set, with the sides of the last margin alone or with those that leave most.
     fn margin_of(&mut self, configuration: &Configuration, same_sides: bool) -> Result<f64, Faults> {
         self.instant.change_loads(&self.loaded, configuration)?;
-        let question = self.instant.question(&self.stopped);
+        let mut question = self.instant.question(&self.stopped);
         if same_sides {
-            let found = assess_sides(&self.instant, &question, self.phase.clone()).ok().flatten();
-            return Ok(found.map_or(NONE, |assessment| assessment.margin));
+            question.sides = self.phase.contacts.iter().map(|contact| vec![*contact]).collect();
         }
-        let found = best_sides(&self.instant, &question, &self.phase, (BOUNDARY, ENOUGH)).ok().flatten();
+        let found = assess(&self.instant, &question, &self.phase, (BOUNDARY, ENOUGH)).ok().flatten();
         Ok(found.map_or(NONE, |assessment| {
             self.phase = assessment.phase;
             assessment.margin
