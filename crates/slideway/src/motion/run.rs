@@ -87,6 +87,8 @@ impl<'a, 'm> Run<'a, 'm> {
         loop {
             let Some(phase) = self.phase.clone() else { return End::NoContinuation };
             let causes = match self.phase(&phase, progress, total) {
+                // A load has a kink.
+                Ended::Event(causes) if causes.is_empty() => continue,
                 Ended::Event(causes) => causes,
                 Ended::End(end) => return end,
             };

@@ -200,5 +200,6 @@ fn advanced(from: &Configuration, start: &Accelerations, end: &Accelerations, st
         rates: from.rates.iter().zip(both).map(|(qd, (a, b))| qd + gain(*a, *b)).collect(),
         time: from.time + step,
         steps: from.steps,
+        pieces: from.pieces.clone(),
     }
 }
