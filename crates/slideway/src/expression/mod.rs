@@ -46,6 +46,7 @@ mod literal;
 mod names;
 mod parser;
 mod program;
+mod relation;
 mod table;
 mod unit;
 
@@ -57,4 +58,5 @@ pub(crate) use names::nearest as nearest_names;
 pub use names::{Names, Symbol, is_reserved, is_valid_name};
 pub use parser::{MAX_DEPTH, MAX_LENGTH, parse};
 pub use program::Expression;
+pub(crate) use relation::{End, Piece, RelationKind};
 pub use table::{Beyond, Entry, Table};

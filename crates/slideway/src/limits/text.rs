@@ -15,7 +15,7 @@ pub fn to_text(report: &LimitsReport, style: Style) -> String {
         let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
         text.direction(", moving the other way", parts);
     }
-    text.out
+    text.text()
 }
 
 impl Page<'_, LimitsReport> {
@@ -42,15 +42,11 @@ impl Page<'_, LimitsReport> {
         self.line("");
         self.headline(&format!("Contact modes{which}"));
         let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
-        self.out.push_str(&table(
-            &["signs", "from", "to", "begins with", "ends with", "contact mode"],
-            &rows,
-            1,
-        ));
+        self.lines(&table(&["signs", "from", "to", "begins with", "ends with", "contact mode"], &rows, 1));
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
         let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
-        self.out.push_str(&table(&["from", "to", "solutions", "preload gaps", "known"], &rows, 0));
+        self.lines(&table(&["from", "to", "solutions", "preload gaps", "known"], &rows, 0));
         for RangeWithoutProblem { from, to, reason } in gaps {
             self.line(&no_answer([*from, *to], reason));
         }

@@ -21,7 +21,7 @@ pub fn to_text(report: &RawReport, style: Style) -> String {
     text.solutions("Preload gap", &report.gap_state_count, &report.gap_states);
     text.continua();
     text.strategy();
-    text.out
+    text.text()
 }
 
 type Text<'r> = Page<'r, RawReport>;
@@ -62,7 +62,7 @@ impl Text<'_> {
             }
             Status::One | Status::Several => format!("{single}."),
         };
-        self.line(&self.style.verdict(report.status, &verdict));
+        self.status(report.status, &verdict);
         if report.status == Status::Continuum {
             self.line(&format!("{single} by a regular pattern; ends of continua may be among such."));
         }
@@ -75,14 +75,13 @@ impl Text<'_> {
     fn solutions(&mut self, title: &str, all: &str, solutions: &[RawSolution]) {
         for (at, solution) in solutions.iter().enumerate() {
             self.line("");
-            let title = self.style.heading(&format!("{title} {} of {all}", at + 1));
             let signs = if solution.signs.len() > SIGNS { String::new() } else { signs(solution) };
-            self.line(format!("{title}   {signs}").trim_end());
+            self.headed(&format!("{title} {} of {all}", at + 1), format!("   {signs}").trim_end());
             self.boundary(solution);
             if let Some(continuum) = solution.end_of_continuum {
                 self.line(&format!("  An end of continuum {}", continuum + 1));
             }
-            self.out.push_str(&rows(self.report.kind, solution));
+            self.lines(&rows(self.report.kind, solution));
             for gap in &solution.gaps {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
                 self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
@@ -140,7 +139,7 @@ impl Text<'_> {
                     count(rays, "direction", "directions")
                 ),
             };
-            self.line(&format!("{}   {shape}", self.style.heading(&title)));
+            self.headed(&title, &format!("   {shape}"));
             let columns: Vec<&Unknowns> = continuum.vertices.iter().chain(&continuum.directions).collect();
             for (at, chunk) in columns.chunks(4).enumerate() {
                 let label = |offset: usize| {
@@ -152,7 +151,7 @@ impl Text<'_> {
                     }
                 };
                 let labels: Vec<String> = (0..chunk.len()).map(label).collect();
-                self.out.push_str(&labelled_rows(report.kind, chunk, &labels, &[]));
+                self.lines(&labelled_rows(report.kind, chunk, &labels, &[]));
             }
             if !continuum.all_vertices {
                 self.line("  There are more ends.");

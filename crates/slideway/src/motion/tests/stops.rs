@@ -130,7 +130,7 @@ at = \"block.H\"
 components = [\"8 N/s * t\", 0]
 ";
         let history = simulate(&Model::parse(&(text + force)).unwrap(), &SimulateOptions::new(1.0)).unwrap();
-        assert_eq!(history.end, End::Jammed);
+        assert!(matches!(history.end, End::Tips(_)), "{:?}", history.end);
         assert!((history.stop() - 0.5).abs() < 1e-9, "{}", history.stop());
         let last = history.events.last().unwrap();
         assert!(matches!(last.causes[..], [Cause::Tips(_)]), "{:?}", last.causes);
