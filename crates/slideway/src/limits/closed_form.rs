@@ -8,10 +8,10 @@ use super::find::{Elsewhere, Found, Gap, Knowledge, Method};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
-use crate::progress::Work;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, TooManyModes, counts,
 };
+use crate::progress::Work;
 
 /// Values at which it is tried whether the model allows them.
 const TRIED: usize = 64;

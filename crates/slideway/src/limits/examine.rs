@@ -47,12 +47,7 @@ struct Cell {
 }
 
 impl<'v> Examiner<'v> {
-    pub(super) fn new(
-        varied: &'v Varied,
-        options: &ExistenceOptions,
-        effort: u64,
-        work: Work<'v>,
-    ) -> Self {
+    pub(super) fn new(varied: &'v Varied, options: &ExistenceOptions, effort: u64, work: Work<'v>) -> Self {
         let search = SearchOptions { nodes: GREATEST_NODES, ..SearchOptions::default() };
         let solve = SolveOptions { search, margins: false, ..SolveOptions::default() };
         Self { varied, options: *options, solve, effort, left: effort, work }

@@ -50,13 +50,13 @@ fn knowledge(found: &Found) -> Option<String> {
     if is_proven {
         parts.push("the numbers of solutions are proven where that is said".to_owned());
     }
-    let where_ = if is_proven { "elsewhere" } else { "everywhere" };
+    let they = if is_proven { "elsewhere they" } else { "the numbers of solutions" };
     if is_any(Elsewhere::ClosedForm) {
-        parts.push(format!("{where_} they rest on zeros of determinants in rounded numbers"));
+        parts.push(format!("{they} follow from these zeros, which are computed in rounded numbers"));
     }
     if spacing > 0.0 {
         parts.push(format!(
-            "{where_} they were found at values up to {} apart: a mode that comes and goes between two of them may be missed",
+            "{they} were found at values up to {} apart: a mode that comes and goes between two of them may be missed",
             precise(spacing)
         ));
     }

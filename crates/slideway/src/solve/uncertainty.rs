@@ -227,7 +227,9 @@ pub(crate) fn certain_counts(
             Tipping::Never => {}
             Tipping::Open => return None,
             // Without normal force it may rest in its preload gap instead.
-            Tipping::Always if enclosed.couples.iter().any(|couple| unknowns[couple.contact].contains(0.0)) => {
+            Tipping::Always
+                if enclosed.couples.iter().any(|couple| unknowns[couple.contact].contains(0.0)) =>
+            {
                 return None;
             }
             Tipping::Always => continue,
