@@ -95,8 +95,8 @@ Examples:
   slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
   slideway modes problem.json                   all solutions of an LCP or the like
 
-Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input, 3 undecided or out of time,
-130 interrupted.";
+Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input,
+3 undecided or out of time, 130 interrupted.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
