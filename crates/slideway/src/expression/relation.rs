@@ -61,7 +61,13 @@ impl Operation {
             Self::Unary(Unary::Abs) if piece < 0 => -arguments[0],
             Self::Unary(Unary::Abs) => arguments[0],
             Self::Unary(Unary::Sign) => T::exactly(piece.signum() as f64),
-            Self::Unary(Unary::Step) => if piece < 0 { T::zero() } else { T::one() },
+            Self::Unary(Unary::Step) => {
+                if piece < 0 {
+                    T::zero()
+                } else {
+                    T::one()
+                }
+            }
             Self::Table(table) => table.on_piece(arguments[0], piece),
             _ => arguments[usize::from(piece != 0)],
         }
@@ -70,8 +76,20 @@ impl Operation {
     /// The piece on which numbers are.
     fn piece(&self, arguments: &[f64]) -> i64 {
         match self {
-            Self::Unary(Unary::Step) => if arguments[0] < 0.0 { -1 } else { 1 },
-            Self::Unary(Unary::Abs) => if arguments[0] < 0.0 { -1 } else { 1 },
+            Self::Unary(Unary::Step) => {
+                if arguments[0] < 0.0 {
+                    -1
+                } else {
+                    1
+                }
+            }
+            Self::Unary(Unary::Abs) => {
+                if arguments[0] < 0.0 {
+                    -1
+                } else {
+                    1
+                }
+            }
             Self::Binary(Binary::Min) => i64::from(arguments[1] < arguments[0]),
             Self::Binary(Binary::Max) => i64::from(arguments[1] > arguments[0]),
             Self::Table(table) => table.piece(arguments[0]),
@@ -177,14 +195,21 @@ impl Expression {
     }
 
     /// The piece of a relation at numbers within these bounds; nothing where that is not certain.
-    pub(crate) fn piece<T: Real>(&self, values: &Values<'_, T>, pieces: &[Piece], relation: usize) -> Option<i64> {
+    pub(crate) fn piece<T: Real>(
+        &self,
+        values: &Values<'_, T>,
+        pieces: &[Piece],
+        relation: usize,
+    ) -> Option<i64> {
         let mut found = None;
         let mut count = 0;
         let value = self.inspect(values, pieces, |operation, arguments| {
             if count == relation {
                 let middle: Vec<f64> = arguments.iter().map(|argument| argument.middle()).collect();
                 let piece = operation.piece(&middle);
-                let inside = |end: End| operation.margin(arguments, piece, end).is_none_or(|margin| margin.lower() > 0.0);
+                let inside = |end: End| {
+                    operation.margin(arguments, piece, end).is_none_or(|margin| margin.lower() > 0.0)
+                };
                 // The piece between both signs has no width.
                 let has_width = !matches!(operation, Operation::Unary(_)) || piece != 0;
                 found = (has_width && End::BOTH.into_iter().all(inside)).then_some(piece);

@@ -100,7 +100,8 @@ impl Table {
     pub(super) fn jumps(&self) -> bool {
         let same = self.rows.windows(2).any(|rows| rows[0][0].value >= rows[1][0].value);
         let ends = self.rows.first().zip(self.rows.last());
-        same || self.period().is_some() && ends.is_some_and(|([_, first], [_, last])| first.value != last.value)
+        same || self.period().is_some()
+            && ends.is_some_and(|([_, first], [_, last])| first.value != last.value)
     }
 
     /// The length of a period, if it is repeated.

@@ -12,8 +12,8 @@ use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind};
 use evaluation::Evaluation;
-pub(crate) use relations::{Pieces, Relation};
 use nalgebra::Vector2;
+pub(crate) use relations::{Pieces, Relation};
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.

@@ -152,7 +152,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let values = self.watch.list.iter().zip(&self.values[0]);
         let exceeded =
             values.filter(|(watched, value)| matches!(watched, Watched::ReactionLimit(_)) && **value <= 0.0);
-        exceeded.filter_map(|(watched, _)| Cause::of(*watched, &self.equations.sliders, |_| String::new())).collect()
+        exceeded
+            .filter_map(|(watched, _)| Cause::of(*watched, &self.equations.sliders, |_| String::new()))
+            .collect()
     }
 
     /// A step within which neither positions nor velocities change much.

@@ -191,7 +191,8 @@ impl<'m> Switching<'m> {
             expression.margin(&values, pieces, (number, end))
         };
         margin(Interval::point(from))?;
-        let Ok(fall) = first_fall::<Infallible>([from, until], |time| Ok(margin(time).unwrap_or(Interval::ZERO)));
+        let Ok(fall) =
+            first_fall::<Infallible>([from, until], |time| Ok(margin(time).unwrap_or(Interval::ZERO)));
         fall
     }
 }

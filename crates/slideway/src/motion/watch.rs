@@ -72,11 +72,9 @@ impl Watched {
             | Self::ReactionLimit(_)
             | Self::Couple(_) => Needs::Forces,
             Self::Sticking => Needs::Standstill,
-            Self::Velocity(..)
-            | Self::Overlap(_)
-            | Self::Travel(..)
-            | Self::User(..)
-            | Self::Relation(_) => Needs::Motion,
+            Self::Velocity(..) | Self::Overlap(_) | Self::Travel(..) | Self::User(..) | Self::Relation(_) => {
+                Needs::Motion
+            }
         }
     }
 }

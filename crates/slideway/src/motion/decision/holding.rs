@@ -67,11 +67,7 @@ impl<'m> Holding<'m> {
     ///
     /// # Errors
     /// Loads without a value.
-    pub(crate) fn slips(
-        &mut self,
-        configuration: &Configuration,
-        until: f64,
-    ) -> Result<Option<f64>, Faults> {
+    pub(crate) fn slips(&mut self, configuration: &Configuration, until: f64) -> Result<Option<f64>, Faults> {
         if self.varying.is_empty() {
             return Ok(None);
         }
