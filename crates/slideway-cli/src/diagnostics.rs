@@ -1,9 +1,14 @@
 //! Faults as a person reads them: the message, the place with the text underlined, and the hint.
+//!
+//! They tell of names and texts from elsewhere. All of them become printable here, before colours come in.
 
 use crate::input::FaultyInput;
-use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{
+    Annotation, AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet, Title,
+};
 use slideway::fault::{Fault, FaultKind, Source};
 use slideway::model::SettingKind;
+use slideway::printable;
 use slideway::raw_problem::{RawFault, RawFaults};
 use std::ops::Range;
 
@@ -20,9 +25,23 @@ pub(crate) struct Note {
 
 /// The message with its hint; coloured, for a stream that strips colours where they are not wanted.
 pub(crate) fn note(note: &Note) -> String {
-    let group = Level::ERROR.primary_title(note.message.as_str());
-    let group = Group::with_title(group).elements(note.hint.as_deref().map(|hint| Level::HELP.message(hint)));
+    let group = Group::with_title(title(&note.message)).elements(note.hint.as_deref().map(help));
     Renderer::styled().render(&[group])
+}
+
+/// What is wrong.
+fn title(message: &str) -> Title<'static> {
+    Level::ERROR.primary_title(printable::line(message).into_owned())
+}
+
+/// What to do about it.
+fn help(hint: &str) -> Message<'static> {
+    Level::HELP.message(printable::line(hint).into_owned())
+}
+
+/// Where it is.
+fn origin(name: &str) -> Origin<'static> {
+    Origin::path(printable::line(name).into_owned())
 }
 
 /// All faults of an input in the order of their places, and how many there are.
@@ -32,11 +51,7 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
     let renderer = Renderer::styled();
     let mut parts: Vec<String> =
         sorted.iter().take(SHOWN).map(|fault| renderer.render(&[texts.group(fault)])).collect();
-    parts.push(
-        renderer.render(&[Group::with_title(
-            Level::ERROR.primary_title(closing_line(&sorted, &texts.model_name)),
-        )]),
-    );
+    parts.push(renderer.render(&[Group::with_title(title(&closing_line(&sorted, &texts.model_name)))]));
     parts.join("\n\n")
 }
 
@@ -44,17 +59,14 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
 pub(crate) fn raw_faults(name: &str, faults: &RawFaults) -> String {
     let renderer = Renderer::styled();
     let part = |fault: &RawFault| {
-        let group = Group::with_title(Level::ERROR.primary_title(fault.to_string()));
-        let hint = fault.hint().map(|hint| Level::HELP.message(hint));
-        renderer.render(&[group.element(Origin::path(name)).elements(hint)])
+        let group = Group::with_title(title(&fault.to_string())).element(origin(name));
+        renderer.render(&[group.elements(fault.hint().as_deref().map(help))])
     };
     let mut parts: Vec<String> = faults.iter().take(SHOWN).map(part).collect();
     let count = faults.iter().len();
     let more = if count > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
     let count = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
-    parts.push(
-        renderer.render(&[Group::with_title(Level::ERROR.primary_title(format!("{count} in {name}{more}")))]),
-    );
+    parts.push(renderer.render(&[Group::with_title(title(&format!("{count} in {name}{more}")))]));
     parts.join("\n\n")
 }
 
@@ -85,8 +97,8 @@ impl Texts {
         }
     }
 
-    fn group<'a>(&'a self, fault: &Fault) -> Group<'a> {
-        let group = Group::with_title(Level::ERROR.primary_title(fault.kind.to_string()));
+    fn group(&self, fault: &Fault) -> Group<'static> {
+        let group = Group::with_title(title(&fault.kind.to_string()));
         let group = match &fault.place {
             Some(place) => {
                 let (path, text, offset) = match place.source {
@@ -97,22 +109,24 @@ impl Texts {
                     }
                 };
                 let span = within(text, &(place.span.start + offset..place.span.end + offset));
-                group.element(snippet(text, span).path(path))
+                group.element(snippet(text, span).path(printable::line(path).into_owned()))
             }
             None if on_command_line(fault) => group,
-            None => group.element(Origin::path(self.model_name.as_str())),
+            None => group.element(origin(&self.model_name)),
         };
-        group.elements(fault.kind.hint().map(|hint| Level::HELP.message(hint)))
+        group.elements(fault.kind.hint().as_deref().map(help))
     }
 }
 
 /// The lines around a span, which is underlined; only these, since a file may be long and have many faults.
-fn snippet(text: &str, span: Range<usize>) -> Snippet<'_, Annotation<'_>> {
+fn snippet(text: &str, span: Range<usize>) -> Snippet<'static, Annotation<'static>> {
     let start = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
     let end = text[span.end..].find('\n').map_or(text.len(), |length| span.end + length);
     let line = text[..start].matches('\n').count() + 1;
-    let underlined = AnnotationKind::Primary.span(span.start - start..span.end - start);
-    Snippet::source(&text[start..end]).line_start(line).annotation(underlined)
+    let [before, within, after] =
+        [&text[start..span.start], &text[span.clone()], &text[span.end..end]].map(printable::lines);
+    let underlined = AnnotationKind::Primary.span(before.len()..before.len() + within.len());
+    Snippet::source(before + &within + &after).line_start(line).annotation(underlined)
 }
 
 /// `span` widened to whole characters of `text`.

@@ -45,6 +45,10 @@ pub(crate) enum Failure {
     FileFormat { path: PathBuf, known: &'static [&'static str] },
     /// An unfinished table is where a new one would be written.
     Unfinished { path: PathBuf },
+    /// Another program writes the unfinished table.
+    InUse { path: PathBuf },
+    /// An unfinished table is not what was written.
+    Damaged { path: PathBuf },
     /// There is no unfinished table.
     NothingToResume { path: PathBuf },
     /// The unfinished table is that of another sweep.
@@ -61,6 +65,8 @@ pub(crate) enum Failure {
     Halted { halt: Halt, path: Option<PathBuf> },
     /// A sweep was ended before it was done; what is done is kept if it goes to a file.
     Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
+    /// A motion was interrupted, and its table so far is kept.
+    MotionInterrupted { path: PathBuf },
     /// The output would take the place of the model.
     OverwritesModel { path: PathBuf },
     /// The output file cannot be written.
@@ -89,6 +95,7 @@ impl Failure {
     pub(crate) fn outcome(&self) -> Outcome {
         match self {
             Self::Halted { halt, .. } | Self::Unswept { halt, .. } => halt.outcome(),
+            Self::MotionInterrupted { .. } => Outcome::Interrupted,
             _ => Outcome::Refused,
         }
     }
@@ -119,8 +126,12 @@ impl Failure {
                 format!("the ending of `{}` names no known format", path.display())
             }
             Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::InUse { path } => format!("another sweep is writing `{}`", path.display()),
+            Self::Damaged { path } => {
+                format!("`{}` was changed since the sweep was interrupted", path.display())
+            }
             Self::NothingToResume { path } => {
-                format!("there is no sweep to go on with: `{}` is missing or damaged", path.display())
+                format!("there is no sweep to go on with: `{}` is missing", path.display())
             }
             Self::AnotherSweep { path, command } => {
                 format!("`{}` belongs to another sweep: `{command}`", path.display())
@@ -146,6 +157,9 @@ impl Failure {
             ),
             Self::Unswept { halt, done, points, path: None } => {
                 format!("{} after {done} of {points} points", halt.in_words())
+            }
+            Self::MotionInterrupted { path } => {
+                format!("interrupted; the table of the motion until then is in `{}`", path.display())
             }
             Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
@@ -205,6 +219,8 @@ impl Failure {
             Self::Unfinished { .. } => {
                 Some("go on with it by --resume, or begin anew with --force".to_owned())
             }
+            Self::InUse { .. } => Some("wait until it ends, or choose another name".to_owned()),
+            Self::Damaged { .. } => Some("begin anew with --force".to_owned()),
             Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
             Self::AnotherSweep { .. } => Some(
                 "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
@@ -218,6 +234,9 @@ impl Failure {
                 Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
             }
             Self::NoStream => Some("name a file with --output, or use --format csv".to_owned()),
+            Self::MotionInterrupted { .. } => {
+                Some("--time-limit ends a motion early with its files under their names".to_owned())
+            }
             Self::Halted { halt: Halt::TimeLimit(_), .. } => Some(
                 "a longer --time-limit, or a question that takes less work, such as a smaller range"
                     .to_owned(),

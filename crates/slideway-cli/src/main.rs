@@ -40,7 +40,7 @@ impl From<Outcome> for ExitCode {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| arguments::explain(&error));
     let color = arguments.color.into();
     threads::bound(color);
     let outcome = run(&arguments.command, &Output::standard(color));

@@ -48,8 +48,14 @@ impl Output {
 
     /// The file it goes to; a link is followed.
     pub(crate) fn path(&self) -> Option<PathBuf> {
-        let file = self.file.as_ref()?;
-        Some(fs::canonicalize(&file.path).unwrap_or_else(|_| file.path.clone()))
+        self.file.as_ref().map(|file| followed(&file.path))
+    }
+
+    /// From now on it goes beside the file, to `FILE.partial`, unless it goes to a device or a pipe; gives that path.
+    pub(crate) fn be_partial(&mut self) -> Option<PathBuf> {
+        let file = self.file.as_mut().filter(|file| !file.path.exists() || is_regular(&file.path))?;
+        *file = OutputFile { path: beside(&followed(&file.path), PARTIAL), overwrite: true };
+        Some(file.path.clone())
     }
 
     /// When to use colours.
@@ -134,7 +140,7 @@ impl OutputFile {
             };
         }
         // A link is followed: its target is replaced, not the link.
-        let target = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let target = followed(&self.path);
         let directory = match target.parent() {
             Some(parent) if parent != Path::new("") => parent,
             _ => Path::new("."),
@@ -158,6 +164,35 @@ impl OutputFile {
             }
             Err(error) => Err(failure(error.error)),
         }
+    }
+}
+
+/// Ending of what is not finished.
+pub(crate) const PARTIAL: &str = ".partial";
+
+/// The path with something behind its name.
+pub(crate) fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+/// The file that is meant by a path, whether it exists or not: the same one however the path is spelt. Links are followed, also
+/// those to what does not exist yet.
+pub(crate) fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // As many links as systems follow at most; those in a circle are left to the system to complain about.
+    for _ in 0..40 {
+        if let Ok(found) = fs::canonicalize(&path) {
+            return found;
+        }
+        let Ok(target) = fs::read_link(&path) else { break };
+        path = path.parent().unwrap_or(Path::new("")).join(target);
+    }
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    match (fs::canonicalize(folder), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path,
     }
 }
 

@@ -79,11 +79,11 @@ pub(crate) fn beside(
     output: &Output,
 ) -> Result<Option<(Picture, Output)>, Failure> {
     let Some(path) = &plot.plot else { return Ok(None) };
-    if answer.output.as_ref() == Some(path) {
+    let destination = answer.beside(path);
+    if answer.file().is_some_and(|file| Some(file) == destination.file()) {
         return Err(Failure::SameOutput { path: path.clone() });
     }
     let picture = Picture::of(path)?;
-    let destination = Destination { output: Some(path.clone()), force: answer.force };
     model.spare(&destination)?;
     Ok(Some((picture, output.to(&destination)?)))
 }

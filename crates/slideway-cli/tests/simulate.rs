@@ -201,6 +201,31 @@ fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
     assert!(std::fs::read_to_string(&file).unwrap().lines().count() > 1);
 }
 
+/// An interruption leaves nothing under the names of files that it would have written, and keeps the table beside.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_motion_keeps_its_table_beside() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = ["simulate", KLEPP, "--until", "1e7 s", "--output"];
+    let file = folder.path().join("motion.csv");
+    let plot = folder.path().join("motion.svg");
+    let mut command = command::command(&words);
+    command.arg(&file).arg("--plot").arg(&plot);
+    command.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
+    let child = command.spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert_tells(&String::from_utf8(output.stdout).unwrap(), &["It was interrupted at ", "In the end: q = "]);
+    assert_tells(&said, &["the table of the motion until then is in", "motion.csv.partial"]);
+    assert!(!file.exists() && !plot.exists());
+    let partial = folder.path().join("motion.csv.partial");
+    assert!(std::fs::read_to_string(partial).unwrap().lines().count() > 1);
+}
+
 #[test]
 fn a_normal_force_beyond_its_limit_ends_the_motion() {
     let run = slideway(&["simulate", KLEPP, "--until", "1s", "--max-reaction", "10"]);

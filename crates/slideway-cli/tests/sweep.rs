@@ -203,6 +203,142 @@ fn what_exists_is_not_overwritten() {
     assert!(nothing.code == 2 && nothing.stderr.contains("no sweep to go on with"), "{}", nothing.stderr);
 }
 
+/// A sweep that has written so many bytes, and takes long enough to be stopped.
+#[cfg(unix)]
+fn underway(
+    folder: &tempfile::TempDir,
+    (name, bytes): (&str, u64),
+    arguments: &[&str],
+) -> std::process::Child {
+    let child = command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let partial = folder.path().join(format!("{name}.partial"));
+    let begun = Instant::now();
+    while fs::metadata(&partial).map_or(0, |file| file.len()) < bytes
+        && begun.elapsed() < Duration::from_mins(1)
+    {
+        sleep(Duration::from_millis(2));
+    }
+    child
+}
+
+#[cfg(unix)]
+fn signal(child: &std::process::Child, signal: &str) {
+    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+}
+
+/// A second writer is refused while the first one works, with and without --force; the first one's table is whole.
+#[cfg(unix)]
+#[test]
+fn two_writers_of_one_table_do_not_meet() {
+    for ending in ENDINGS {
+        let folder = tempfile::tempdir().unwrap();
+        let table = format!("table.{ending}");
+        let (target, name) = path(&folder, &table);
+        // The same table by another name.
+        let (link, link_name) = path(&folder, &format!("link.{ending}"));
+        std::os::unix::fs::symlink(&table, &link).unwrap();
+        let arguments =
+            |name| ["sweep", DRAWER, "--vary", "h=0..0.1:3001", "--no-breakpoints", "--output", name];
+        let mut first = underway(&folder, (&table, 1), &arguments(&name));
+        signal(&first, "-STOP");
+        for (name, more) in
+            [(&name, "--force"), (&name, "--resume"), (&link_name, "--force"), (&name, "--attainability")]
+        {
+            let second = slideway(&[&arguments(name)[..], &[more]].concat());
+            assert_eq!(second.code, 2, "{ending} {more}");
+            assert!(second.stderr.contains("another sweep is writing"), "{more}: {}", second.stderr);
+        }
+        signal(&first, "-CONT");
+        assert!(first.wait().unwrap().success());
+        let whole = fs::read(&target).unwrap();
+        assert_eq!(names(&folder), [format!("link.{ending}"), table]);
+        assert_eq!(slideway(&[&arguments(&name)[..], &["--force"]].concat()).code, 0);
+        assert!(fs::read(&target).unwrap() == whole, "{ending}");
+    }
+}
+
+/// Bytes that were altered in the rows or in the state are noticed, and nothing gets the final name.
+#[cfg(unix)]
+#[test]
+fn an_unfinished_table_that_was_changed_is_not_continued() {
+    for ending in ENDINGS {
+        let folder = tempfile::tempdir().unwrap();
+        let table = format!("table.{ending}");
+        let (target, name) = path(&folder, &table);
+        let arguments = ["sweep", DRAWER, "--vary", "h=0..0.1:100001", "--no-breakpoints", "--output", &name];
+        let mut first = underway(&folder, (&table, 50_000), &arguments);
+        signal(&first, "-INT");
+        assert_eq!(first.wait().unwrap().code(), Some(130));
+        let rows = folder.path().join(format!("{table}.partial"));
+        let state = folder.path().join(format!("{table}.partial.state"));
+        let alterations: [(&Path, fn(&mut Vec<u8>)); 4] = [
+            (&rows, |bytes| *bytes.last_mut().unwrap() ^= 1),
+            (&rows, |bytes| bytes.truncate(bytes.len() - 1)),
+            (&state, |bytes| *bytes.iter_mut().rfind(|byte| byte.is_ascii_digit()).unwrap() ^= 1),
+            (&state, |bytes| bytes.truncate(20)),
+        ];
+        for (file, alter) in alterations {
+            let good = fs::read(file).unwrap();
+            let mut bad = good.clone();
+            alter(&mut bad);
+            fs::write(file, &bad).unwrap();
+            let run = slideway(&[&arguments[..], &["--resume"]].concat());
+            assert!(run.code == 2 && run.stderr.contains("was changed"), "{ending}: {}", run.stderr);
+            assert!(!target.exists());
+            fs::write(file, &good).unwrap();
+        }
+    }
+}
+
+/// A link to what does not exist yet is followed; two spellings of one file are one file.
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_two_outputs_do_not_share_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let link = folder.path().join("link.csv");
+    std::os::unix::fs::symlink("table.csv", &link).unwrap();
+    let name = link.to_str().unwrap();
+    assert_eq!(slideway(&["sweep", DRAWER, "--vary", "mu=0.1,0.2", "--output", name]).code, 0);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert!(fs::read_to_string(folder.path().join("table.csv")).unwrap().contains("point,mu"));
+
+    let model = command::top().join("models/frictional-oscillator.toml");
+    fs::copy(model, folder.path().join("model.toml")).unwrap();
+    std::os::unix::fs::symlink("same.svg", folder.path().join("link.svg")).unwrap();
+    for words in [
+        "simulate model.toml --until 1s --plot same.svg --animate ./same.svg",
+        "simulate model.toml --until 1s --plot same.svg --animate link.svg",
+        "limits model.toml --vary mu --output same.svg --plot ../folder/same.svg",
+    ] {
+        let folder_name = folder.path().file_name().unwrap().to_str().unwrap();
+        let words = words.replace("folder", folder_name);
+        let words: Vec<&str> = words.split(' ').collect();
+        let output = command(&words).current_dir(folder.path()).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && said.contains("two outputs"), "{words:?}: {said}");
+        assert!(!folder.path().join("same.svg").exists());
+    }
+    let words = ["check", "model.toml", "--force", "--output", "./model.toml"];
+    let output = command(&words).current_dir(folder.path()).output().unwrap();
+    assert!(String::from_utf8(output.stderr).unwrap().contains("is the model itself"));
+}
+
+/// A file whose name has an end of line does not break the comments of a table.
+#[cfg(unix)]
+#[test]
+fn a_name_with_an_end_of_line_stays_within_its_comment() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy(command::top().join(DRAWER), folder.path().join("a\n1,2,3.toml")).unwrap();
+    let words = ["sweep", "a\n1,2,3.toml", "--vary", "mu=0.1,0.2", "--output", "table.csv"];
+    assert!(command(&words).current_dir(folder.path()).status().unwrap().success());
+    let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
+    assert!(
+        table.contains(r"# slideway sweep $'a\n1,2,3.toml' --vary mu=0.1,0.2 --output table.csv"),
+        "{table}"
+    );
+    assert_eq!(lines(&table).len(), 3, "{table}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_told() {

@@ -12,18 +12,18 @@ pub mod raster;
 pub mod theme;
 pub mod typeface;
 
-/// Text as it stands in XML, in elements and attributes; characters that XML does not allow are left out.
+/// Text as it stands in XML and HTML, in elements and attributes: characters that are not seen, some of which XML does not
+/// allow, stand as their numbers ([`slideway::printable`]). Ends of lines are blanks.
 pub(crate) fn escaped(text: &str) -> String {
+    let blank = text.replace(['\n', '\r'], " ");
     let mut out = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in slideway::printable::line(&blank).chars() {
         match character {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            '\t' | '\n' | '\r' => out.push(' '),
-            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {}
             other => out.push(other),
         }
     }

@@ -3,15 +3,35 @@
 //! Pictures of vectors name the typefaces of the reader's machine ([`STACK`]). Widths are those of the typeface that is
 //! built in, a wide one, so that what is laid out with it has room in the others.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::sync::LazyLock;
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// The typefaces that pictures of vectors ask for.
 pub const STACK: &str = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif";
 
-static FACE: LazyLock<Option<Face<'static>>> =
-    LazyLock::new(|| Face::parse(include_bytes!("../fonts/DejaVuSans-subset.ttf"), 0).ok());
+/// Units of the typeface in its size.
+const UNITS: f64 = 2048.0;
+
+/// The characters of DejaVu Sans (`fonts/README.md`).
+static GLYPHS: LazyLock<HashMap<char, Glyph>> =
+    LazyLock::new(|| include_str!("../fonts/outlines.txt").lines().filter_map(Glyph::of_line).collect());
+
+/// A character of the typeface, in its units, y upwards.
+struct Glyph {
+    advance: f64,
+    /// The data of an SVG path: M, L, Q and Z with absolute places.
+    outline: &'static str,
+}
+
+impl Glyph {
+    fn of_line(line: &'static str) -> Option<(char, Self)> {
+        let (number, rest) = line.split_once(' ')?;
+        let (advance, outline) = rest.split_once(' ')?;
+        let character = char::from_u32(u32::from_str_radix(number, 16).ok()?)?;
+        Some((character, Self { advance: advance.parse().ok()?, outline }))
+    }
+}
 
 /// Width of a text, in units of its size times `size`.
 ///
@@ -26,68 +46,56 @@ pub fn width(text: &str, size: f64) -> f64 {
 
 /// Outlines of a text as the data of an SVG path, beginning at (x, y) on the base line.
 pub(crate) fn outlines(text: &str, size: f64, x: f64, y: f64) -> String {
-    let mut pen = Pen { data: String::new(), scale: size / units_per_em(), x, y };
+    let mut out = String::new();
+    let (mut pen, scale) = (x, size / UNITS);
     for character in text.chars() {
-        if let (Some(face), Some(glyph)) = (FACE.as_ref(), glyph(character)) {
-            face.outline_glyph(glyph, &mut pen);
+        for command in glyph(character).into_iter().flat_map(|glyph| commands(glyph.outline)) {
+            out.push_str(&command[..1]);
+            let numbers = command[1..].split(' ').filter_map(|number| number.parse::<f64>().ok());
+            for (index, number) in numbers.enumerate() {
+                let place = if index % 2 == 0 { pen + scale * number } else { y - scale * number };
+                let _ = write!(out, " {place:.2}");
+            }
         }
-        pen.x += advance(character) * size;
+        pen += advance(character) * size;
     }
-    pen.data
+    out
 }
 
-fn units_per_em() -> f64 {
-    FACE.as_ref().map_or(1000.0, |face| f64::from(face.units_per_em()))
+/// The commands of a path, each with its letter before its places.
+fn commands(outline: &str) -> impl Iterator<Item = &str> {
+    let starts = outline.match_indices(|c: char| c.is_ascii_uppercase()).map(|(at, _)| at);
+    let ends = starts.clone().skip(1).chain([outline.len()]);
+    starts.zip(ends).map(|(start, end)| &outline[start..end])
 }
 
 /// The glyph of a character; of the sign for what is missing if the typeface does not have it.
-fn glyph(character: char) -> Option<GlyphId> {
-    let face = FACE.as_ref()?;
-    face.glyph_index(character).or_else(|| face.glyph_index('\u{fffd}'))
+fn glyph(character: char) -> Option<&'static Glyph> {
+    GLYPHS.get(&character).or_else(|| GLYPHS.get(&'\u{fffd}'))
 }
 
 /// Advance of a character in units of the size.
 fn advance(character: char) -> f64 {
-    let units = glyph(character).and_then(|glyph| FACE.as_ref()?.glyph_hor_advance(glyph));
-    units.map_or(0.6, |units| f64::from(units) / units_per_em())
+    glyph(character).map_or(0.6, |glyph| glyph.advance / UNITS)
 }
 
-/// Writes outlines as the data of a path.
-struct Pen {
-    data: String,
-    scale: f64,
-    x: f64,
-    y: f64,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Pen {
-    fn command(&mut self, letter: char, points: &[(f32, f32)]) {
-        self.data.push(letter);
-        for (x, y) in points {
-            let (x, y) = (self.x + self.scale * f64::from(*x), self.y - self.scale * f64::from(*y));
-            let _ = write!(self.data, " {x:.2} {y:.2}");
+    /// The outline of the bar of the letter I in DejaVu Sans: 201 to 403 wide, 1493 high.
+    #[test]
+    fn outlines_are_scaled_and_put_in_their_place() {
+        let outline = outlines("I", UNITS, 10.0, 2000.0);
+        for place in [" 211.00 507.00", " 413.00 507.00", " 413.00 2000.00", " 211.00 2000.00"] {
+            assert!(outline.contains(place), "{outline}");
         }
-    }
-}
-
-impl OutlineBuilder for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.command('M', &[(x, y)]);
+        assert!(outline.starts_with('M') && outline.ends_with('Z'));
     }
 
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.command('L', &[(x, y)]);
-    }
-
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.command('Q', &[(x1, y1), (x, y)]);
-    }
-
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.command('C', &[(x1, y1), (x2, y2), (x, y)]);
-    }
-
-    fn close(&mut self) {
-        self.data.push('Z');
+    #[test]
+    fn every_character_of_the_file_is_read() {
+        assert_eq!(GLYPHS.len(), include_str!("../fonts/outlines.txt").lines().count());
+        assert!(GLYPHS.contains_key(&'\u{fffd}') && GLYPHS.contains_key(&'μ') && GLYPHS.contains_key(&' '));
     }
 }

@@ -18,7 +18,7 @@ fn model(name: &str, settings: &[(&str, &str)]) -> Model {
 }
 
 fn figure(model: &Model, vary: &str) -> Figure {
-    let options = LimitsOptions { both_directions: true, ..LimitsOptions::of(vary) };
+    let options = LimitsOptions { both_directions: true, effort: 0, ..LimitsOptions::of(vary) };
     let (report, curves) = limits_with_curves(model, &options, Quantity::NormalForce).expect("limits");
     limits_figure(&report, &curves)
 }

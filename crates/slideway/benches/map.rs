@@ -31,7 +31,7 @@ fn klepp_margin(bencher: divan::Bencher<'_, '_>) {
     bench(bencher, "klepp-2002", "mu_1=0..0.8", "mu_2=0..0.4", ColourBy::Margin);
 }
 
-/// Over a position: every point is assembled along the way from the drawing.
+/// Over a position: every point is assembled, from its neighbours.
 #[divan::bench]
 fn slider_crank_jam(bencher: divan::Bencher<'_, '_>) {
     bench(bencher, "slider-crank", "phi=-175 deg..175 deg", "mu=0..1.5", ColourBy::Jam);

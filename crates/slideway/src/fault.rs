@@ -7,6 +7,7 @@ mod axis;
 pub use axis::AxisProblem;
 
 use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
+use crate::printable;
 use std::fmt;
 use std::ops::Range;
 
@@ -166,7 +167,8 @@ impl From<Fault> for Faults {
 impl fmt::Display for Faults {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lines: Vec<String> = self.sorted().iter().map(|fault| fault.kind.to_string()).collect();
-        formatter.write_str(&lines.join("\n"))
+        let printable: Vec<_> = lines.iter().map(|line| printable::line(line)).collect();
+        formatter.write_str(&printable.join("\n"))
     }
 }
 
@@ -260,6 +262,8 @@ pub enum FaultKind {
     TableOfTime,
     #[error("{what} is not a finite number")]
     NotFinite { what: String },
+    #[error("the loads or drives grow beyond all bounds")]
+    LoadsWithoutBounds,
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
     StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
     #[error("the points `{first}` and `{second}` coincide: they give no direction")]

@@ -41,6 +41,11 @@ impl ContactFriction {
     pub fn total(self) -> f64 {
         self.positive_face + self.negative_face
     }
+
+    /// So many times this friction.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self { positive_face: self.positive_face * factor, negative_face: self.negative_face * factor }
+    }
 }
 
 impl Influence {

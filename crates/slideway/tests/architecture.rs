@@ -8,10 +8,11 @@ use std::path::{Path, PathBuf};
 /// Each module and the ones that it may use: a stage knows only the stages to its left.
 const IMPORTS: &[(&str, &[&str])] = &[
     ("interval", &[]),
+    ("printable", &[]),
     ("expression", &["interval"]),
     ("ids", &[]),
     ("progress", &[]),
-    ("fault", &["expression"]),
+    ("fault", &["expression", "printable"]),
     ("model", &["expression", "fault", "ids", "interval"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model"]),
     ("configuration", &["fault", "ids", "interval", "mechanism", "model"]),
@@ -19,9 +20,9 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("influence", &["ids", "kinetics"]),
     ("modes", &["interval", "progress"]),
     ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
-    ("report", &["fault"]),
+    ("report", &["fault", "printable"]),
     ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
-    ("raw_problem", &["fault", "modes", "progress", "report"]),
+    ("raw_problem", &["fault", "modes", "printable", "progress", "report"]),
     ("gallery", &[]),
 ];
 

@@ -17,9 +17,12 @@ fn model(name: &str, settings: &[(&str, &str)]) -> Model {
 #[test]
 fn the_paper_s_reactions() {
     let klepp = model("klepp-2002", &[("F_20", "0")]);
-    let (report, curves) =
-        limits_with_curves(&klepp, &LimitsOptions::of("mu_1=0..0.8"), Quantity::NormalForce)
-            .expect("solvable");
+    let (report, curves) = limits_with_curves(
+        &klepp,
+        &LimitsOptions { effort: 0, ..LimitsOptions::of("mu_1=0..0.8") },
+        Quantity::NormalForce,
+    )
+    .expect("solvable");
     let printed = [
         ("+++", [0.2625, 0.3872, 0.3503], Verdict::Attainable),
         ("-++", [-1.8754, 1.5096, 1.3658], Verdict::Unattainable),
@@ -62,7 +65,7 @@ type Values = fn(&Solution) -> Vec<f64>;
 #[test]
 fn points_are_the_solutions_of_their_states() {
     let klepp = model("klepp-2002", &[]);
-    let options = LimitsOptions { both_directions: true, ..LimitsOptions::of("mu_1=0..0.8") };
+    let options = LimitsOptions { both_directions: true, effort: 0, ..LimitsOptions::of("mu_1=0..0.8") };
     let quantities: [(Quantity, Values); 3] = [
         (Quantity::NormalForce, |solution| {
             solution.contacts.iter().map(|contact| contact.normal_force).collect()
@@ -111,8 +114,12 @@ fn points_are_the_solutions_of_their_states() {
 #[test]
 fn the_effort_of_a_drawer() {
     let drawer = model("drawer", &[]);
-    let (_, curves) =
-        limits_with_curves(&drawer, &LimitsOptions::of("mu=0..0.5"), Quantity::Effort).expect("driven");
+    let (_, curves) = limits_with_curves(
+        &drawer,
+        &LimitsOptions { effort: 0, ..LimitsOptions::of("mu=0..0.5") },
+        Quantity::Effort,
+    )
+    .expect("driven");
     assert_eq!(curves.series[0].unit, "N");
     for point in samples(&curves.forwards[0]) {
         let normal_force = 20.0 * 0.3 / (0.4 - 2.0 * point.at * 0.3);
@@ -120,5 +127,12 @@ fn the_effort_of_a_drawer() {
         assert!((point.values[0].abs() - push).abs() < 1e-9 * push, "{point:?}: {push}");
     }
     let klepp = model("klepp-2002", &[]);
-    assert!(limits_with_curves(&klepp, &LimitsOptions::of("mu_1"), Quantity::Effort).is_err());
+    assert!(
+        limits_with_curves(
+            &klepp,
+            &LimitsOptions { effort: 0, ..LimitsOptions::of("mu_1") },
+            Quantity::Effort
+        )
+        .is_err()
+    );
 }

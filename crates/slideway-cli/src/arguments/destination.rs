@@ -1,7 +1,8 @@
 //! Where the answer goes, and in which form.
 
+use crate::output::followed;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where the answer goes.
 #[derive(Debug, Args)]
@@ -13,6 +14,18 @@ pub(crate) struct Destination {
     /// Overwrite output files that exist.
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+impl Destination {
+    /// A further file beside the answer.
+    pub(crate) fn beside(&self, path: &Path) -> Self {
+        Self { output: Some(path.to_owned()), force: self.force }
+    }
+
+    /// The file of the answer, however its path is spelt; none for standard output.
+    pub(crate) fn file(&self) -> Option<PathBuf> {
+        self.output.as_deref().filter(|path| path.as_os_str() != "-").map(followed)
+    }
 }
 
 /// Form of an answer.

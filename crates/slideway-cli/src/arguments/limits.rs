@@ -3,7 +3,7 @@
 use super::values::positive;
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
-use slideway::limits::Quantity;
+use slideway::limits::{EFFORT, Quantity};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -37,6 +37,10 @@ pub(crate) struct LimitsArguments {
     /// Modes end where a normal force exceeds this (N).
     #[arg(long, value_name = "N", value_parser = positive)]
     pub(crate) max_reaction: Option<f64>,
+
+    /// Certified searches that may be made in each direction to prove numbers of solutions; 0 proves nothing.
+    #[arg(long, value_name = "COUNT", default_value_t = EFFORT)]
+    pub(crate) effort: u64,
 
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]

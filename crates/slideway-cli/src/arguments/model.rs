@@ -38,8 +38,10 @@ impl ModelArguments {
     /// If both are the same file.
     pub(crate) fn spare(&self, destination: &Destination) -> Result<(), Failure> {
         let Some(output) = &destination.output else { return Ok(()) };
-        match (self.file.canonicalize(), output.canonicalize()) {
-            (Ok(model), Ok(file)) if model == file => Err(Failure::OverwritesModel { path: output.clone() }),
+        match (self.file.canonicalize(), destination.file()) {
+            (Ok(model), Some(file)) if model == file => {
+                Err(Failure::OverwritesModel { path: output.clone() })
+            }
             _ => Ok(()),
         }
     }

@@ -20,7 +20,8 @@ Exit codes:
   3    not followed to the end: too many steps or events, no time left, or what follows cannot be decided
   130  interrupted (Ctrl-C)
 
-What was computed until then is told and written in any case, unless the motion cannot begin.
+What was computed until then is told and written in any case, unless the motion cannot begin. If it is
+interrupted, the table goes to FILE.partial and no pictures are made.
 --output writes the motion as a table beside what is told; the ending of the file says in which form.";
 
 /// Arguments of `slideway simulate`.

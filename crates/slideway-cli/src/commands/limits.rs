@@ -22,6 +22,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         vary: arguments.vary.clone(),
         max_reaction: arguments.max_reaction,
         both_directions: arguments.both_directions,
+        effort: arguments.effort,
     };
     let mut watch = Watch::new(arguments.time.time_limit);
     let mut look = |progress: &Progress| watch.look(progress);

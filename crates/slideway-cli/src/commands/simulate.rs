@@ -1,12 +1,12 @@
 //! `slideway simulate`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, Destination, Preference, SimulateArguments};
+use crate::arguments::{CheckFormat, Preference, SimulateArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
-use crate::table::Metadata;
+use crate::table::{Metadata, unfinished};
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
@@ -21,7 +21,7 @@ use slideway::report::finite;
 use slideway_pictures::motion::{AnimationOptions, GifFault, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Rows of a table that are too many to be meant.
 const MOST_ROWS: f64 = 1e7;
@@ -29,7 +29,7 @@ const MOST_ROWS: f64 = 1e7;
 /// Follows a mechanism in time.
 pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
     arguments.model.spare(&arguments.destination)?;
-    let files = Files::new(arguments, output)?;
+    let mut files = Files::new(arguments, output)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
@@ -49,13 +49,19 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         let history =
             motion::simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut progress);
         let history = history.map_err(|faults| input.refused(faults))?;
+        if history.end == End::Interrupted && watch.halt() == Some(Halt::Interrupted) {
+            files.interrupt();
+        }
         files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
     let told = told.map_err(|faults| input.refused(faults))?;
     let halt = watch.finish();
     output.write(&told.text)?;
-    Ok(watch::outcome(halt, told.outcome))
+    match files.interrupted {
+        Some(path) => Err(Failure::MotionInterrupted { path }),
+        None => Ok(watch::outcome(halt, told.outcome)),
+    }
 }
 
 /// The answer on standard output.
@@ -99,7 +105,7 @@ impl Told {
 
 fn outcome(end: &End) -> Outcome {
     match end {
-        End::NoContinuation | End::Jammed | End::ReactionLimit(_) => Outcome::NoSolution,
+        End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_) => Outcome::NoSolution,
         End::NoValue(_) | End::NoSuchBranch { .. } => Outcome::Refused,
         End::Accumulation | End::StepLimit | End::EventLimit | End::Undecided(_) | End::Interrupted => {
             Outcome::Unknown
@@ -188,14 +194,15 @@ struct Files<'a> {
     table: Option<(SeriesFormat, Output)>,
     plot: Option<(Picture, Output)>,
     animation: Option<(AnimationFormat, Output)>,
+    /// Where the table of an interrupted motion is.
+    interrupted: Option<PathBuf>,
 }
 
 impl<'a> Files<'a> {
     /// Before the work it is seen whether they can be written.
     fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
         let place = |path: &Path| {
-            let destination =
-                Destination { output: Some(path.to_owned()), force: arguments.destination.force };
+            let destination = arguments.destination.beside(path);
             arguments.model.spare(&destination)?;
             output.to(&destination)
         };
@@ -203,19 +210,34 @@ impl<'a> Files<'a> {
             Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),
             None => None,
         };
+        let file = table.as_ref().and_then(|(_, output)| output.path());
+        if let Some(path) = file.and_then(|file| unfinished(&file)).filter(|_| !arguments.destination.force) {
+            return Err(Failure::Unfinished { path });
+        }
         let animation = match arguments.animate.as_deref() {
             Some(path) => Some((AnimationFormat::of(path)?, place(path)?)),
             None => None,
         };
         let plot = beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
-        let others = [arguments.destination.output.as_ref(), arguments.plot.plot.as_ref()];
-        if let Some(path) = arguments.animate.as_ref().filter(|path| others.contains(&Some(*path))) {
+        let outputs = [table.as_ref().map(|(_, file)| file), plot.as_ref().map(|(_, file)| file)];
+        let others = outputs.map(|file| file.and_then(Output::path));
+        if let (Some(path), Some((_, file))) = (&arguments.animate, &animation)
+            && others.contains(&file.path())
+        {
             return Err(Failure::SameOutput { path: path.clone() });
         }
         if arguments.all_branches && (table.is_some() || plot.is_some() || animation.is_some()) {
             return Err(Failure::SeveralMotions);
         }
-        Ok(Self { arguments, table, plot, animation })
+        Ok(Self { arguments, table, plot, animation, interrupted: None })
+    }
+
+    /// Nothing unfinished gets a final name: the table goes beside it, and there are no pictures.
+    fn interrupt(&mut self) {
+        (self.plot, self.animation) = (None, None);
+        if let Some((_, output)) = &mut self.table {
+            self.interrupted = output.be_partial();
+        }
     }
 
     fn write(

@@ -1,6 +1,7 @@
 //! Tables as comma-separated values. Comment lines at the top begin with `#`.
 
 use super::{Layout, Metadata};
+use slideway::printable;
 use slideway::sweep::Rows;
 
 /// Comment lines with command and model, and the line of names.
@@ -11,7 +12,7 @@ pub(super) fn head(layout: &Layout, metadata: &Metadata) -> Vec<u8> {
     text.extend(["# units: ", &units.join(", "), "\n# model:\n"]);
     for line in metadata.model.lines() {
         text.push_str(if line.is_empty() { "#" } else { "#   " });
-        text.push_str(line);
+        text.push_str(&printable::line(line));
         text.push('\n');
     }
     let mut names = vec!["point".to_owned()];

@@ -1,21 +1,24 @@
 //! A table on its way: `FILE.partial` holds what is done, `FILE.partial.state` what is needed to go on.
+//!
+//! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone. Checksums tell
+//! whether both files are still what was written.
 
 use super::{Encoder, npz};
 use crate::arguments::TableFormat;
 use crate::failure::Failure;
+use crate::output::{PARTIAL, beside};
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use slideway::sweep::SweepState;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Version of the layout of the state.
-const SCHEMA: &str = "slideway/sweep-state/1";
-/// Endings of the files beside the table: its rows, the last state, the next one until it is whole.
-const PARTIAL: &str = ".partial";
+const SCHEMA: &str = "slideway/sweep-state/2";
+/// Endings of further files beside the table: the last state, the next one until it is whole.
 const STATE: &str = ".partial.state";
 const NEXT_STATE: &str = ".partial.state.new";
 /// Ending of a Parquet file until it is whole.
@@ -70,13 +73,13 @@ impl PartialFile {
         if resume {
             return Self::reopen(target, encoder, overwrite);
         }
-        if path.exists() && !overwrite {
+        let (file, is_new) = locked(&path, true)?;
+        if !is_new && !overwrite {
             return Err(Failure::Unfinished { path });
         }
         // An old state must not be taken for that of the new table.
         remove(&beside(target, STATE))?;
-        let options = OpenOptions::new().read(true).write(true).create(true).truncate(true).open(&path);
-        let file = options.map_err(|error| cannot_write(&path, error))?;
+        file.set_len(0).map_err(|error| cannot_write(&path, error))?;
         let target = target.to_owned();
         let rows = Hasher::new();
         let mut file = Self { target, overwrite, file, encoder, bytes: 0, rows, kept_at: Instant::now() };
@@ -101,11 +104,16 @@ impl PartialFile {
     fn reopen(target: &Path, encoder: Encoder, overwrite: bool) -> Result<Continued, Failure> {
         let (path, state_path) = (beside(target, PARTIAL), beside(target, STATE));
         let nothing = || Failure::NothingToResume { path: path.clone() };
+        // Locked before the state is read: whoever still writes would change it.
+        let (mut file, _) = locked(&path, false)?;
         let text = fs::read(&state_path).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => nothing(),
             _ => Failure::CannotRead { path: state_path.clone(), error },
         })?;
-        let kept: Kept = serde_json::from_slice(&text).map_err(|_| nothing())?;
+        let damaged = |path: &Path| Failure::Damaged { path: path.to_owned() };
+        let kept: Kept = unsealed(&text)
+            .and_then(|text| serde_json::from_slice(text).ok())
+            .ok_or_else(|| damaged(&state_path))?;
         let same = kept.schema == SCHEMA
             && kept.program == super::Metadata::program()
             && kept.command == encoder.metadata.command
@@ -113,28 +121,19 @@ impl PartialFile {
         if !same {
             return Err(Failure::AnotherSweep { path, command: kept.command });
         }
-        let mut file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .open(&path)
-            .map_err(|error| Failure::CannotRead { path: path.clone(), error })?;
-        let length = file.metadata().map_err(|error| cannot_write(&path, error))?.len();
-        if length < kept.bytes {
-            return Err(nothing());
-        }
+        // The beginning is written again: completing an archive may have been interrupted in the middle of it.
+        let head = encoder.head();
+        let bytes = kept.bytes.checked_sub(head.len() as u64).ok_or_else(|| damaged(&path))?;
+        file.write_all(&head).map_err(|error| cannot_write(&path, error))?;
+        let rows = checksum(&mut file, bytes)
+            .map_err(|error| Failure::CannotRead { path: path.clone(), error })?
+            .filter(|rows| rows.clone().finalize() == kept.crc)
+            .ok_or_else(|| damaged(&path))?;
         // What was written behind the last state is computed again.
-        let end = SeekFrom::Start(kept.bytes);
-        file.set_len(kept.bytes).and_then(|()| file.seek(end)).map_err(|error| cannot_write(&path, error))?;
-        let head = encoder.head().len() as u64;
-        let file = Self {
-            target: target.to_owned(),
-            overwrite,
-            file,
-            encoder,
-            bytes: kept.bytes,
-            rows: Hasher::new_with_initial_len(kept.crc, kept.bytes - head),
-            kept_at: Instant::now(),
-        };
+        file.set_len(kept.bytes).map_err(|error| cannot_write(&path, error))?;
+        let target = target.to_owned();
+        let file =
+            Self { target, overwrite, file, encoder, bytes: kept.bytes, rows, kept_at: Instant::now() };
         Ok(Continued { file, state: kept.state })
     }
 
@@ -150,9 +149,7 @@ impl PartialFile {
     pub(crate) fn add(&mut self, rows: &[Vec<u8>], state: &SweepState) -> Result<(), Failure> {
         for rows in rows {
             self.file.write_all(rows).map_err(|error| self.cannot_go_on(error))?;
-            if self.encoder.format == TableFormat::Npz {
-                self.rows.update(rows);
-            }
+            self.rows.update(rows);
             self.bytes += rows.len() as u64;
         }
         if self.kept_at.elapsed() >= BETWEEN {
@@ -179,7 +176,7 @@ impl PartialFile {
             crc: self.rows.clone().finalize(),
             state: state.clone(),
         };
-        let text = serde_json::to_vec(&kept)?;
+        let text = sealed(serde_json::to_vec(&kept)?);
         // The old state stays until the new one is whole.
         let next = beside(&self.target, NEXT_STATE);
         let written = fs::write(&next, text).and_then(|()| fs::rename(&next, beside(&self.target, STATE)));
@@ -206,8 +203,11 @@ impl PartialFile {
             return Err(Failure::OutputExists { path: self.target.clone() });
         }
         fs::rename(&finished, &self.target).map_err(|error| cannot_write(&self.target, error))?;
-        remove(&self.path())?;
         remove(&beside(&self.target, STATE))?;
+        if finished != self.path() {
+            // Last of all: with it the lock goes, and another table may begin.
+            remove(&self.path())?;
+        }
         Ok(ControlFlow::Continue(()))
     }
 
@@ -257,11 +257,93 @@ impl PartialFile {
     }
 }
 
-/// The path with something behind its name.
-fn beside(target: &Path, ending: &str) -> PathBuf {
-    let mut name = target.as_os_str().to_owned();
-    name.push(ending);
-    name.into()
+/// Opens an unfinished table for this program alone, and says whether it is new; without `create` it has to be there.
+fn locked(path: &Path, create: bool) -> Result<(File, bool), Failure> {
+    let mut attempts = 100;
+    loop {
+        let (file, is_new) = opened(path, create)?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => return Err(Failure::InUse { path: path.to_owned() }),
+            // Some network file systems have no locks; there it is left to the user.
+            Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+                return Err(cannot_write(path, error));
+            }
+            _ => {}
+        }
+        // Another program may have completed it, and given it its final name, between opening and locking.
+        attempts -= 1;
+        if is_at(&file, path) {
+            return Ok((file, is_new));
+        }
+        if attempts == 0 {
+            return Err(Failure::InUse { path: path.to_owned() });
+        }
+    }
+}
+
+fn opened(path: &Path, create: bool) -> Result<(File, bool), Failure> {
+    let mut options = OpenOptions::new();
+    options.read(true).write(true);
+    if create {
+        match options.clone().create_new(true).open(path) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            created => return created.map(|file| (file, true)).map_err(|error| cannot_write(path, error)),
+        }
+    }
+    match options.open(path) {
+        Ok(file) => Ok((file, false)),
+        Err(error) if !create && error.kind() == io::ErrorKind::NotFound => {
+            Err(Failure::NothingToResume { path: path.to_owned() })
+        }
+        Err(error) => Err(cannot_write(path, error)),
+    }
+}
+
+/// Whether a file is still found under a name.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
+    let [file, found] = [file.metadata(), fs::metadata(path)].map(|metadata| metadata.ok().map(identity));
+    file.is_some() && file == found
+}
+
+/// Whether a file is still found under a name.
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+/// The checksum of the next bytes of a file; none if there are not so many.
+fn checksum(file: &mut File, bytes: u64) -> io::Result<Option<Hasher>> {
+    let mut hasher = Hasher::new();
+    let mut buffer = vec![0; 1 << 16];
+    let mut source = file.take(bytes);
+    loop {
+        match source.read(&mut buffer)? {
+            0 => break,
+            read => hasher.update(&buffer[..read]),
+        }
+    }
+    Ok((source.limit() == 0).then_some(hasher))
+}
+
+/// A text with a line that holds its checksum.
+fn sealed(mut text: Vec<u8>) -> Vec<u8> {
+    let seal = format!("\n{:08x}\n", crc32fast::hash(&text));
+    text.extend_from_slice(seal.as_bytes());
+    text
+}
+
+/// The text before the line with its checksum, if that is the right one.
+fn unsealed(bytes: &[u8]) -> Option<&[u8]> {
+    let text = &bytes[..bytes.len().checked_sub(10)?];
+    (sealed(text.to_vec()) == bytes).then_some(text)
+}
+
+/// The unfinished table of a sweep that could be continued, if there is one beside this file.
+pub(crate) fn unfinished(target: &Path) -> Option<PathBuf> {
+    beside(target, STATE).exists().then(|| beside(target, PARTIAL))
 }
 
 /// Removes a file if it is there.

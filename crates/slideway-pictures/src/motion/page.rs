@@ -341,7 +341,7 @@ fn list(out: &mut String, items: impl Iterator<Item = String>) {
 /// A text as JavaScript writes it, within a page.
 fn literal(text: &str) -> String {
     let mut out = String::from("\"");
-    for character in text.chars() {
+    for character in slideway::printable::lines(text).chars() {
         match character {
             '"' => out.push_str("\\\""),
             '\\' => out.push_str("\\\\"),

@@ -6,9 +6,11 @@
 mod context;
 
 use crate::drawing::Sheet;
+use crate::escaped;
 use context::Context;
-use minijinja::{AutoEscape, Environment};
+use minijinja::{AutoEscape, Environment, Output, State, Value};
 use slideway::limits::LimitsReport;
+use slideway::printable::lines;
 use slideway::report::Report;
 use thiserror::Error;
 
@@ -54,7 +56,8 @@ pub struct PageFault {
     pub reason: String,
 }
 
-/// The page as HTML. Every name and text from the model is escaped.
+/// The page as HTML. Every name and text from the model is escaped, and its characters that are not seen stand as their
+/// numbers ([`slideway::printable`]).
 ///
 /// # Errors
 /// A fault of the template, which the tests exclude.
@@ -62,6 +65,7 @@ pub fn to_html(page: &Page<'_>) -> Result<String, PageFault> {
     let fault = |error: minijinja::Error| PageFault { reason: format!("{error:#}") };
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
+    environment.set_formatter(write_escaped);
     environment.set_trim_blocks(true);
     environment.set_lstrip_blocks(true);
     environment.add_filter("number", |value: f64| crate::drawing::number(value));
@@ -70,4 +74,15 @@ pub fn to_html(page: &Page<'_>) -> Result<String, PageFault> {
     environment.add_template("report.html", TEMPLATE).map_err(fault)?;
     let template = environment.get_template("report.html").map_err(fault)?;
     template.render(Context::of(page)).map_err(fault)
+}
+
+/// Writes a value of the template; text keeps its lines.
+fn write_escaped(out: &mut Output<'_>, state: &State<'_, '_>, value: &Value) -> Result<(), minijinja::Error> {
+    match value.as_str().filter(|_| !value.is_safe()) {
+        Some(text) => {
+            let lines: Vec<String> = lines(text).split('\n').map(escaped).collect();
+            out.write_str(&lines.join("\n")).map_err(minijinja::Error::from)
+        }
+        None => minijinja::escape_formatter(out, state, value),
+    }
 }

@@ -127,6 +127,8 @@ pub enum Hatching {
     Rising,
     /// Lines that fall to the right: no mechanism, no value.
     Falling,
+    /// Dots: what is shown was found at single values and is not proven between them.
+    Dotted,
 }
 
 /// A coloured stretch along the x axis.

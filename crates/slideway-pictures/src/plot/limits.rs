@@ -1,7 +1,9 @@
 //! The figure of limits: a quantity along every mode over what is varied.
 
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
-use slideway::limits::{self, CountLimits, Curves, LimitsReport, ModeLimits, Quantity};
+use slideway::limits::{
+    self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem,
+};
 use slideway::report::{Verdict, precise};
 
 /// Values closer than this share of the range are one value in a plot.
@@ -10,7 +12,8 @@ const TOGETHER: f64 = 1e-6;
 /// The figure of [`slideway::limits::limits_with_curves`]: a panel for each direction and unit.
 ///
 /// Each mode is a branch: a colour, and a stroke that says whether a mechanism with slightly elastic guides settles on it.
-/// Locking values are asymptotes, values where contacts change side are marked, intervals without a solution are hatched.
+/// Locking values are asymptotes, values where contacts change side are marked, intervals without a solution are hatched. Dots
+/// cover what was found at single values and is not proven between them.
 pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
     let mut units: Vec<&str> = curves.series.iter().map(|series| series.unit).collect();
     units.dedup();
@@ -37,7 +40,7 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
 }
 
 /// Modes, their curves, numbers of solutions, and ranges without a mode problem, of one direction.
-type Direction<'r> = (&'r [ModeLimits], &'r [limits::Curve], &'r [CountLimits], &'r [[f64; 2]]);
+type Direction<'r> = (&'r [ModeLimits], &'r [limits::Curve], &'r [CountLimits], &'r [RangeWithoutProblem]);
 
 struct Builder<'c> {
     curves: &'c Curves,
@@ -199,9 +202,16 @@ fn cause_in_words(cause: &str, contacts: &[String]) -> Option<String> {
     })
 }
 
-/// Intervals without a solution, and without a mode problem.
-fn zones(counts: &[CountLimits], without: &[[f64; 2]], [first, last]: [f64; 2], scale: f64) -> Vec<Zone> {
-    let locked = counts.iter().filter(|count| count.solutions + count.preload_gap_states == 0);
+/// Intervals without a solution, without a mode problem, and those that are not proven.
+fn zones(
+    counts: &[CountLimits],
+    without: &[RangeWithoutProblem],
+    [first, last]: [f64; 2],
+    scale: f64,
+) -> Vec<Zone> {
+    let locked = counts
+        .iter()
+        .filter(|count| count.solutions + count.preload_gap_states == 0 && count.known != Known::Undecided);
     let zone = |[from, to]: [f64; 2], hatching: Hatching, meaning: &str| Zone {
         from: from / scale,
         to: to / scale,
@@ -211,10 +221,25 @@ fn zones(counts: &[CountLimits], without: &[[f64; 2]], [first, last]: [f64; 2], 
     let locked = locked.map(|count| {
         zone([count.from, count.to], Hatching::Rising, "excluded: no solution, friction locks it")
     });
-    let without = without
-        .iter()
-        .map(|&range| zone(range, Hatching::Falling, "excluded: cannot be assembled or solved"));
+    let without = without.iter().map(|range| {
+        zone([range.from, range.to], Hatching::Falling, "excluded: cannot be assembled or solved")
+    });
+    let open = counts.iter().flat_map(|count| {
+        unproven(count).into_iter().map(|range| match count.known {
+            Known::Undecided => zone(range, Hatching::Dotted, "number of solutions not decided"),
+            _ => zone(range, Hatching::Dotted, "number of solutions sampled, not proven"),
+        })
+    });
     // Single values are marked, not hatched.
     let wide = |zone: &Zone| (zone.to - zone.from) * scale > TOGETHER * (last - first);
-    locked.chain(without).filter(wide).collect()
+    locked.chain(without).chain(open).filter(wide).collect()
+}
+
+/// What of an interval was only sampled, or is not decided.
+fn unproven(count: &CountLimits) -> Vec<[f64; 2]> {
+    match (count.known, count.proven) {
+        (Known::Proven | Known::ClosedForm, _) => Vec::new(),
+        (_, Some([from, to])) => vec![[count.from, from], [to, count.to]],
+        (_, None) => vec![[count.from, count.to]],
+    }
 }

@@ -79,6 +79,10 @@ fn dashes(stroke: Stroke) -> &'static str {
 pub fn to_svg(figure: &Figure, theme: &Theme) -> String {
     let mut svg = Svg::default();
     hatchings(&mut svg, theme);
+    let mut zones = figure.panels.iter().flat_map(|panel| &panel.zones);
+    if zones.any(|zone| zone.hatching == Hatching::Dotted) {
+        dots(&mut svg, theme);
+    }
     let mut y = MARGIN + TITLE;
     for line in wrapped(&figure.title, TITLE, WIDTH - 2.0 * MARGIN) {
         let attributes = [
@@ -131,10 +135,26 @@ pub(crate) fn hatchings(svg: &mut Svg, theme: &Theme) {
     svg.close("defs");
 }
 
+/// The pattern of dotted intervals.
+fn dots(svg: &mut Svg, theme: &Theme) {
+    svg.open("defs", &[]);
+    let attributes = [
+        ("id", hatching_name(Hatching::Dotted)),
+        ("width", "9"),
+        ("height", "9"),
+        ("patternUnits", "userSpaceOnUse"),
+    ];
+    svg.open("pattern", &attributes);
+    svg.rectangle([3.0, 3.0, 1.8, 1.8], &[("fill", theme.ink), ("fill-opacity", "0.4")]);
+    svg.close("pattern");
+    svg.close("defs");
+}
+
 fn hatching_name(hatching: Hatching) -> &'static str {
     match hatching {
         Hatching::Rising => "hatching-rising",
         Hatching::Falling => "hatching-falling",
+        Hatching::Dotted => "dotted",
     }
 }
 

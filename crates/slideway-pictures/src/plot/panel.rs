@@ -1,7 +1,7 @@
 //! One panel of a figure.
 
 use super::clip::{Frame, simplified};
-use super::figure::{Axis, Curve, End, Figure, Panel, Stroke};
+use super::figure::{Axis, Curve, End, Figure, Hatching, Panel, Stroke};
 use super::flags::{Flag, flags};
 use super::frame::{FrameAxis, Placed, draw_axes, draw_grid};
 use super::overlap::runs_along;
@@ -149,7 +149,9 @@ impl<'f> PanelLayout<'f> {
             let Some([left, right]) = self.shown(zone.from, zone.to) else { continue };
             let shape = [left, top, right - left, height];
             let fill = hatching_fill(zone.hatching);
-            svg.rectangle(shape, &[("fill", theme.muted), ("fill-opacity", "0.10")]);
+            if zone.hatching != Hatching::Dotted {
+                svg.rectangle(shape, &[("fill", theme.muted), ("fill-opacity", "0.10")]);
+            }
             svg.rectangle(shape, &[("class", "zone"), ("fill", &fill)]);
         }
     }

@@ -378,7 +378,7 @@ impl SweepPlot {
         let scale = self.line.shown_in.scale;
         let meaning = match run.hatching {
             Hatching::Rising => "excluded: no solution, friction locks it",
-            Hatching::Falling => "excluded: cannot be assembled or solved",
+            Hatching::Falling | Hatching::Dotted => "excluded: cannot be assembled or solved",
         };
         let wide = to - from > NARROW * (self.line.range[1] - self.line.range[0]);
         wide.then(|| Zone {

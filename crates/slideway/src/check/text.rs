@@ -15,7 +15,7 @@ pub fn to_text(report: &CheckReport, style: Style) -> String {
     text.mobility();
     text.inertia();
     text.tables();
-    text.out
+    text.text()
 }
 
 type Text<'r> = Page<'r, CheckReport>;
@@ -45,7 +45,7 @@ impl Text<'_> {
             let findings = count(report.findings.len(), "finding", "findings");
             (AnsiColor::Red, format!("It cannot be solved in this state: {findings}."))
         };
-        self.line(&self.style.paint(colour.on_default().bold(), &verdict));
+        self.painted(colour.on_default().bold(), &verdict, "");
         for finding in &report.findings {
             self.line(&format!("  - {}", finding.message));
             if let Some(hint) = &finding.hint {
@@ -138,7 +138,7 @@ impl Text<'_> {
     fn table(&mut self, header: &[&str], rows: &[Vec<String>], words: usize) {
         if !rows.is_empty() {
             self.line("");
-            self.out.push_str(&table(header, rows, words));
+            self.lines(&table(header, rows, words));
         }
     }
 }

@@ -89,6 +89,7 @@ impl Follower {
             rates: mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
             time: mechanism.time,
             steps,
+            pieces: None,
         };
         self.reached.insert(0, configuration.clone());
         self.reached.truncate(REMEMBERED);

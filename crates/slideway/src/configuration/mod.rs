@@ -18,12 +18,13 @@ pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{advance, free_motions, motion_in_words, null_space};
 
-use crate::fault::Faults;
+use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Slider, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pieces, Quantity, Slider, rot90};
 use crate::model::CarriedBy;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// Position of a body against the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +59,8 @@ pub struct Configuration<T = f64> {
     pub time: T,
     /// Steps in which the positions were followed from the drawing; 0 if they are those of the drawing, or of a motion.
     pub steps: usize,
+    /// On which piece each relation of the loads and drives is; without, their arguments decide.
+    pub(crate) pieces: Option<Arc<Pieces>>,
 }
 
 /// A sliding joint in a configuration.
@@ -105,11 +108,21 @@ impl Configuration {
             rates: vec![0.0; mechanism.coordinates.len()],
             time: mechanism.time,
             steps: 0,
+            pieces: None,
         }
     }
 }
 
 impl<T: Real> Configuration<T> {
+    /// Value of a quantity of the mechanism in this state.
+    ///
+    /// # Errors
+    /// A fault if a formula has no finite or allowed value there.
+    pub(crate) fn quantity(&self, mechanism: &Mechanism<T>, quantity: Quantity<T>) -> Result<T, Fault> {
+        let values = mechanism.values(&self.coordinates, &self.rates, self.time);
+        mechanism.quantity_on(quantity, &values, self.pieces.as_deref())
+    }
+
     /// Rotation of a frame (rad).
     pub fn angle(&self, frame: Frame) -> T {
         frame.body().map_or(T::zero(), |body| self.poses[body.index()].angle)

@@ -4,7 +4,7 @@ use super::efforts::Efforts;
 use super::report::{BlowUp, CourseDirection, CourseRow};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{Found, LimitsOptions, Varied, find, guarantee};
+use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, find, guarantee};
 use crate::progress::Work;
 use crate::solve::{Stages, pattern};
 
@@ -29,7 +29,8 @@ pub(super) fn direction(
     direction: &'static str,
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
-    let found = find(varied, range, &LimitsOptions::of(&varied.name), work.part(0, 2))?;
+    let options = LimitsOptions { effort: 0, ..LimitsOptions::of(&varied.name) };
+    let found = find(varied, range, &options, work.part(0, 2))?;
     let efforts = |value: f64| {
         let goes_on = !work.part(1, 2).is_over();
         if goes_on { Efforts::at(varied, value).ok() } else { None }
@@ -40,9 +41,8 @@ pub(super) fn direction(
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
     let course = Tabulated { efforts: &efforts, range, found: &found, blow_ups: &blow_ups };
     let rows = course.rows(steps);
-    let gaps = found.gaps.clone();
-    let guarantee = guarantee(&found, range);
-    Ok((guarantee, CourseDirection { direction, rows, blow_ups, without_mode_problem: gaps }))
+    let without_mode_problem = RangeWithoutProblem::of(&found);
+    Ok((guarantee(&found), CourseDirection { direction, rows, blow_ups, without_mode_problem }))
 }
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign

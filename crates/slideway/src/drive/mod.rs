@@ -40,7 +40,7 @@ pub use report::{
 pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, VariedQuantity, backwards, given_range};
+use crate::limits::{Varied, VariedQuantity, given_range};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -91,7 +91,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
         return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
     }
-    let reversed = backwards(model)?;
+    let reversed = model.reversed();
     let course = match &options.vary {
         Some(vary) => Some(course([model, &reversed], vary, options.rows, work.part(1, 2))?),
         None => None,

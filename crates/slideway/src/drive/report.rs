@@ -1,11 +1,11 @@
 //! What is told of driven motion: plain data, which are the JSON output.
 
-use crate::limits::VariedQuantity;
+use crate::limits::{RangeWithoutProblem, VariedQuantity};
 use crate::report::{CoordinateState, JointMode, Status, Verdict, indented_json};
 use serde::Serialize;
 
 /// Version of the layout of a [`DriveReport`]; changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway/drive/1";
+pub const SCHEMA: &str = "slideway/drive/2";
 
 /// The efforts of all drives.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -143,8 +143,8 @@ pub struct CourseDirection {
     pub rows: Vec<CourseRow>,
     /// Values at which efforts grow without bound, in ascending order.
     pub blow_ups: Vec<BlowUp>,
-    /// Ranges in which the mechanism cannot be assembled or solved.
-    pub without_mode_problem: Vec<[f64; 2]>,
+    /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
+    pub without_mode_problem: Vec<RangeWithoutProblem>,
 }
 
 /// The efforts in one solution at one value.

@@ -3,6 +3,7 @@
 use super::report::{
     BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
 };
+use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
@@ -19,7 +20,7 @@ pub fn to_text(report: &DriveReport, style: Style) -> String {
     if let Some(course) = &report.course {
         text.course(course);
     }
-    text.out
+    text.text()
 }
 
 /// One sentence for each direction, and one for each factor of friction at which its efforts grow without bound.
@@ -146,7 +147,7 @@ impl Page<'_, DriveReport> {
             rows.push(one);
         }
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        self.out.push_str(&table(&header, &rows, 2));
+        self.lines(&table(&header, &rows, 2));
     }
 
     fn effort_titles(&self) -> Vec<String> {
@@ -157,7 +158,7 @@ impl Page<'_, DriveReport> {
         for direction in &course.directions {
             self.line("");
             self.headline(&format!("{}, over {}", moving(direction.direction), course.vary.name));
-            self.out.push_str(&self.course_table(course, direction));
+            self.lines(&self.course_table(course, direction));
             for blow_up in &direction.blow_ups {
                 let told = without_bound(self.report, blow_up);
                 let unit = if course.vary.unit.is_empty() { "" } else { " " };
@@ -168,8 +169,8 @@ impl Page<'_, DriveReport> {
                     course.vary.unit
                 ));
             }
-            for [from, to] in direction.without_mode_problem.iter().map(|gap| gap.map(precise)) {
-                self.line(&format!("  From {from} to {to} the mechanism cannot be assembled or solved."));
+            for RangeWithoutProblem { from, to, reason } in &direction.without_mode_problem {
+                self.line(&no_answer([*from, *to], reason));
             }
         }
         self.line("");

@@ -68,14 +68,11 @@ impl EnclosedModeProblem {
         let influence = &self.influence;
         let preload =
             |side: Side| couple.influence_preload.get(side)[k] * influence.preload.get(side).entry(k, 0);
-        let force = match state.side() {
-            Some(side) => {
-                couple.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side)
-            }
-            None => {
-                let [positive, negative] = Side::BOTH.map(preload);
-                negative + y * (positive - negative)
-            }
+        let force = if let Some(side) = state.side() {
+            couple.influence.get(side)[k] * influence.mu.get(side).entry(k, 0) * y + preload(side)
+        } else {
+            let [positive, negative] = Side::BOTH.map(preload);
+            negative + y * (positive - negative)
         };
         force * Interval::point(influence.velocity_signs[k])
     }

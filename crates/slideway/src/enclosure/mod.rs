@@ -37,7 +37,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
 use crate::interval::Interval;
 use crate::kinetics::Assembled;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
 use crate::modes::certificate::{
     IntervalInfluence, IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution,
@@ -48,10 +48,13 @@ use nalgebra::DMatrix;
 /// Parameters of a model that are known only within bounds (SI units). Each formula that uses one is evaluated for the
 /// whole range; the formula of the parameter itself does not count.
 ///
-/// Every parameter may be uncertain, those that change positions, too, as long as the joints hold for the whole range.
+/// Every parameter may be uncertain, those that change positions, too, as long as the joints hold for the whole range. So
+/// may the values of coordinates, and a factor of all coefficients of friction.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct UncertainParameters {
     entries: Vec<(String, Interval)>,
+    coordinates: Vec<(String, Interval)>,
+    friction: Option<Interval>,
 }
 
 impl UncertainParameters {
@@ -63,9 +66,42 @@ impl UncertainParameters {
         self
     }
 
-    /// Whether all parameters have the values of the model.
+    /// Adds the bounds of the value of a coordinate (m or rad).
+    #[must_use]
+    pub fn with_coordinate(mut self, name: &str, bounds: Interval) -> Self {
+        self.coordinates.push((name.to_owned(), bounds));
+        self
+    }
+
+    /// Sets the bounds of a factor by which all coefficients of friction are multiplied.
+    #[must_use]
+    pub fn with_friction(mut self, factor: Interval) -> Self {
+        self.friction = Some(factor);
+        self
+    }
+
+    /// Whether everything has the values of the model.
     pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
+        self.entries.is_empty() && self.coordinates.is_empty() && self.friction.is_none()
+    }
+
+    /// Puts the bounds of coordinates and of the factor of friction into a mechanism.
+    fn apply(&self, mechanism: &mut Mechanism<Interval>) -> Result<(), NotEnclosed> {
+        for (name, bounds) in &self.coordinates {
+            let known = |coordinate: &&mut Coordinate<Interval>| *coordinate.name == **name;
+            let coordinate = mechanism.coordinates.iter_mut().find(known);
+            coordinate.ok_or_else(|| NotEnclosed::UnknownCoordinate { name: name.clone() })?.value = *bounds;
+        }
+        if let Some(factor) = self.friction {
+            for contact in &mut mechanism.contacts {
+                contact.mu = contact.mu.map(|mu| mu * factor);
+            }
+        }
+        let unbounded = self.coordinates.iter().find(|(_, bounds)| !bounds.magnitude().is_finite());
+        match unbounded {
+            Some((name, _)) => Err(NotEnclosed::Unbounded { name: name.clone() }),
+            None => Ok(()),
+        }
     }
 
     /// The bounds by the number of the parameter.
@@ -109,7 +145,13 @@ pub enum NotEnclosed {
         /// The name most like it.
         nearest: Option<String>,
     },
-    /// A parameter has an infinite bound.
+    /// Bounds are stated for a coordinate that the model does not have.
+    #[error("there is no coordinate `{name}`")]
+    UnknownCoordinate {
+        /// The name.
+        name: String,
+    },
+    /// A parameter or coordinate has an infinite bound.
     #[error("the bounds of {name} are not finite")]
     Unbounded {
         /// The parameter.
@@ -164,7 +206,8 @@ pub fn enclosure(
     configuration: &Configuration,
 ) -> Result<EnclosedModeProblem, NotEnclosed> {
     let given = uncertain.of(model)?;
-    let mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
+    let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
+    uncertain.apply(&mut mechanism)?;
     let configuration = motion::enclosed(&mechanism, configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
     let coefficients =

@@ -28,7 +28,7 @@ pub(super) fn enclosed(
     let velocities = velocities(mechanism, &poses, &coordinates).ok_or(NotEnclosed::Velocities)?;
     let rates = mechanism.coordinates.iter().map(|coordinate| coordinate.rate).collect();
     let (time, steps) = (mechanism.time, computed.steps);
-    Ok(Configuration { poses, velocities, coordinates, rates, time, steps })
+    Ok(Configuration { poses, velocities, coordinates, rates, time, steps, pieces: None })
 }
 
 /// A box of poses that holds exactly one solution of the joint equations with the wanted coordinates, for every value

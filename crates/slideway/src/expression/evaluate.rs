@@ -55,32 +55,51 @@ impl Expression {
     /// assert_eq!(fault.span, 4..7);
     /// ```
     pub fn evaluate<T: Real>(&self, values: &Values<'_, T>) -> Result<T, ExpressionFault> {
-        if self.greatest_height() <= USUAL_HEIGHT {
-            run(self.steps(), values, &mut [T::zero(); USUAL_HEIGHT])
-        } else {
-            run(self.steps(), values, &mut [T::zero(); MAX_HEIGHT])
+        run(self, values, Operation::apply)
+    }
+}
+
+impl Operation {
+    /// The value of an operator, function or table at its arguments.
+    pub(super) fn apply<T: Real>(&self, arguments: &[T]) -> T {
+        match self {
+            Self::Unary(function) => function.value(arguments[0]),
+            Self::Binary(function) => function.value(arguments[0], arguments[1]),
+            Self::Table(table) => table.at(arguments[0]),
+            Self::Number { .. } | Self::Symbol(_) => T::zero(),
         }
     }
 }
 
-/// Runs the steps; `stack[..height]` holds the values not yet used.
-fn run<T: Real>(steps: &[Step], values: &Values<'_, T>, stack: &mut [T]) -> Result<T, ExpressionFault> {
+/// Runs the steps of an expression; `apply` has the values of operators, functions and tables.
+pub(super) fn run<T: Real>(
+    expression: &Expression,
+    values: &Values<'_, T>,
+    apply: impl FnMut(&Operation, &[T]) -> T,
+) -> Result<T, ExpressionFault> {
+    if expression.greatest_height() <= USUAL_HEIGHT {
+        run_on(expression.steps(), values, &mut [T::zero(); USUAL_HEIGHT], apply)
+    } else {
+        run_on(expression.steps(), values, &mut [T::zero(); MAX_HEIGHT], apply)
+    }
+}
+
+/// `stack[..height]` holds the values not yet used.
+fn run_on<T: Real>(
+    steps: &[Step],
+    values: &Values<'_, T>,
+    stack: &mut [T],
+    mut apply: impl FnMut(&Operation, &[T]) -> T,
+) -> Result<T, ExpressionFault> {
     let mut height = 0;
     for step in steps {
         let value = match &step.operation {
             Operation::Number { value, enclosure, .. } => T::written(*value, *enclosure),
             Operation::Symbol(symbol) => values.of(*symbol).map_err(|kind| fault(kind, step))?,
-            Operation::Unary(function) => {
-                height -= 1;
-                function.value(stack[height])
-            }
-            Operation::Binary(function) => {
-                height -= 2;
-                function.value(stack[height], stack[height + 1])
-            }
-            Operation::Table(table) => {
-                height -= 1;
-                table.at(stack[height])
+            operation => {
+                let before = height;
+                height -= operation.arguments();
+                apply(operation, &stack[height..before])
             }
         };
         if !value.is_finite() {

@@ -35,6 +35,7 @@
 //! ```
 
 mod decimal;
+mod degree;
 mod dimension;
 mod evaluate;
 mod fault;
@@ -45,9 +46,11 @@ mod literal;
 mod names;
 mod parser;
 mod program;
+mod relation;
 mod table;
 mod unit;
 
+pub use degree::Degree;
 pub use dimension::{Dimension, Inferred};
 pub use evaluate::Values;
 pub use fault::{ExpressionFault, ExpressionFaultKind};
@@ -55,4 +58,5 @@ pub(crate) use names::nearest as nearest_names;
 pub use names::{Names, Symbol, is_reserved, is_valid_name};
 pub use parser::{MAX_DEPTH, MAX_LENGTH, parse};
 pub use program::Expression;
+pub(crate) use relation::{End, Piece, RelationKind};
 pub use table::{Beyond, Entry, Table};

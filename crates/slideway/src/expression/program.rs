@@ -24,6 +24,17 @@ pub(super) enum Operation {
     Table(Arc<Table>),
 }
 
+impl Operation {
+    /// How many values it takes from the stack.
+    pub(super) fn arguments(&self) -> usize {
+        match self {
+            Self::Number { .. } | Self::Symbol(_) => 0,
+            Self::Unary(_) | Self::Table(_) => 1,
+            Self::Binary(_) => 2,
+        }
+    }
+}
+
 /// One operation; the span is that of the whole part of the text whose value it leaves on the stack.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Step {
@@ -90,6 +101,21 @@ impl Expression {
         })
     }
 
+    /// The expression with the opposite sign.
+    ///
+    /// ```
+    /// use slideway::expression::{Names, Values, parse};
+    ///
+    /// let values = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
+    /// assert_eq!(parse("2 - 5", &Names::new()).unwrap().negated().evaluate(&values), Ok(3.0));
+    /// ```
+    #[must_use]
+    pub fn negated(mut self) -> Self {
+        let span = self.steps.last().map_or(0..0, |step| step.span.clone());
+        self.push(Operation::Unary(Unary::Negate), span);
+        self
+    }
+
     pub(super) fn steps(&self) -> &[Step] {
         &self.steps
     }
@@ -100,11 +126,7 @@ impl Expression {
     }
 
     pub(super) fn push(&mut self, operation: Operation, span: Range<usize>) {
-        match operation {
-            Operation::Number { .. } | Operation::Symbol(_) => self.height += 1,
-            Operation::Unary(_) | Operation::Table(_) => {}
-            Operation::Binary(_) => self.height = self.height.saturating_sub(1),
-        }
+        self.height = (self.height + 1).saturating_sub(operation.arguments());
         self.greatest_height = self.greatest_height.max(self.height);
         self.steps.push(Step { operation, span });
     }

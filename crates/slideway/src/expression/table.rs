@@ -1,6 +1,7 @@
 //! Functions that a table of values gives.
 
 use super::dimension::Inferred;
+use super::relation::End;
 use crate::interval::{Interval, Real};
 use std::sync::Arc;
 
@@ -93,6 +94,89 @@ impl Table {
                 y0.value + (argument - x0.value) / (x1.value - x0.value) * (y1.value - y0.value)
             }
         }
+    }
+
+    /// Whether two of its rows have the same argument, or its value jumps from period to period.
+    pub(super) fn jumps(&self) -> bool {
+        let same = self.rows.windows(2).any(|rows| rows[0][0].value >= rows[1][0].value);
+        let ends = self.rows.first().zip(self.rows.last());
+        same || self.period().is_some()
+            && ends.is_some_and(|([_, first], [_, last])| first.value != last.value)
+    }
+
+    /// The length of a period, if it is repeated.
+    fn period(&self) -> Option<f64> {
+        let length = self.rows.last()?[0].value - self.rows.first()?[0].value;
+        (self.beyond == Beyond::Repeat && length > 0.0).then_some(length)
+    }
+
+    /// How many rows there are before an argument, counted through all periods; of rows with the same argument all.
+    pub(super) fn piece(&self, argument: f64) -> i64 {
+        let before = |argument: f64| self.rows.partition_point(|[place, _]| place.value <= argument) as i64;
+        let Some(period) = self.period() else { return before(argument) };
+        let periods = ((argument - self.rows[0][0].value) / period).floor();
+        let within = before(argument - periods * period).clamp(1, self.rows.len() as i64 - 1);
+        periods as i64 * self.pieces() + within
+    }
+
+    /// Pieces of a period.
+    fn pieces(&self) -> i64 {
+        self.rows.len() as i64 - 1
+    }
+
+    /// The rows between which a piece lies and the shift of their arguments; nothing where the table holds its first or last
+    /// value.
+    fn rows_of(&self, piece: i64) -> Option<([[Entry; 2]; 2], f64)> {
+        let (row, shift) = match self.period() {
+            Some(period) => {
+                let within = (piece - 1).rem_euclid(self.pieces());
+                (within, period * (piece - 1 - within).div_euclid(self.pieces()) as f64)
+            }
+            None => (piece - 1, 0.0),
+        };
+        let row = usize::try_from(row).ok()?;
+        Some(([*self.rows.get(row)?, *self.rows.get(row + 1)?], shift))
+    }
+
+    /// The straight line of a piece.
+    pub(super) fn on_piece<T: Real>(&self, argument: T, piece: i64) -> T {
+        let written = |entry: Entry| T::written(entry.value, entry.enclosure);
+        match self.rows_of(piece) {
+            Some(([[x0, y0], [x1, y1]], shift)) => {
+                let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(written);
+                y0 + (argument - T::exactly(shift) - x0) / (x1 - x0) * (y1 - y0)
+            }
+            None => {
+                let held = if piece <= 0 { self.rows.first() } else { self.rows.last() };
+                held.map_or(T::zero(), |[_, value]| written(*value))
+            }
+        }
+    }
+
+    /// How far an argument is from an end of a piece; nothing where it has none.
+    pub(super) fn margin<T: Real>(&self, argument: T, piece: i64, end: End) -> Option<T> {
+        let (first, last) = (self.rows.first()?[0], self.rows.last()?[0]);
+        let (place, shift) = match (self.rows_of(piece), end) {
+            (Some(([[x0, _], _], shift)), End::Lower) => (x0, shift),
+            (Some(([_, [x1, _]], shift)), End::Upper) => (x1, shift),
+            (None, End::Upper) if piece <= 0 => (first, 0.0),
+            (None, End::Lower) if piece > 0 => (last, 0.0),
+            (None, _) => return None,
+        };
+        let from = argument - T::exactly(shift) - T::written(place.value, place.enclosure);
+        Some(if end == End::Lower { from } else { -from })
+    }
+
+    /// The next piece beyond an end that has a width.
+    pub(super) fn beyond(&self, piece: i64, end: End) -> i64 {
+        let step = if end == End::Lower { -1 } else { 1 };
+        let mut next = piece + step;
+        while let Some(([[x0, _], [x1, _]], _)) = self.rows_of(next)
+            && x0.value >= x1.value
+        {
+            next += step;
+        }
+        next
     }
 
     /// All values on an interval of arguments.

@@ -125,8 +125,7 @@ impl<T: Real> Loads<'_, T> {
     }
 
     fn quantity(&self, quantity: Quantity<T>) -> Result<T, Fault> {
-        let Configuration { coordinates, rates, time, .. } = self.configuration;
-        self.mechanism.quantity(quantity, coordinates, rates, *time)
+        self.configuration.quantity(self.mechanism, quantity)
     }
 
     fn load(&mut self, load: &Load<T>) -> Result<(), Fault> {

@@ -307,8 +307,7 @@ impl<T: Real> Builder<'_, T> {
         }
         let mut faults = Faults::default();
         for (index, drive) in self.mechanism.drives.iter().enumerate() {
-            let Configuration { coordinates: values, rates, time, .. } = self.configuration;
-            match self.mechanism.quantity(drive.acceleration, values, rates, *time) {
+            match self.configuration.quantity(self.mechanism, drive.acceleration) {
                 Ok(prescribed) => {
                     let bias = coordinates[drive.coordinate.index()].right_hand_side;
                     load[self.layout.effort(DriveId(index))] = prescribed + bias;

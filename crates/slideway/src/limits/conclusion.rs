@@ -1,33 +1,59 @@
 //! What limits come to, in words.
 
-use super::report::{CountLimits, Direction};
+use super::find::Method;
+use super::report::{CountLimits, Direction, Known};
 use crate::report::precise;
 
 /// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7).
-pub(super) fn conclusion(name: &str, forwards: &Direction, reversed: Option<&Direction>) -> Vec<String> {
-    let Some(reversed) = reversed else { return one_direction(name, &forwards.counts) };
-    let mut ends: Vec<f64> =
-        forwards.counts.iter().chain(&reversed.counts).flat_map(|count| [count.from, count.to]).collect();
-    ends.sort_by(f64::total_cmp);
-    ends.dedup();
-    let verdict = |pair: &[f64]| {
-        let middle = f64::midpoint(pair[0], pair[1]);
-        let [one, other] = [&forwards.counts, &reversed.counts].map(|counts| moves(counts, middle));
-        Some(match (one?, other?) {
-            (true, true) => "it can move in both directions, so that it can oscillate",
-            (true, false) => "it can only move as in the model; the other way friction locks it",
-            (false, true) => {
-                "it can only move against the direction of the model; the other way friction locks it"
-            }
-            (false, false) => "friction locks it in both directions",
-        })
+pub(super) fn conclusion(
+    name: &str,
+    method: Method,
+    forwards: &Direction,
+    reversed: Option<&Direction>,
+) -> Vec<String> {
+    let pieces = match reversed {
+        None => one_direction(&forwards.counts),
+        Some(reversed) => both_directions(&forwards.counts, &reversed.counts),
     };
-    let pieces = ends.windows(2).filter_map(|pair| Some(([pair[0], pair[1]], verdict(pair)?)));
-    sentences(name, pieces)
+    let mut joined: Vec<Piece> = Vec::new();
+    for piece in pieces {
+        match joined.last_mut() {
+            Some(last) if last.is_like(&piece) && last.to == piece.from => last.to = piece.to,
+            _ => joined.push(piece),
+        }
+    }
+    joined.into_iter().map(|piece| piece.sentence(name, method)).collect()
 }
 
-fn one_direction(name: &str, counts: &[CountLimits]) -> Vec<String> {
-    let pieces = counts.iter().map(|count| {
+/// A stretch with the same verdict.
+struct Piece {
+    from: f64,
+    to: f64,
+    verdict: &'static str,
+    /// The least that is known of it.
+    known: Known,
+}
+
+impl Piece {
+    fn is_like(&self, other: &Self) -> bool {
+        let is_certain = |known: Known| matches!(known, Known::Proven | Known::ClosedForm);
+        self.verdict == other.verdict
+            && (self.known == other.known || is_certain(self.known) && is_certain(other.known))
+    }
+
+    fn sentence(&self, name: &str, method: Method) -> String {
+        let Self { from, to, mut verdict, known } = *self;
+        if known == Known::Undecided {
+            verdict = "not decided";
+        }
+        let sampled = if known == Known::Sampled { " (sampled)" } else { "" };
+        let same = if matches!(method, Method::Same { .. }) { ", the same in the whole range" } else { "" };
+        format!("{name} from {} to {}{same}: {verdict}{sampled}.", precise(from), precise(to))
+    }
+}
+
+fn one_direction(counts: &[CountLimits]) -> Vec<Piece> {
+    let piece = |count: &CountLimits| {
         let verdict = match (count.solutions, count.preload_gap_states) {
             (0, 0) => "no solution: friction locks it",
             (0, _) => "no solution, but a state with the preload between the faces",
@@ -36,28 +62,32 @@ fn one_direction(name: &str, counts: &[CountLimits]) -> Vec<String> {
             (3, _) => "three solutions",
             _ => "more than three solutions",
         };
-        ([count.from, count.to], verdict)
-    });
-    sentences(name, pieces)
-}
-
-/// Whether there is a solution or a preload-gap state; none where nothing is known.
-fn moves(counts: &[CountLimits], at: f64) -> Option<bool> {
-    let count = counts.iter().find(|count| count.from < at && at < count.to)?;
-    Some(count.solutions + count.preload_gap_states > 0)
-}
-
-/// One sentence for each stretch with the same verdict.
-fn sentences<'v>(name: &str, pieces: impl Iterator<Item = ([f64; 2], &'v str)>) -> Vec<String> {
-    let mut joined: Vec<([f64; 2], &str)> = Vec::new();
-    for ([from, to], verdict) in pieces {
-        match joined.last_mut() {
-            Some(last) if last.1 == verdict && last.0[1] == from => last.0[1] = to,
-            _ => joined.push(([from, to], verdict)),
-        }
-    }
-    let sentence = |([from, to], verdict): ([f64; 2], &str)| {
-        format!("{name} from {} to {}: {verdict}.", precise(from), precise(to))
+        Piece { from: count.from, to: count.to, verdict, known: count.known }
     };
-    joined.into_iter().map(sentence).collect()
+    counts.iter().map(piece).collect()
+}
+
+fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Piece> {
+    let mut ends: Vec<f64> =
+        forwards.iter().chain(reversed).flat_map(|count| [count.from, count.to]).collect();
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    let piece = |pair: &[f64]| {
+        let middle = f64::midpoint(pair[0], pair[1]);
+        let at = |counts: &[CountLimits]| {
+            let count = counts.iter().find(|count| count.from < middle && middle < count.to)?;
+            Some((count.solutions + count.preload_gap_states > 0, count.known))
+        };
+        let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
+        let verdict = match (one, other) {
+            (true, true) => "it can move in both directions, so that it can oscillate",
+            (true, false) => "it can only move as in the model; the other way friction locks it",
+            (false, true) => {
+                "it can only move against the direction of the model; the other way friction locks it"
+            }
+            (false, false) => "friction locks it in both directions",
+        };
+        Some(Piece { from: pair[0], to: pair[1], verdict, known: known.max(known_of_other) })
+    };
+    ends.windows(2).filter_map(piece).collect()
 }

@@ -15,40 +15,43 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
+mod closed_form;
 mod conclusion;
 mod curves;
+mod examine;
+mod find;
+mod guarantee;
 mod report;
 mod scan;
 mod text;
 mod varied;
 
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
+pub(crate) use find::{Found, find};
+pub(crate) use guarantee::guarantee;
 pub(crate) use report::Naming;
-pub(crate) use report::guarantee;
 pub use report::{
-    CountLimits, Direction, EndReaction, LimitsReport, ModeLimits, SCHEMA, VariedQuantity, to_json,
+    CountLimits, Direction, EndReaction, Known, LimitsReport, ModeLimits, RangeWithoutProblem, SCHEMA,
+    VariedQuantity, to_json,
 };
 pub(crate) use scan::bisect;
+pub(crate) use text::no_answer;
 pub use text::to_text;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::model::{Model, Settings};
-use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes, counts};
+use crate::mechanism::MAGNITUDES;
+use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-use crate::solve::{Parts, Stages};
-use scan::{STEPS, Scanner};
 
-/// The most patterns whose limits are computed.
-const PATTERNS: u64 = 1 << 14;
+/// Certified searches that are made by default to prove numbers of solutions.
+pub const EFFORT: u64 = 800;
 /// Without a range the factor of all coefficients of friction is varied from 0 to this.
 const USUAL_FACTOR: f64 = 10.0;
 /// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.
 const USUAL_FRICTION: f64 = 1.0;
-/// Places at which it is seen whether the mode problem depends linearly on what is varied.
-const PROBES: [f64; 3] = [0.271_828, 0.577_216, 0.834_627];
 
 /// What to find the limits of.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,32 +62,28 @@ pub struct LimitsOptions {
     pub max_reaction: Option<f64>,
     /// Whether motion in the opposite direction is looked at, too.
     pub both_directions: bool,
+    /// How many certified searches may be made in each direction to prove numbers of solutions over intervals; one that
+    /// visits many nodes counts as several. With 0 nothing is proven.
+    pub effort: u64,
 }
 
 impl LimitsOptions {
-    /// The limits of what is named, in the direction of the model, whatever the reactions.
+    /// The limits of what is named, in the direction of the model, whatever the reactions, with the usual effort.
     pub fn of(vary: &str) -> Self {
-        Self { vary: vary.to_owned(), max_reaction: None, both_directions: false }
+        Self { vary: vary.to_owned(), max_reaction: None, both_directions: false, effort: EFFORT }
     }
 }
 
-/// The modes of one direction of motion.
-pub(crate) struct Found {
-    pub(crate) existence: Existence,
-    counts: Vec<CountInterval>,
-    pub(crate) gaps: Vec<[f64; 2]>,
-    is_linear: bool,
-}
-
-/// The exact intervals in which each mode exists, what ends it, and the number of solutions in between.
+/// The intervals in which each mode exists, what ends it, and the number of solutions in between.
 ///
-/// Where the mode problem depends linearly on what is varied (coefficients of friction, preloads, loads) the ends are
-/// zeros of determinants, and nothing is scanned (theory, section 6; [`crate::modes::existence`]). Otherwise evenly
-/// spaced points are tried and what changes between them is bisected to machine precision; the report says what such
-/// a search can miss.
+/// Where the numbers of the mode problem are affine in what is varied (coefficients of friction, preloads, loads; decided
+/// from the formulas and from where they stand) the ends are zeros of determinants, and nothing is scanned (theory, section
+/// 6; [`crate::modes::existence`]). Otherwise many values are tried and what changes between them is bisected to machine
+/// precision. In either case the certified search is asked for the numbers of solutions over whole intervals, as far as
+/// [`LimitsOptions::effort`] allows: each of them says how it is known, [`Known`].
 ///
 /// # Errors
-/// Whatever `solve` refuses; an unknown name, an empty or reversed range, or one on which nothing depends.
+/// Whatever `solve` refuses; an unknown name, an empty, reversed or infinite range, negative factors of friction.
 pub fn limits(model: &Model, options: &LimitsOptions) -> Result<LimitsReport, Faults> {
     undisturbed(|work| limits_of(model, options, work))
 }
@@ -130,7 +129,7 @@ impl Analysis {
         let directions = 1 + usize::from(options.both_directions);
         let found = find(&varied, range, options, work.part(0, directions))?;
         let reversed = if options.both_directions {
-            let varied = Varied::new(&backwards(model)?, name)?;
+            let varied = Varied::new(&model.reversed(), name)?;
             let found = find(&varied, range, options, work.part(1, directions))?;
             Some((varied, found))
         } else {
@@ -148,13 +147,16 @@ impl Analysis {
 /// The range that is written as FROM..TO.
 ///
 /// # Errors
-/// A text that is no range, or a range that is reversed or empty.
+/// A text that is no range, or a range that is reversed, empty, or too great to compute with.
 pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
     let what = varied.in_words();
     let Some((from, to)) = text.split_once("..") else {
         return Err(fault(FaultKind::MalformedRange { text: text.to_owned(), name: varied.name.clone() }));
     };
     let (from, to) = (varied.value_of(from)?, varied.value_of(to)?);
+    if from.abs().max(to.abs()) > *MAGNITUDES.end() {
+        return Err(fault(FaultKind::Overflow { quantity: format!("the range of {}", varied.name) }));
+    }
     if from > to {
         return Err(fault(FaultKind::ReversedRange { what, from, to }));
     }
@@ -172,89 +174,6 @@ fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
         Ok([0.0, (2.0 * varied.present()?).max(USUAL_FRICTION)])
     } else {
         Err(fault(FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() }))
-    }
-}
-
-/// The model with all rates reversed.
-///
-/// # Errors
-/// A model that cannot be assembled in its state.
-pub(crate) fn backwards(model: &Model) -> Result<Model, Faults> {
-    let stages = Stages::new(model)?;
-    let rates = stages.mechanism.coordinates.iter().zip(&stages.configuration.rates);
-    let settings = rates.fold(Settings::default(), |settings, (coordinate, rate)| {
-        settings.rate(&coordinate.name, &format!("{:e}", -rate))
-    });
-    model.with(&settings)
-}
-
-/// Where modes exist in a range.
-///
-/// # Errors
-/// Too many modes; a fault if nothing varies.
-pub(crate) fn find(
-    varied: &Varied,
-    range: [f64; 2],
-    options: &LimitsOptions,
-    work: Work<'_>,
-) -> Result<Found, Faults> {
-    let existence_options = ExistenceOptions {
-        range: [0.0, 1.0],
-        greatest_normal_force: options.max_reaction,
-        patterns: PATTERNS,
-    };
-    let found = if let Some([start, end]) = linear(varied, range)? {
-        let line = start.line_to(&end);
-        line.existence_with(&existence_options, &mut |progress| work.tell(progress)).map(|existence| {
-            let mut existence = existence.unwrap_or_default();
-            let mut counts = counts(&line, &existence, [0.0, 1.0]);
-            stretch(&mut existence, &mut counts, range);
-            Found { existence, counts, gaps: Vec::new(), is_linear: true }
-        })
-    } else {
-        let scanner = Scanner { varied, options: ExistenceOptions { range, ..existence_options }, work };
-        scanner.scan().map(|scan| Found {
-            existence: scan.existence,
-            counts: scan.counts,
-            gaps: scan.gaps,
-            is_linear: false,
-        })
-    };
-    found.map_err(|TooManyModes { contacts, limit, .. }| fault(FaultKind::TooManyModes { contacts, limit }))
-}
-
-/// The mode problems at both ends of the range, if all in between lie on their line.
-///
-/// # Errors
-/// A fault if nothing varies between them.
-pub(crate) fn linear(varied: &Varied, range: [f64; 2]) -> Result<Option<[Parts; 2]>, Faults> {
-    let at = |t: f64| varied.parts(range[0] + t * (range[1] - range[0]));
-    let (Ok(start), Ok(end)) = (at(0.0), at(1.0)) else { return Ok(None) };
-    let mut is_linear = true;
-    let mut varies = !start.is_same(&end);
-    for t in PROBES {
-        let Ok(probe) = at(t) else { return Ok(None) };
-        is_linear &= probe.is_between(&start, &end, t);
-        varies |= !probe.is_same(&start);
-    }
-    if !varies {
-        let kind = FaultKind::NothingVaries { what: varied.in_words(), from: range[0], to: range[1] };
-        return Err(fault(kind));
-    }
-    Ok(is_linear.then_some([start, end]))
-}
-
-/// From the fraction of the range to the value of what is varied.
-fn stretch(existence: &mut Existence, counts: &mut [CountInterval], [from, to]: [f64; 2]) {
-    // Both ends of the range stay exact.
-    let value = |t: f64| if t == 1.0 { to } else { from + t * (to - from) };
-    for mode in &mut existence.modes {
-        mode.from.at = value(mode.from.at);
-        mode.to.at = value(mode.to.at);
-    }
-    for interval in counts {
-        interval.from = value(interval.from);
-        interval.to = value(interval.to);
     }
 }
 

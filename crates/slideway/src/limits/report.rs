@@ -1,21 +1,22 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::conclusion::conclusion;
+use super::find::{Elsewhere, Found, Knowledge, Method};
+use super::guarantee::guarantee;
 use super::varied::Varied;
-use super::{Found, STEPS};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
-use crate::modes::existence::{EndCause, Limit, ModeEnd, ModeInterval};
+use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{JointMode, indented_json};
 use crate::solve::{mode_in_words, pattern, signs};
 use serde::Serialize;
 
 /// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway/limits/1";
+pub const SCHEMA: &str = "slideway/limits/2";
 
 /// For which values each mode exists.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -26,7 +27,7 @@ pub struct LimitsReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
-    /// "closed form" or "bracketing".
+    /// "closed form", "bracketing", or "independent".
     pub method: &'static str,
     /// What the method can miss, in words.
     pub guarantee: String,
@@ -34,8 +35,8 @@ pub struct LimitsReport {
     pub modes: Vec<ModeLimits>,
     /// Numbers of solutions in that direction.
     pub counts: Vec<CountLimits>,
-    /// Ranges in which the mechanism cannot be assembled or solved, in that direction.
-    pub without_mode_problem: Vec<[f64; 2]>,
+    /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed, in that direction.
+    pub without_mode_problem: Vec<RangeWithoutProblem>,
     /// The opposite direction, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reversed: Option<Direction>,
@@ -71,8 +72,8 @@ pub struct Direction {
     pub modes: Vec<ModeLimits>,
     /// Numbers of solutions.
     pub counts: Vec<CountLimits>,
-    /// Ranges in which the mechanism cannot be assembled or solved.
-    pub without_mode_problem: Vec<[f64; 2]>,
+    /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
+    pub without_mode_problem: Vec<RangeWithoutProblem>,
 }
 
 /// An interval in which a mode has a solution.
@@ -129,6 +130,45 @@ pub struct CountLimits {
     pub solutions: usize,
     /// Number of preload-gap states, which are counted apart.
     pub preload_gap_states: usize,
+    /// How these numbers are known.
+    pub known: Known,
+    /// The longest stretch for all values of which they are proven; null where there is none. If `known` is `proven` that is all
+    /// of the interval, but for a ten-thousandth of what lies between two ends of modes, next to these.
+    pub proven: Option<[f64; 2]>,
+    /// Where they were sampled: the greatest distance between neighbouring values; else null.
+    pub spacing: Option<f64>,
+}
+
+/// How the numbers of solutions in an interval are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Known {
+    /// By the certified search for all values, but for a ten-thousandth of what lies between two ends of modes, next to these.
+    Proven,
+    /// Outside [`CountLimits::proven`] by zeros of determinants, which were computed in rounded numbers.
+    ClosedForm,
+    /// Outside [`CountLimits::proven`] at values that were tried.
+    Sampled,
+    /// Not at all: at some value there is another number.
+    Undecided,
+}
+
+/// A range in which there is no mode problem.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RangeWithoutProblem {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Why: what is at fault in its middle.
+    pub reason: String,
+}
+
+impl RangeWithoutProblem {
+    pub(crate) fn of(found: &Found) -> Vec<Self> {
+        let range = |gap: &super::find::Gap| Self { from: gap.from, to: gap.to, reason: gap.reason() };
+        found.gaps.iter().map(range).collect()
+    }
 }
 
 /// The report as indented JSON.
@@ -227,16 +267,24 @@ impl Naming {
     }
 
     fn direction(&self, found: &Found) -> Direction {
-        let count = |interval: &crate::modes::existence::CountInterval| CountLimits {
+        let count = |(interval, known): (&CountInterval, &Knowledge)| CountLimits {
             from: interval.from,
             to: interval.to,
             solutions: interval.solutions,
             preload_gap_states: interval.gap_states,
+            known: match known.elsewhere {
+                Elsewhere::Nothing => Known::Proven,
+                Elsewhere::ClosedForm => Known::ClosedForm,
+                Elsewhere::Sampled(_) => Known::Sampled,
+                Elsewhere::Contradicted => Known::Undecided,
+            },
+            proven: known.proven,
+            spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
         };
         Direction {
             modes: found.existence.modes.iter().map(|mode| self.mode(mode)).collect(),
-            counts: found.counts.iter().map(count).collect(),
-            without_mode_problem: found.gaps.clone(),
+            counts: found.counts.iter().zip(&found.known).map(count).collect(),
+            without_mode_problem: RangeWithoutProblem::of(found),
         }
     }
 }
@@ -250,14 +298,18 @@ pub(super) fn report(
 ) -> LimitsReport {
     let forwards = naming.direction(found);
     let reversed = reversed.map(|found| naming.direction(found));
-    let conclusion = conclusion(&varied.name, &forwards, reversed.as_ref());
+    let conclusion = conclusion(&varied.name, found.method, &forwards, reversed.as_ref());
     let value = varied.present().unwrap_or_default();
-    let guarantee = guarantee(found, range);
+    let guarantee = guarantee(found);
     LimitsReport {
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
         vary: VariedQuantity::new(varied, range, value),
-        method: if found.is_linear { "closed form" } else { "bracketing" },
+        method: match found.method {
+            Method::ClosedForm => "closed form",
+            Method::Same { .. } => "independent",
+            Method::Bracketing => "bracketing",
+        },
         guarantee,
         modes: forwards.modes,
         counts: forwards.counts,
@@ -265,28 +317,6 @@ pub(super) fn report(
         reversed,
         conclusion,
     }
-}
-
-/// What the method can miss, in words.
-pub(crate) fn guarantee(found: &Found, range: [f64; 2]) -> String {
-    let mut guarantee = if found.is_linear {
-        "The mode problem depends linearly on it: all ends are zeros of determinants, and none is missed."
-            .to_owned()
-    } else {
-        let step = (range[1] - range[0]) / STEPS as f64;
-        format!(
-            "{} evenly spaced values were tried, and what changes between them was bisected to machine precision: a mode that comes and goes within a step of {step:.3e} may be missed.",
-            STEPS + 1
-        )
-    };
-    let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
-    if left_out > 0 {
-        let left_out = format!(
-            " {left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
-        );
-        guarantee.push_str(&left_out);
-    }
-    guarantee
 }
 
 fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {

@@ -1,37 +1,44 @@
-//! Where modes exist if the mode problem does not depend linearly on what is varied: evenly spaced points, and
-//! bisection of what changes between them.
+//! Where modes exist if the mode problem does not depend linearly on what is varied: many values, and bisection of what
+//! changes between them.
+//!
+//! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values inside every
+//! interval between two ends that has none yet, until no further mode turns up.
 
+use super::find::{Elsewhere, Found, Gap, Knowledge, Method};
 use super::varied::Varied;
+use crate::fault::Faults;
 use crate::modes::ContactState;
 use crate::modes::existence::{
-    CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine,
-    TooManyModes,
+    EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine, TooManyModes,
+    cells, counts_in,
 };
 use crate::progress::Work;
-use crate::solve::Parts;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-/// Steps of the evenly spaced points.
-pub(super) const STEPS: usize = 500;
-/// Halvings between two points: down to neighbouring numbers.
+/// Steps of the evenly spaced values.
+const STEPS: usize = 500;
+/// Halvings between two values: down to neighbouring numbers.
 const HALVINGS: usize = 100;
+/// How often the distance to where there is no mode problem is halved.
+const APPROACH: i32 = 40;
+/// Where in an interval between two ends values are tried, as fractions of it.
+const INSIDE: [f64; 3] = [0.5, 0.19, 0.83];
+/// How often intervals without values are sought.
+const ROUNDS: usize = 12;
+/// Ends nearer to each other than this share of the range are one.
+const SAME: f64 = 1e-9;
 
 /// The mode problem at a place, alone.
 struct Place {
     at: f64,
-    /// None where the mechanism cannot be assembled, or cannot be solved for another reason.
-    line: Option<ModeProblemLine>,
+    /// The faults where the mechanism cannot be assembled, or cannot be solved for another reason.
+    line: Result<ModeProblemLine, Faults>,
     present: Vec<Vec<ContactState>>,
 }
 
-/// Everything that a scan finds.
-#[derive(Default)]
-pub(super) struct Scan {
-    pub(super) existence: Existence,
-    pub(super) counts: Vec<CountInterval>,
-    /// Ranges in which there is no mode problem.
-    pub(super) gaps: Vec<[f64; 2]>,
-}
+/// Ends that are known: a pattern, the place where it exists and the one where it does not.
+type Ends = BTreeMap<(Vec<ContactState>, u64, u64), ModeEnd>;
 
 /// A scan over a range.
 pub(super) struct Scanner<'v> {
@@ -41,32 +48,66 @@ pub(super) struct Scanner<'v> {
 }
 
 impl Scanner<'_> {
+    /// The modes, from evenly spaced values, these, and those that follow from what is found.
+    ///
     /// # Errors
     /// More patterns than the options allow.
-    pub(super) fn scan(&self) -> Result<Scan, TooManyModes> {
+    pub(super) fn scan(&self, further: &[f64]) -> Result<Found, TooManyModes> {
         let [from, to] = self.options.range;
-        let mut places = Vec::with_capacity(STEPS + 1);
-        for step in 0..=STEPS {
-            let piece = self.work.part(0, 2).piece("values", step, STEPS + 1);
-            places.push(match piece {
-                ControlFlow::Continue(_) => self.place(from + (to - from) * step as f64 / STEPS as f64)?,
-                ControlFlow::Break(()) => return Ok(Scan::default()),
-            });
+        let even = (0..=STEPS)
+            .map(|step| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 });
+        let mut places = Vec::new();
+        self.add(&mut places, even.chain(further.iter().copied()))?;
+        let edges = self.edges(&places);
+        self.add(&mut places, edges.into_iter())?;
+        let mut ends = Ends::new();
+        let mut modes = self.modes(&places, &mut ends);
+        for _ in 0..ROUNDS {
+            let missing = self.unexamined(&places, &modes);
+            if missing.is_empty() {
+                break;
+            }
+            self.add(&mut places, missing.into_iter())?;
+            modes = self.modes(&places, &mut ends);
         }
-        let mut patterns: Vec<&Vec<ContactState>> = places.iter().flat_map(|place| &place.present).collect();
-        patterns.sort_unstable();
-        patterns.dedup();
-        let mut existence = Existence::default();
-        for pattern in patterns {
-            existence.modes.extend(self.intervals(pattern, &places));
+        let existence = Existence { modes, ..Existence::default() };
+        let gaps = gaps(&places);
+        let is_covered = |[from, to]: &[f64; 2]| {
+            let middle = f64::midpoint(*from, *to);
+            !gaps.iter().any(|gap| gap.from < middle && middle < gap.to)
+        };
+        let cells: Vec<[f64; 2]> =
+            self.cells(&existence.modes, &gaps).into_iter().filter(is_covered).collect();
+        let counts = counts_in(&existence, &cells, &|modes, at| {
+            self.line(at).map_or(modes.len(), |line| line.distinct(modes, 0.0))
+        });
+        let known = Knowledge { proven: None, elsewhere: Elsewhere::Sampled(0.0) };
+        Ok(Found {
+            existence,
+            known: vec![known; counts.len()],
+            counts,
+            gaps,
+            method: Method::Bracketing,
+            tried: places.iter().map(|place| place.at).collect(),
+        })
+    }
+
+    /// Adds places, in their order.
+    fn add(&self, places: &mut Vec<Place>, values: impl Iterator<Item = f64>) -> Result<(), TooManyModes> {
+        let values: Vec<f64> = values.collect();
+        for (index, &at) in values.iter().enumerate() {
+            match self.work.part(0, 2).piece("values", index, values.len()) {
+                ControlFlow::Continue(_) => places.push(self.place(at)?),
+                ControlFlow::Break(()) => break,
+            }
         }
-        let gaps = self.gaps(&places);
-        let counts = counts(&existence, &gaps, self.options.range);
-        Ok(Scan { existence, counts, gaps })
+        places.sort_by(|one, other| one.at.total_cmp(&other.at));
+        places.dedup_by(|next, kept| next.at == kept.at);
+        Ok(())
     }
 
     fn place(&self, at: f64) -> Result<Place, TooManyModes> {
-        let line = self.line(at);
+        let line = self.varied.parts(at).map(|parts| parts.line_to(&parts));
         let present = line.as_ref().map_or(Ok(Vec::new()), |line| line.present(0.0, &self.options))?;
         Ok(Place { at, line, present })
     }
@@ -75,12 +116,68 @@ impl Scanner<'_> {
         if self.work.part(1, 2).is_over() {
             return None;
         }
-        self.varied.parts(at).ok().map(|parts: Parts| parts.line_to(&parts))
+        self.varied.parts(at).ok().map(|parts| parts.line_to(&parts))
     }
 
-    /// The intervals of one pattern, from the points at which it is present.
-    fn intervals(&self, pattern: &[ContactState], places: &[Place]) -> Vec<ModeInterval> {
+    /// Values on both sides of where the mode problem ceases to exist or has another fault, and ever closer to it.
+    fn edges(&self, places: &[Place]) -> Vec<f64> {
+        let mut values = Vec::new();
+        for pair in places.windows(2) {
+            let (Err(faults), inside, outside) = (match (&pair[0].line, &pair[1].line) {
+                (Ok(_), Err(_)) => (&pair[1].line, &pair[0], &pair[1]),
+                (Err(_), _) => (&pair[0].line, &pair[1], &pair[0]),
+                (Ok(_), Ok(_)) => continue,
+            }) else {
+                continue;
+            };
+            if is_same_fault(&inside.line, &outside.line) {
+                continue;
+            }
+            let is_inside = |at: f64| match self.varied.parts(at) {
+                Ok(_) => inside.line.is_ok(),
+                Err(found) => inside.line.is_err() && kind(&found) != kind(faults),
+            };
+            let (near, beyond) = bisect(inside.at, outside.at, is_inside);
+            values.extend([near, beyond]);
+            if inside.line.is_ok() {
+                values.extend((1..APPROACH).map(|power| near + (inside.at - near) * 0.5_f64.powi(power)));
+            }
+        }
+        values
+    }
+
+    /// Places inside intervals between neighbouring ends in which there are none.
+    fn unexamined(&self, places: &[Place], modes: &[ModeInterval]) -> Vec<f64> {
+        let is_empty = |[from, to]: &[f64; 2]| {
+            let inside = places.iter().filter(|place| *from < place.at && place.at < *to);
+            inside.count() < INSIDE.len()
+        };
+        let cells = self.cells(modes, &gaps(places)).into_iter().filter(is_empty);
+        cells.flat_map(|[from, to]| INSIDE.map(|share| from + share * (to - from))).collect()
+    }
+
+    fn cells(&self, modes: &[ModeInterval], gaps: &[Gap]) -> Vec<[f64; 2]> {
+        let [from, to] = self.options.range;
+        let ends = modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
+        let gaps = gaps.iter().flat_map(|gap| [gap.from, gap.to]);
+        cells(ends.chain(gaps).chain([from, to]), |next, kept| next - kept <= SAME * (to - from))
+    }
+
+    /// The intervals of all patterns that are present somewhere.
+    fn modes(&self, places: &[Place], ends: &mut Ends) -> Vec<ModeInterval> {
+        let mut patterns: Vec<&Vec<ContactState>> = places.iter().flat_map(|place| &place.present).collect();
+        patterns.sort_unstable();
+        patterns.dedup();
+        patterns.into_iter().flat_map(|pattern| self.intervals(pattern, places, ends)).collect()
+    }
+
+    /// The intervals of one pattern, from the places at which it is present.
+    fn intervals(&self, pattern: &[ContactState], places: &[Place], ends: &mut Ends) -> Vec<ModeInterval> {
         let present = |place: &Place| place.present.iter().any(|other| other == pattern);
+        let mut end = |inside: f64, outside: f64| {
+            let key = (pattern.to_vec(), inside.to_bits(), outside.to_bits());
+            ends.entry(key).or_insert_with(|| self.end(pattern, inside, outside)).clone()
+        };
         let mut intervals = Vec::new();
         let mut start: Option<ModeEnd> = None;
         for (index, place) in places.iter().enumerate() {
@@ -88,11 +185,11 @@ impl Scanner<'_> {
                 (true, None) => {
                     start = Some(match index.checked_sub(1).map(|before| &places[before]) {
                         None => self.range_end(pattern, place.at),
-                        Some(before) => self.end(pattern, place.at, before.at),
+                        Some(before) => end(place.at, before.at),
                     });
                 }
                 (false, Some(from)) => {
-                    let to = self.end(pattern, places[index - 1].at, place.at);
+                    let to = end(places[index - 1].at, place.at);
                     intervals.push(ModeInterval { pattern: pattern.to_vec(), from: from.clone(), to });
                     start = None;
                 }
@@ -135,28 +232,39 @@ impl Scanner<'_> {
         let normal_force = force.map(|force| force.iter().map(limit).collect());
         ModeEnd { at, cause, normal_force }
     }
+}
 
-    /// The ranges without a mode problem, to the accuracy of the points.
-    fn gaps(&self, places: &[Place]) -> Vec<[f64; 2]> {
-        let mut gaps: Vec<[f64; 2]> = Vec::new();
-        for (index, place) in places.iter().enumerate().filter(|(_, place)| place.line.is_none()) {
-            let edge = |neighbour: Option<usize>| {
-                let Some(neighbour) = neighbour.and_then(|index| places.get(index)) else { return place.at };
-                if neighbour.line.is_none() {
-                    place.at
-                } else {
-                    bisect(neighbour.at, place.at, |at| self.varied.parts(at).is_ok()).0
-                }
+/// The kind of the first fault.
+fn kind(faults: &Faults) -> Option<std::mem::Discriminant<crate::fault::FaultKind>> {
+    faults.sorted().first().map(|fault| std::mem::discriminant(&fault.kind))
+}
+
+fn is_same_fault<T>(one: &Result<T, Faults>, other: &Result<T, Faults>) -> bool {
+    matches!((one, other), (Err(one), Err(other)) if kind(one) == kind(other))
+}
+
+/// The ranges without a mode problem, one for each reason, up to the last places where there is one. The reason is that of a place
+/// in the middle.
+fn gaps(places: &[Place]) -> Vec<Gap> {
+    let mut gaps = Vec::new();
+    let stretches = places.chunk_by(|one, next| is_same_fault(&one.line, &next.line));
+    let mut first = 0;
+    for stretch in stretches {
+        let last = first + stretch.len() - 1;
+        if let Err(faults) = &stretch[stretch.len() / 2].line {
+            let edge = |neighbour: Option<&Place>, own: f64| match neighbour {
+                Some(Place { at, line: Ok(_), .. }) => *at,
+                _ => own,
             };
-            let (from, to) = (edge(index.checked_sub(1)), edge(Some(index + 1)));
-            let continues = index > 0 && places[index - 1].line.is_none();
-            match gaps.last_mut() {
-                Some(last) if continues => last[1] = to,
-                _ => gaps.push([from, to]),
-            }
+            gaps.push(Gap {
+                from: edge(first.checked_sub(1).map(|before| &places[before]), places[first].at),
+                to: edge(places.get(last + 1), places[last].at),
+                faults: faults.clone(),
+            });
         }
-        gaps
+        first = last + 1;
     }
+    gaps
 }
 
 /// Neighbouring places, of which only the first is inside.
@@ -169,33 +277,4 @@ pub(crate) fn bisect(mut inside: f64, mut outside: f64, is_inside: impl Fn(f64) 
         if is_inside(middle) { inside = middle } else { outside = middle }
     }
     (inside, outside)
-}
-
-/// The number of solutions between the ends of modes, ranges without a mode problem left out.
-fn counts(existence: &Existence, gaps: &[[f64; 2]], range: [f64; 2]) -> Vec<CountInterval> {
-    let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-    let mut ends: Vec<f64> = ends.chain(gaps.iter().flatten().copied()).chain(range).collect();
-    ends.sort_by(f64::total_cmp);
-    let scale = (range[1] - range[0]).abs();
-    ends.dedup_by(|next, kept| *next - *kept <= 1e-9 * scale);
-    let mut intervals: Vec<CountInterval> = Vec::new();
-    for pair in ends.windows(2) {
-        let middle = f64::midpoint(pair[0], pair[1]);
-        if gaps.iter().any(|gap| gap[0] < middle && middle < gap[1]) {
-            continue;
-        }
-        let inside = |mode: &&ModeInterval| mode.from.at < middle && middle < mode.to.at;
-        let (gap_states, solutions): (Vec<_>, Vec<_>) =
-            existence.modes.iter().filter(inside).partition(|mode| mode.pattern.contains(&ContactState::Gap));
-        let (solutions, gap_states) = (solutions.len(), gap_states.len());
-        match intervals.last_mut() {
-            Some(last)
-                if last.to == pair[0] && (last.solutions, last.gap_states) == (solutions, gap_states) =>
-            {
-                last.to = pair[1];
-            }
-            _ => intervals.push(CountInterval { from: pair[0], to: pair[1], solutions, gap_states }),
-        }
-    }
-    intervals
 }

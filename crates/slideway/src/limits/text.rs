@@ -1,6 +1,6 @@
 //! Limits as text for people.
 
-use super::report::{CountLimits, LimitsReport, ModeLimits};
+use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -15,7 +15,7 @@ pub fn to_text(report: &LimitsReport, style: Style) -> String {
         let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
         text.direction(", moving the other way", parts);
     }
-    text.out
+    text.text()
 }
 
 impl Page<'_, LimitsReport> {
@@ -37,24 +37,29 @@ impl Page<'_, LimitsReport> {
     fn direction(
         &mut self,
         which: &str,
-        (modes, counts, gaps): (&[ModeLimits], &[CountLimits], &[[f64; 2]]),
+        (modes, counts, gaps): (&[ModeLimits], &[CountLimits], &[RangeWithoutProblem]),
     ) {
         self.line("");
         self.headline(&format!("Contact modes{which}"));
         let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
-        self.out.push_str(&table(
-            &["signs", "from", "to", "begins with", "ends with", "contact mode"],
-            &rows,
-            1,
-        ));
+        self.lines(&table(&["signs", "from", "to", "begins with", "ends with", "contact mode"], &rows, 1));
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
         let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
-        self.out.push_str(&table(&["from", "to", "solutions", "preload gaps"], &rows, 0));
-        for [from, to] in gaps.iter().map(|gap| gap.map(precise)) {
-            self.line(&format!("  From {from} to {to} the mechanism cannot be assembled or solved."));
+        self.lines(&table(&["from", "to", "solutions", "preload gaps", "known"], &rows, 0));
+        for RangeWithoutProblem { from, to, reason } in gaps {
+            self.line(&no_answer([*from, *to], reason));
         }
     }
+}
+
+/// Where there is no mode problem, and why.
+pub(crate) fn no_answer([from, to]: [f64; 2], reason: &str) -> String {
+    let place = match [from, to].map(precise) {
+        [from, to] if from == to => format!("At {from}"),
+        [from, to] => format!("From {from} to {to}"),
+    };
+    format!("  {place} there is no answer, which is no locking: {reason}.")
 }
 
 fn mode_row(mode: &ModeLimits) -> Vec<String> {
@@ -96,5 +101,19 @@ fn cause<'r>(is: &str, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>
 fn count_row(count: &CountLimits) -> Vec<String> {
     let gaps =
         if count.preload_gap_states == 0 { String::new() } else { count.preload_gap_states.to_string() };
-    vec![precise(count.from), precise(count.to), number(count.solutions as f64), gaps]
+    vec![precise(count.from), precise(count.to), number(count.solutions as f64), gaps, known(count)]
+}
+
+/// How numbers of solutions are known, in words.
+fn known(count: &CountLimits) -> String {
+    let rest = match (count.known, count.spacing) {
+        (Known::Proven, _) => return "proven".to_owned(),
+        (Known::Undecided, _) => return "not decided".to_owned(),
+        (Known::Sampled, Some(spacing)) => format!("sampled every {}", number(spacing)),
+        _ => "closed form".to_owned(),
+    };
+    match count.proven {
+        Some([from, to]) => format!("proven from {} to {}, else {rest}", precise(from), precise(to)),
+        None => rest,
+    }
 }

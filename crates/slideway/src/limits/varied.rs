@@ -1,10 +1,16 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
+use crate::configuration::Configuration;
+use crate::enclosure::{UncertainParameters, enclosure};
+use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
+use crate::interval::Interval;
 use crate::mechanism::{Coordinate, Mechanism};
-use crate::model::{Model, Setting, SettingKind, Settings};
+use crate::model::{Dependence, Model, Setting, SettingKind, Settings};
 use crate::modes::existence::ModeProblemLine;
-use crate::solve::{Parts, Stages};
+use crate::modes::search;
+use crate::solve::{Parts, SolveOptions, Stages, certain_counts};
+use std::ops::ControlFlow;
 
 /// The name under which all coefficients of friction are scaled together.
 pub const FRICTION: &str = "friction";
@@ -85,12 +91,7 @@ impl Varied {
     /// A text that is no quantity of the right dimension.
     pub(crate) fn value_of(&self, text: &str) -> Result<f64, Faults> {
         let value = match self.kind {
-            Kind::Friction => {
-                return text.trim().parse().map_err(|_| {
-                    let (text, name) = (text.to_owned(), self.name.clone());
-                    Fault::general(FaultKind::MalformedRange { text, name }).into()
-                });
-            }
+            Kind::Friction => return self.factor(text),
             Kind::Parameter => self.model.setting_value(&self.setting(SettingKind::Parameter, text)),
             Kind::Coordinate => self.model.setting_value(&self.setting(SettingKind::Position, text)),
         };
@@ -99,6 +100,69 @@ impl Varied {
             let text = format!("{}={}", self.name, text.trim());
             Fault::general(FaultKind::Axis { text, problem: AxisProblem::of(&faults) }).into()
         })
+    }
+
+    /// A factor of friction: a plain number, not below zero.
+    fn factor(&self, text: &str) -> Result<f64, Faults> {
+        let text = text.trim();
+        let fault =
+            |problem| Fault::general(FaultKind::Axis { text: format!("{}={text}", self.name), problem });
+        match text.parse::<f64>() {
+            Ok(value) if value < 0.0 => Err(fault(AxisProblem::NegativeFriction { value }).into()),
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(_) => {
+                let message = format!("`{text}` is not finite");
+                Err(fault(AxisProblem::Value { message, hint: None }).into())
+            }
+            Err(_) => {
+                let (text, name) = (text.to_owned(), self.name.clone());
+                Err(Fault::general(FaultKind::MalformedRange { text, name }).into())
+            }
+        }
+    }
+
+    /// How the mode problem depends on it, decided from the model.
+    pub(crate) fn dependence(&self) -> Dependence {
+        let index = self.model.parameters.iter().position(|parameter| *parameter.name == *self.name);
+        match (self.kind, index) {
+            (Kind::Parameter, Some(index)) => self.model.dependence(index),
+            (kind, _) => Dependence {
+                problem: if kind == Kind::Friction { Degree::Affine } else { Degree::Other },
+                conditions: Degree::Constant,
+                at_rest: false,
+            },
+        }
+    }
+
+    /// The numbers of solutions and of preload-gap states that are proven for all values between two, if they are, and
+    /// what that took: nodes of the search. States with a normal force above `greatest` do not count.
+    pub(crate) fn certain_counts(
+        &self,
+        [from, to]: [f64; 2],
+        greatest: Option<f64>,
+        options: &SolveOptions,
+    ) -> (Option<[usize; 2]>, u64) {
+        let enclosed = || {
+            let bounds = Interval::new(from, to)?;
+            let uncertain = UncertainParameters::default();
+            if let Some(stages) = &self.stages {
+                let uncertain = uncertain.with_friction(bounds);
+                return enclosure(&self.model, &uncertain, &stages.mechanism, &stages.configuration).ok();
+            }
+            let model = self.model_at(bounds.middle()).ok()?.0;
+            let uncertain = match self.kind {
+                Kind::Coordinate => uncertain.with_coordinate(&self.name, bounds),
+                _ => uncertain.with(&self.name, bounds),
+            };
+            let mechanism = Mechanism::new(&model).ok()?;
+            let configuration = Configuration::new(&mechanism).ok()?;
+            enclosure(&model, &uncertain, &mechanism, &configuration).ok()
+        };
+        let Some(enclosed) = enclosed() else { return (None, 1) };
+        match search(&enclosed.problem, &options.search, &mut |_| ControlFlow::Continue(())) {
+            Ok(result) => (certain_counts(&enclosed, &result, options, greatest), result.nodes()),
+            Err(_) => (None, 1),
+        }
     }
 
     /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.

@@ -155,6 +155,7 @@ fn margin(parts: &Parts) -> Option<ClassMeaning> {
 pub(super) fn reason(faults: &Faults) -> &'static str {
     match faults.sorted().first().map(|fault| &fault.kind) {
         Some(FaultKind::NotAssembled { .. }) => "cannot be assembled",
+        Some(FaultKind::NotFollowed { .. } | FaultKind::TooFar { .. }) => "not reached from the drawing",
         Some(FaultKind::TravelExceeded { .. } | FaultKind::OverlapVanished { .. }) => {
             "beyond the travel of a joint"
         }

@@ -2,13 +2,11 @@
 
 use super::class::{ClassKey, class, reason};
 use super::{Axis, ColourBy};
+use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{backwards, mechanism_with};
+use crate::limits::mechanism_with;
 use crate::model::{Model, Settings};
 use crate::solve::{Parts, Stages, Trail};
-
-/// Shares of both ranges at which it is seen whether the mode problem depends bilinearly on both quantities.
-const PROBES: [f64; 3] = [0.271_828, 0.577_216, 0.834_627];
 
 /// What finds the class of a point.
 pub(super) struct Evaluator<'a> {
@@ -33,7 +31,7 @@ impl<'a> Evaluator<'a> {
     pub(super) fn new(model: &Model, axes: &'a [Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
         let forwards = Source::new(model.clone(), axes)?;
         let opposite = match colour_by {
-            ColourBy::Jam => Some(Source::new(backwards(model)?, axes)?),
+            ColourBy::Jam => Some(Source::new(model.reversed(), axes)?),
             _ => None,
         };
         Ok(Self { axes, colour_by, forwards, opposite })
@@ -67,18 +65,13 @@ impl<'a> Evaluator<'a> {
 impl Source {
     fn new(model: Model, axes: &[Axis; 2]) -> Result<Self, Faults> {
         let at = |[u, v]: [f64; 2]| parts_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)]);
-        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at);
-        let probes: Vec<([f64; 2], Result<Parts, Faults>)> =
-            PROBES.iter().flat_map(|&u| PROBES.map(|v| [u, v])).map(|place| (place, at(place))).collect();
-        nothing_varies(axes, &probes)?;
-        if let [Ok(a), Ok(b), Ok(c), Ok(d)] = corners {
-            let corners = Box::new([a, b, c, d]);
-            let bilinear = probes.iter().all(|(place, parts)| {
-                parts.as_ref().is_ok_and(|parts| parts.is_mixture(&weighted(&corners, *place)))
-            });
-            if bilinear {
-                return Ok(Self::Bilinear(corners));
-            }
+        let [x, y] = axes.each_ref().map(|axis| axis.varied.dependence().problem);
+        nothing_varies(axes, [x, y])?;
+        // What is affine in each of both while the other stays as it is, is bilinear in both.
+        if x.max(y) <= Degree::Affine
+            && let [Ok(a), Ok(b), Ok(c), Ok(d)] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at)
+        {
+            return Ok(Self::Bilinear(Box::new([a, b, c, d])));
         }
         Ok(Self::Anew(Box::new(model)))
     }
@@ -124,29 +117,12 @@ fn parts_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, 
     Stages::new(&model.with(&settings)?)?.parts(friction)
 }
 
-/// Refuses a quantity that changes nothing between any two probes.
-fn nothing_varies(axes: &[Axis; 2], probes: &[([f64; 2], Result<Parts, Faults>)]) -> Result<(), Faults> {
+/// Refuses a quantity on which nothing depends.
+fn nothing_varies(axes: &[Axis; 2], degrees: [Degree; 2]) -> Result<(), Faults> {
     let mut faults = Faults::default();
-    for (index, axis) in axes.iter().enumerate() {
-        let other = 1 - index;
-        let mut pairs = probes.iter().flat_map(|one| probes.iter().map(move |next| (one, next)));
-        let mut compared = false;
-        let varies = pairs.any(|((place, parts), (next, others))| {
-            if place[other] != next[other] || place[index] == next[index] {
-                return false;
-            }
-            match (parts, others) {
-                (Ok(parts), Ok(others)) => {
-                    compared = true;
-                    !parts.is_same(others)
-                }
-                (one, two) => one.is_ok() != two.is_ok(),
-            }
-        });
-        if compared && !varies {
-            let [from, to] = axis.range;
-            faults.push(Fault::general(FaultKind::NothingVaries { what: axis.varied.in_words(), from, to }));
-        }
+    for (axis, _) in axes.iter().zip(degrees).filter(|(_, degree)| *degree == Degree::Constant) {
+        let [from, to] = axis.range;
+        faults.push(Fault::general(FaultKind::NothingVaries { what: axis.varied.in_words(), from, to }));
     }
     faults.or(())
 }
@@ -175,7 +151,7 @@ mod tests {
             for colour_by in [ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
                 let evaluator = Evaluator::new(&model, &axes, colour_by).expect("something varies");
                 assert!(!evaluator.is_bilinear(), "{name}");
-                let backwards = backwards(&model).expect("can be turned round");
+                let backwards = model.reversed();
                 for points in [(0..32).map(walking).collect::<Vec<_>>(), (0..32).map(jumping).collect()] {
                     let values = points.iter().map(|[u, v]| [along(&axes[0], *u), along(&axes[1], *v)]);
                     let found = evaluator.classes(values.clone());

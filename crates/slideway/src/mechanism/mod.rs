@@ -4,18 +4,20 @@
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
 mod evaluation;
+mod relations;
 
-use crate::expression::Values;
+use crate::expression::{Expression, Values};
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind};
 use evaluation::Evaluation;
 use nalgebra::Vector2;
+pub(crate) use relations::{Pieces, Relation};
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
-const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+pub(crate) const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// A mechanism in its reference drawing: its numbers are rounded (`T` is `f64`), or lie within intervals.
 #[derive(Debug, Clone)]
@@ -441,10 +443,31 @@ impl<T: Real> Mechanism<T> {
         rates: &[T],
         time: T,
     ) -> Result<T, Fault> {
+        self.quantity_on(quantity, &self.values(coordinates, rates, time), None)
+    }
+
+    /// The same with every relation on its piece, if pieces are given.
+    ///
+    /// # Errors
+    /// As [`Self::quantity`].
+    pub(crate) fn quantity_on(
+        &self,
+        quantity: Quantity<T>,
+        values: &Values<'_, T>,
+        pieces: Option<&Pieces>,
+    ) -> Result<T, Fault> {
         match quantity {
             Quantity::Constant(value) => Ok(value),
-            Quantity::Varying(id) => self.formulas[id.index()].value(&self.values(coordinates, rates, time)),
+            Quantity::Varying(id) => {
+                let pieces = pieces.map_or(&[][..], |pieces| pieces.of(id));
+                self.formulas[id.index()].value_on(values, pieces)
+            }
         }
+    }
+
+    /// The expression of a formula.
+    pub(crate) fn expression(&self, id: FormulaId) -> &Expression {
+        &self.formulas[id.index()].expression
     }
 
     /// What the names in an expression stand for in a state.

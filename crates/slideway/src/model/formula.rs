@@ -1,7 +1,7 @@
 //! A number of the model that may be an expression, with the dimension it must have and its place.
 
 use super::quantity::{Quantity, Span, Written};
-use crate::expression::{Dimension, Expression, ExpressionFault, Inferred, Symbol, Values};
+use crate::expression::{Dimension, Expression, ExpressionFault, Inferred, Piece, Symbol, Values};
 use crate::fault::{Fault, FaultKind, Place, Source};
 use crate::interval::Real;
 
@@ -82,7 +82,20 @@ impl Formula {
     /// # Errors
     /// A fault if the value is not finite or not allowed.
     pub fn value<T: Real>(&self, values: &Values<'_, T>) -> Result<T, Fault> {
-        let value = self.expression.evaluate(values).map_err(|fault| self.origin.fault(fault))?;
+        self.value_on(values, &[])
+    }
+
+    /// Its value in a state with every relation on its piece; relations without a piece follow their arguments.
+    ///
+    /// # Errors
+    /// As [`Self::value`].
+    pub(crate) fn value_on<T: Real>(&self, values: &Values<'_, T>, pieces: &[Piece]) -> Result<T, Fault> {
+        let value = if pieces.is_empty() {
+            self.expression.evaluate(values)
+        } else {
+            self.expression.evaluate_on(values, pieces)
+        };
+        let value = value.map_err(|fault| self.origin.fault(fault))?;
         let (allowed, wanted) = match self.allowed {
             Allowed::Any => (true, ""),
             Allowed::Positive => (value.lower() > 0.0, "greater than zero"),

@@ -31,6 +31,7 @@
 //! ```
 
 mod check;
+mod dependence;
 mod file;
 mod formula;
 mod quantity;
@@ -40,6 +41,7 @@ mod sections;
 mod settings;
 mod structure;
 
+pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
 pub use formula::{Allowed, Formula, Origin};
 pub use range::ParameterRange;

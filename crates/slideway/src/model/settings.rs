@@ -122,6 +122,18 @@ impl Model {
         faults.or(model)
     }
 
+    /// The model with all rates of its coordinates reversed, formulas of parameters among them.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let mut model = self.clone();
+        let formulas = Arc::make_mut(&mut model.formulas);
+        for id in self.coordinates.iter().filter_map(|coordinate| coordinate.rate) {
+            let formula = &mut formulas[id.index()];
+            formula.expression = std::mem::take(&mut formula.expression).negated();
+        }
+        model
+    }
+
     fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {
         let name = setting.name.as_str();
         match setting.kind {

@@ -43,6 +43,8 @@ pub enum Cause {
         /// Whether it is the greatest displacement.
         greatest: bool,
     },
+    /// A load or drive jumps: a relation in its formula, or a table, passes to its next piece.
+    LoadJumps(String),
     /// A function of the user has passed zero; its number and its name.
     User(usize, String),
     /// The mechanism could not go on moving: an impulse has stopped it, at a loss of kinetic energy (J).
@@ -53,8 +55,9 @@ pub enum Cause {
 }
 
 impl Cause {
-    pub(super) fn of(watched: Watched, sliders: &[JointId], names: impl Fn(usize) -> String) -> Self {
-        match watched {
+    /// The cause that a watched function is; none for relations, of which only jumps are told.
+    pub(super) fn of(watched: Watched, sliders: &[JointId], names: impl Fn(usize) -> String) -> Option<Self> {
+        Some(match watched {
             Watched::NormalForce(contact) => Self::NormalForceZero(contact),
             // The share of the positive face has vanished: the negative one presses.
             Watched::Share(contact, Side::Positive) => Self::PreloadGapEnds(contact, Side::Negative),
@@ -67,7 +70,8 @@ impl Cause {
             Watched::Overlap(joint) => Self::OverlapVanishes(joint),
             Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
             Watched::User(index, _) => Self::User(index, names(index)),
-        }
+            Watched::Relation(_) => return None,
+        })
     }
 
     /// Its name in reports.
@@ -83,6 +87,7 @@ impl Cause {
             Self::Tips(_) => "tips",
             Self::OverlapVanishes(_) => "overlap_vanishes",
             Self::TravelLimit { .. } => "travel_limit",
+            Self::LoadJumps(_) => "load_jumps",
             Self::User(..) => "user",
             Self::Jams { .. } => "jams",
         }
@@ -98,8 +103,16 @@ impl Cause {
             | Self::Tips(joint)
             | Self::OverlapVanishes(joint)
             | Self::TravelLimit { joint, .. } => Some(&mechanism.joints[joint.index()].name),
-            Self::User(_, name) => Some(name),
+            Self::User(_, name) | Self::LoadJumps(name) => Some(name),
             Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
+        }
+    }
+
+    /// The contact whose normal force, or whose preload gap, has come to its end.
+    pub(super) fn vanishing_contact(&self) -> Option<ContactId> {
+        match self {
+            Self::NormalForceZero(contact) | Self::PreloadGapEnds(contact, _) => Some(*contact),
+            _ => None,
         }
     }
 
@@ -174,6 +187,7 @@ impl Words<'_> {
                 let end = if *greatest { "greatest" } else { "least" };
                 format!("{} reaches the {end} displacement of its travel", self.name(*joint))
             }
+            Cause::LoadJumps(name) => format!("{name} jumps"),
             Cause::User(_, name) => format!("{name} passes zero"),
             Cause::Jams { energy_lost } => {
                 format!("it jams: an impulse stops it and takes {} J", number(*energy_lost))

@@ -89,6 +89,8 @@ pub enum End {
         /// Counted from 1.
         branching: usize,
     },
+    /// A guided slider tips: it has no state for what follows.
+    Tips(JointId),
     /// At rest neither sticking nor sliding is possible.
     NoContinuation,
     /// Impulses do not bring it into a state from which it can go on.

@@ -112,7 +112,7 @@ pub struct PhaseReport {
 /// How a motion ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EndReport {
-    /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `no_continuation`, `jammed`,
+    /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `tips`, `no_continuation`, `jammed`,
     /// `accumulation`, `step_limit`, `event_limit`, `no_value`, `undecided`, `interrupted`.
     pub kind: &'static str,
     /// In words.
@@ -284,7 +284,8 @@ fn phases(history: &History) -> Vec<PhaseReport> {
 
 fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
     let (kind, words) = end_in_words(history, options);
-    let locked = matches!(history.end, End::NoContinuation | End::Jammed | End::ReactionLimit(_));
+    let locked =
+        matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
     EndReport { kind, words, locked }
 }
 
@@ -317,6 +318,13 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
             "no_such_branch",
             format!(
                 "It ends at {time} s: the branch that was wanted at decision {branching} does not exist there."
+            ),
+        ),
+        End::Tips(id) => (
+            "tips",
+            format!(
+                "It ends at {time} s: {} tips in its guide, of which a guided slider has no state.",
+                joint(id)
             ),
         ),
         End::NoContinuation => (

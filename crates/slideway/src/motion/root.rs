@@ -1,5 +1,7 @@
 //! Where a continuous function falls through zero, and where it might between values above zero.
 
+use crate::interval::Interval;
+
 /// The least place at which a function that is positive at `left` and not at `right` is found not to be positive any
 /// more, to within `tolerance`; the function is not positive at the place that is returned.
 ///
@@ -39,6 +41,45 @@ pub(super) fn falling_root<E>(
     Ok(right)
 }
 
+/// Cells of time that are narrower than this many units in the last place are not divided.
+const NARROWEST: f64 = 4.0;
+
+/// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to the left of it, but
+/// for times at which it cannot be told from zero.
+pub(super) fn first_fall<E>(
+    [from, until]: [f64; 2],
+    mut function: impl FnMut(Interval) -> Result<Interval, E>,
+) -> Result<Option<f64>, E> {
+    let narrowest = |time: f64| NARROWEST * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE / f64::EPSILON);
+    let (mut time, mut cell) = (from, until - from);
+    while time < until {
+        let end = (time + cell).min(until);
+        let range = Interval::new(time, end).map_or(Ok(Interval::REAL_LINE), &mut function)?;
+        if range.lower() > 0.0 {
+            (time, cell) = (end, 2.0 * cell);
+        } else if cell > narrowest(time) {
+            cell /= 2.0;
+        } else {
+            // Neighbouring times: on to the first at which the sign can be told.
+            loop {
+                if time + cell > until {
+                    return Ok(None);
+                }
+                let value = function(Interval::point(time + cell))?;
+                if value.upper() < 0.0 {
+                    return Ok(Some(time + cell));
+                }
+                if value.lower() > 0.0 {
+                    time += cell;
+                    break;
+                }
+                cell *= 2.0;
+            }
+        }
+    }
+    Ok(None)
+}
+
 /// A dip to less than this part of the range of the values is looked at.
 const NEAR: f64 = 0.1;
 
@@ -70,6 +111,7 @@ pub(super) fn dip([first, second, third, last]: [f64; 4]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interval::Real;
     use std::convert::Infallible;
 
     fn root(ends: [f64; 2], function: impl Fn(f64) -> f64) -> (f64, usize) {
@@ -122,5 +164,25 @@ mod tests {
         {
             assert_eq!(samples(p), None);
         }
+    }
+
+    #[test]
+    fn the_first_fall_is_found_however_long_the_range_is() {
+        let fall = |ends: [f64; 2], function: &dyn Fn(Interval) -> Interval| {
+            let Ok(found) = first_fall::<Infallible>(ends, |time| Ok(function(time)));
+            found
+        };
+        let sine = |time: Interval| (time * Interval::point(2.0)).sin();
+        let found = fall([0.0, 1e4], &sine).expect("sin(2 t) falls at pi/2");
+        assert!((found - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{found}");
+        // From a zero on, at which it rises.
+        let from = std::f64::consts::PI;
+        let found = fall([from, 1e4], &sine).expect("and at 3 pi/2");
+        assert!((found - 1.5 * std::f64::consts::PI).abs() < 3e-15, "{found}");
+        // It touches zero at 1 and falls at 2: (t - 1)^2 (2 - t).
+        let touches = |time: Interval| (time - Interval::point(1.0)).square() * (Interval::point(2.0) - time);
+        let found = fall([0.0, 5.0], &touches).expect("at 2");
+        assert!((found - 2.0).abs() < 1e-15, "{found}");
+        assert_eq!(fall([0.0, 1.9], &touches), None);
     }
 }

@@ -1,9 +1,10 @@
 //! What the simulation asks at an event: how the motion can go on.
 
-use super::decision::{self, Limit, Standing};
+use super::decision;
 use super::phase::Phase;
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::report::Verdict;
 
@@ -14,8 +15,10 @@ pub struct Instant<'a> {
     pub mechanism: &'a Mechanism,
     /// Its state.
     pub configuration: &'a Configuration,
-    /// For each sliding joint, whether its sliding velocity is zero.
-    pub stopped: &'a [bool],
+    /// For each sliding joint the sign of its sliding velocity from now on: 1, -1, or 0 where it has stopped.
+    pub signs: &'a [f64],
+    /// Contacts whose normal force has just reached zero, or whose preload gap ends: that is exactly so.
+    pub zero: &'a [ContactId],
     /// The phase that has just ended; nothing at the start and after an impulse.
     pub previous: Option<&'a Phase>,
 }
@@ -47,6 +50,14 @@ pub trait Decisions {
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
     fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults>;
+
+    /// Where nothing can follow, the guided sliders that would tip.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces at the instant from being computed.
+    fn tipping(&mut self, _instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+        Ok(Vec::new())
+    }
 
     /// The impulse of a mechanism that cannot go on moving; nothing if there is none.
     ///
@@ -82,16 +93,16 @@ pub trait Decisions {
 
 /// A mechanism that stands still while its loads change.
 pub trait Hold {
-    /// What [`Decisions::sticking_margin`] is at the time of a configuration.
+    /// The first time in a span from the configuration's time on at which the joints cannot stick any longer.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
-    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults>;
+    fn slips(&mut self, configuration: &Configuration, until: f64) -> Result<Option<f64>, Faults>;
 }
 
 impl Hold for decision::Holding<'_> {
-    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
-        self.margin(configuration)
+    fn slips(&mut self, configuration: &Configuration, until: f64) -> Result<Option<f64>, Faults> {
+        self.slips(configuration, until)
     }
 }
 
@@ -101,19 +112,18 @@ pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
-        let Instant { mechanism, configuration, stopped, previous } = *instant;
-        let mut found = decision::continuations(mechanism, configuration, stopped, previous)?;
-        // A joint that could just as well stick slides only if nothing else is possible: it would not move.
-        found.list.sort_by_key(|successor| match &successor.standing {
-            Standing::Undecided(limits) => limits.iter().any(|limit| matches!(limit, Limit::Slip(_))),
-            _ => false,
-        });
+        let found = decision::continuations(instant)?;
         let one = |successor: decision::Successor| Successor {
             phase: successor.phase,
             verdict: successor.attainability.verdict,
             continues: successor.continues,
         };
         Ok(found.list.into_iter().map(one).collect())
+    }
+
+    fn tipping(&mut self, instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+        let found = decision::continuations(instant)?;
+        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
     fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults> {

@@ -9,6 +9,7 @@ use super::rules::{Decisions, Instant, Successor};
 use super::smooth::{Ended, Smooth};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
 use crate::progress::{Callback, Progress};
 use crate::report::spaced;
@@ -86,6 +87,8 @@ impl<'a, 'm> Run<'a, 'm> {
         loop {
             let Some(phase) = self.phase.clone() else { return End::NoContinuation };
             let causes = match self.phase(&phase, progress, total) {
+                // A load has a kink.
+                Ended::Event(causes) if causes.is_empty() => continue,
                 Ended::Event(causes) => causes,
                 Ended::End(end) => return end,
             };
@@ -117,6 +120,10 @@ impl<'a, 'm> Run<'a, 'm> {
             Ok(()) => {}
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
             Err(Failure::Singular) => return Ended::End(End::Jammed),
+        }
+        let exceeded = self.smooth.exceeded_reactions();
+        if !exceeded.is_empty() {
+            return Ended::Event(exceeded);
         }
         loop {
             if self.smooth.is_over() {
@@ -184,13 +191,16 @@ impl<'a, 'm> Run<'a, 'm> {
             if let Some(previous) = &previous {
                 self.smooth.settle(previous, &stopped);
             }
+            let signs = self.signs(&stopped);
+            let zero: Vec<ContactId> = causes.iter().filter_map(Cause::vanishing_contact).collect();
             let (time, state) = (self.smooth.time, &self.smooth.state);
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
             let instant = Instant {
                 mechanism: self.smooth.equations.mechanism,
                 configuration: &configuration,
-                stopped: &stopped,
+                signs: &signs,
+                zero: &zero,
                 previous: previous.as_ref(),
             };
             let successors = self.decisions.successors(&instant)?;
@@ -201,6 +211,13 @@ impl<'a, 'm> Run<'a, 'm> {
                 self.tell(causes, successors, taken);
                 let branching = self.branchings;
                 return Ok(if taken.is_some() { None } else { Some(End::NoSuchBranch { branching }) });
+            }
+            if let Some(&joint) = self.decisions.tipping(&instant)?.first() {
+                if !causes.contains(&Cause::Tips(joint)) {
+                    causes.push(Cause::Tips(joint));
+                }
+                self.tell(causes, Vec::new(), None);
+                return Ok(Some(End::Tips(joint)));
             }
             if stopped.iter().all(|stopped| *stopped) {
                 self.tell(causes, Vec::new(), None);
@@ -256,6 +273,17 @@ impl<'a, 'm> Run<'a, 'm> {
             sticks || causes.contains(&Cause::Stops(*joint)) || velocity.abs() <= AT_REST * greatest
         };
         equations.sliders.iter().enumerate().map(one).collect()
+    }
+
+    /// The signs of all sliding velocities.
+    fn signs(&self, stopped: &[bool]) -> Vec<f64> {
+        let equations = &self.smooth.equations;
+        let one = |(joint, stopped): (&crate::ids::JointId, &bool)| {
+            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
+            let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
+            if *stopped { 0.0 } else { velocity.signum() }
+        };
+        equations.sliders.iter().zip(stopped).map(one).collect()
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.

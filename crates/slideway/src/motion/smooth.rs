@@ -8,8 +8,10 @@ use super::phase::{JointPhase, Phase};
 use super::root::{dip, falling_root};
 use super::rules::{Decisions, Hold};
 use super::stepper::{DENSE, StepControl, Stepper, within};
+use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
+use crate::fault::{Fault, FaultKind, Faults};
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -61,12 +63,17 @@ pub(super) struct Smooth<'o, 'm> {
     /// Of all bodies (kg).
     mass: f64,
     watch: Watch<'o>,
+    switching: Switching<'m>,
     options: &'o SimulateOptions,
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
-    /// What computes the margin of sticking while the whole mechanism stands still.
+    /// What knows when sticking ends while the whole mechanism stands still, ...
     hold: Option<Box<dyn Hold + 'm>>,
+    /// ... until when it has been asked, and when something slips.
+    held: (f64, Option<f64>),
+    /// No step goes beyond this time.
+    stop: f64,
 }
 
 impl<'o, 'm> Smooth<'o, 'm> {
@@ -90,13 +97,17 @@ impl<'o, 'm> Smooth<'o, 'm> {
             energy: 0.0,
             mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
+            switching: Switching::new(equations.mechanism, &equations.configuration),
             options,
             values: Default::default(),
             inside: vec![0.0; size],
             hold: None,
+            held: (f64::NEG_INFINITY, None),
+            stop: time,
             state,
             equations,
         };
+        smooth.equations.configuration.pieces = smooth.switching.pieces();
         smooth.notice_velocity();
         smooth
     }
@@ -117,10 +128,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Equations that cannot be solved.
     pub(super) fn enter(&mut self, phase: &Phase, decisions: &mut dyn Decisions) -> Result<(), Failure> {
         self.equations.enter(phase, self.time, &self.state)?;
-        self.watch.begin(phase, &self.equations);
+        self.watch.begin(phase, &self.equations, &self.switching);
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
         self.hold = None;
+        self.held = (f64::NEG_INFINITY, None);
         if self.equations.stands_still(REST * self.greatest_velocity()) {
             let configuration = &self.equations.configuration;
             let hold = decisions.hold(self.equations.mechanism, configuration, phase);
@@ -133,6 +145,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
             self.next = self.first_step();
         }
         Ok(())
+    }
+
+    /// The contacts whose normal forces are beyond the limit where the phase begins.
+    pub(super) fn exceeded_reactions(&self) -> Vec<Cause> {
+        let values = self.watch.list.iter().zip(&self.values[0]);
+        let exceeded =
+            values.filter(|(watched, value)| matches!(watched, Watched::ReactionLimit(_)) && **value <= 0.0);
+        exceeded
+            .filter_map(|(watched, _)| Cause::of(*watched, &self.equations.sliders, |_| String::new()))
+            .collect()
     }
 
     /// A step within which neither positions nor velocities change much.
@@ -195,6 +217,17 @@ impl<'o, 'm> Smooth<'o, 'm> {
         history: &mut History,
     ) -> Option<Ended> {
         self.set_scale();
+        let due = self.due();
+        if !due.is_empty() {
+            return Some(self.switch(&due, Vec::new()));
+        }
+        match self.slips() {
+            Ok(slips) if slips - self.time <= self.least_step() => {
+                return Some(Ended::Event(vec![Cause::Slips]));
+            }
+            Ok(slips) => self.stop = self.known_time().min(slips),
+            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
+        }
         let (step, error) = match self.accepted_step(phase, decisions, history) {
             Ok(accepted) => accepted,
             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -208,14 +241,26 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 self.values.swap(0, 3);
                 None
             }
-            Ok(Some((fraction, causes))) => {
+            Ok(Some((mut fraction, watched))) => {
                 history.dense.truncate(first);
                 self.next = step;
+                let causes = self.causes(&watched);
+                if fraction > 1.0 - SAME_INSTANT {
+                    // It happens where the step was to end in any case.
+                    fraction = 1.0;
+                }
                 match self.stop_at(fraction * step, history) {
                     Ok(()) if fraction > 0.0 && self.still_slides(phase, &causes) => {
                         self.go_on(fraction * step, phase, decisions)
                     }
-                    Ok(()) => Some(Ended::Event(causes)),
+                    Ok(()) => {
+                        let mut switches = self.due();
+                        switches.extend(watched.iter().filter_map(|watched| match watched {
+                            Watched::Relation(switch) => Some(*switch),
+                            _ => None,
+                        }));
+                        Some(self.switch(&switches, causes))
+                    }
                     Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
                     Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
                 }
@@ -231,6 +276,55 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
     }
 
+    /// What the watched functions that have passed zero are the causes of.
+    fn causes(&self, watched: &[Watched]) -> Vec<Cause> {
+        let name = |index: usize| self.options.events[index].name.clone();
+        watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
+    }
+
+    /// Puts relations on their next pieces; the loads and drives that jump there are causes of the event.
+    fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
+        causes.extend(self.switching.switch(switches).into_iter().map(Cause::LoadJumps));
+        self.equations.configuration.pieces = self.switching.pieces();
+        Ended::Event(causes)
+    }
+
+    /// The relations that leave their pieces now, at a time that was known.
+    fn due(&mut self) -> Vec<Switch> {
+        let horizon = self.horizon();
+        let is_now = self.switching.next(self.time, horizon) - self.time <= self.least_step();
+        if is_now { self.switching.due() } else { Vec::new() }
+    }
+
+    /// The end, or the next time at which a load or drive jumps or has a kink, if that is known in advance.
+    fn known_time(&mut self) -> f64 {
+        let horizon = self.horizon();
+        self.end.min(self.switching.next(self.time, horizon))
+    }
+
+    /// When something slips that stands still with all else; infinite if nothing does before the next step ends.
+    fn slips(&mut self) -> Result<f64, Faults> {
+        let until = self.known_time().min(self.horizon());
+        let Some(hold) = &mut self.hold else { return Ok(f64::INFINITY) };
+        let (asked, slips) = self.held;
+        if slips.is_none() && asked < until {
+            let mut configuration = self.equations.configuration.clone();
+            configuration.time = self.time.max(asked);
+            self.held = (until, hold.slips(&configuration, until)?);
+        }
+        Ok(self.held.1.unwrap_or(f64::INFINITY))
+    }
+
+    /// No step goes beyond it.
+    fn horizon(&self) -> f64 {
+        self.end.min(self.time + 2.0 * self.longest)
+    }
+
+    /// The shortest step that changes the time.
+    fn least_step(&self) -> f64 {
+        4.0 * f64::EPSILON * self.time.abs().max(self.end.abs())
+    }
+
     /// Tries steps until one is accurate, projects its end, evaluates what is watched there, and describes it.
     fn accepted_step(
         &mut self,
@@ -239,7 +333,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         history: &mut History,
     ) -> Result<(f64, f64), Failure> {
         loop {
-            let rest = self.end - self.time;
+            let rest = self.stop - self.time;
             let wanted = self.next.min(self.longest);
             // No tiny last step.
             let step = if wanted >= rest {
@@ -249,7 +343,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             } else {
                 wanted
             };
-            let least = 4.0 * f64::EPSILON * self.time.abs().max(self.end.abs());
+            let least = self.least_step();
             let attempt = self.try_step(step, phase, decisions, history);
             match attempt {
                 Ok(error) if error <= 1.0 => {
@@ -259,11 +353,20 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 }
                 Ok(error) if step > least => self.next = step * self.control.rejected(error),
                 Err(_) if step > least => self.next = step * self.control.rejected(f64::INFINITY),
-                Ok(_) => return Err(Failure::Singular),
+                Ok(_) => return Err(self.without_bounds(phase)),
                 Err(failure) => return Err(failure),
             }
             history.statistics.rejected += 1;
         }
+    }
+
+    /// Why no step is short enough: the mode locks, or the loads grow beyond all bounds.
+    fn without_bounds(&self, phase: &Phase) -> Failure {
+        let determinant = self.watch.value(Watched::Determinant, phase, &self.equations);
+        if determinant.is_ok_and(|determinant| determinant > 0.0) {
+            return Failure::Loads(Fault::general(FaultKind::LoadsWithoutBounds).into());
+        }
+        Failure::Singular
     }
 
     fn try_step(
@@ -329,8 +432,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     fn advance(&mut self, step: f64) {
-        let rest = self.end - self.time;
-        self.time = if step >= rest { self.end } else { self.time + step };
+        self.time = if step >= self.stop - self.time { self.stop } else { self.time + step };
         self.stepper.advance(&mut self.state);
         self.notice_velocity();
     }
@@ -357,12 +459,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
     ) -> Result<f64, Failure> {
         let equations = &self.equations;
+        if let Watched::Relation(switch) = watched {
+            return Ok(self.switching.margin(&equations.configuration, switch));
+        }
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
-            let margin = match &mut self.hold {
-                Some(hold) => hold.margin(configuration),
-                None => decisions.sticking_margin(equations.mechanism, configuration, phase),
-            };
+            if self.hold.is_some() {
+                // It is known when it ends.
+                return Ok(1.0);
+            }
+            let margin = decisions.sticking_margin(equations.mechanism, configuration, phase);
             return margin.map_err(Failure::Loads);
         }
         self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))
@@ -375,7 +481,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         dense: &[f64],
         step: f64,
-    ) -> Result<Option<(f64, Vec<Cause>)>, Failure> {
+    ) -> Result<Option<(f64, Vec<Watched>)>, Failure> {
         let mut places = SAMPLES;
         let mut falls = Vec::new();
         for part in 0..SAMPLES.len() - 1 {
@@ -453,11 +559,15 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Whether a function is below zero at the end, beyond rounding where it was not above zero before.
     fn is_below(&self, fall: &Fall) -> bool {
         let [before, after] = fall.values;
-        if let Watched::User(..) = self.watch.list[fall.index] {
+        if let Watched::User(..) | Watched::Relation(_) = self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
             return after <= 0.0 && before > USER_ZERO * after.abs();
         }
         let tolerance = self.watch.tolerance(self.watch.list[fall.index], &self.equations);
+        if self.watch.list[fall.index] == Watched::Sticking {
+            // What just reaches the limit sticks.
+            return after < -tolerance && after < before;
+        }
         if before > tolerance { after <= 0.0 } else { after < -tolerance && after < before }
     }
 
@@ -468,7 +578,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         (dense, step): (&[f64], f64),
         falls: &[Fall],
-    ) -> Result<(f64, Vec<Cause>), Failure> {
+    ) -> Result<(f64, Vec<Watched>), Failure> {
         let mut zeros = Vec::with_capacity(falls.len());
         for &Fall { index, ends, values } in falls {
             let watched = self.watch.list[index];
@@ -491,8 +601,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
         let first = zeros.iter().map(|(zero, _)| *zero).fold(f64::INFINITY, f64::min);
         let same = zeros.iter().filter(|(zero, _)| *zero <= first + SAME_INSTANT);
-        let name = |index: usize| self.options.events[index].name.clone();
-        Ok((first, same.map(|(_, watched)| Cause::of(*watched, &self.equations.sliders, name)).collect()))
+        Ok((first, same.map(|(_, watched)| *watched).collect()))
     }
 
     /// Puts the equations at a fraction of the step.
@@ -541,6 +650,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if change <= permitted * self.watch.magnitudes.velocity {
             self.state = settled;
         }
+        self.equations.place(self.time, &self.state);
+        self.switching.settle(&self.equations.configuration);
+        self.equations.configuration.pieces = self.switching.pieces();
     }
 
     /// Velocities after an impulse.
@@ -549,6 +661,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
         self.equations.place(self.time, &self.state);
+        self.switching.jump(&self.equations.configuration);
+        self.equations.configuration.pieces = self.switching.pieces();
     }
 }
 

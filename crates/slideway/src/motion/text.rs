@@ -17,6 +17,10 @@ const LAST: usize = 10;
 /// The report as text: the start, the events, the end, the energies. Of a long log the beginning and the end are told,
 /// or everything with `all_events`.
 pub fn to_text(report: &SimulateReport, style: Style, all_events: bool) -> String {
+    page(report, style, all_events).text()
+}
+
+fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, SimulateReport> {
     let mut text = Page::new(report, style);
     text.heading();
     text.events(all_events);
@@ -25,7 +29,7 @@ pub fn to_text(report: &SimulateReport, style: Style, all_events: bool) -> Strin
     text.last_state();
     text.energy();
     text.quality();
-    text.out
+    text
 }
 
 /// All motions as text: how each of them ends, then their logs.
@@ -45,9 +49,9 @@ pub fn tree_to_text(report: &TreeReport, style: Style, all_events: bool) -> Stri
     for (index, history) in report.histories.iter().enumerate() {
         text.line("");
         text.headline(&format!("Motion {} ({})", index + 1, branches(&history.branches)));
-        text.out.push_str(&to_text(&history.motion, style, all_events));
+        text.append(&page(&history.motion, style, all_events));
     }
-    text.out
+    text.text()
 }
 
 /// "branches 1, 2"
@@ -148,7 +152,7 @@ impl Page<'_, SimulateReport> {
         if energy.impulses != 0.0 {
             rows.push(row("lost in impulses", vec![String::new(), number(energy.impulses)]));
         }
-        self.out.push_str(&table(&["", "start", "end"], &rows, 1));
+        self.lines(&table(&["", "start", "end"], &rows, 1));
     }
 
     fn quality(&mut self) {

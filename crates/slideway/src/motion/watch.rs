@@ -4,6 +4,7 @@ use super::equations::Equations;
 use super::linear::Determinant;
 use super::options::{Crossing, UserEvent};
 use super::phase::{ContactPhase, JointPhase, Phase};
+use super::switching::{Switch, Switching};
 use crate::fault::Fault;
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::Reaction;
@@ -14,6 +15,8 @@ use crate::modes::Side;
 const FORCE_TOLERANCE: f64 = 1e-9;
 /// Velocities, likewise.
 const VELOCITY_TOLERANCE: f64 = 1e-10;
+/// Margins of sticking closer to zero than this are rounding: linear programs miss their optimum by it.
+const MARGIN_TOLERANCE: f64 = 1e-10;
 /// Lengths below this multiple of the size are rounding.
 const LENGTH_TOLERANCE: f64 = 1e-12;
 /// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as locked.
@@ -45,6 +48,8 @@ pub(super) enum Watched {
     Travel(JointId, f64),
     /// A function of the user, or its negative.
     User(usize, f64),
+    /// How far a relation of a load or drive is from an end of its piece.
+    Relation(Switch),
 }
 
 /// What it takes to compute a watched function.
@@ -67,7 +72,9 @@ impl Watched {
             | Self::ReactionLimit(_)
             | Self::Couple(_) => Needs::Forces,
             Self::Sticking => Needs::Standstill,
-            Self::Velocity(..) | Self::Overlap(_) | Self::Travel(..) | Self::User(..) => Needs::Motion,
+            Self::Velocity(..) | Self::Overlap(_) | Self::Travel(..) | Self::User(..) | Self::Relation(_) => {
+                Needs::Motion
+            }
         }
     }
 }
@@ -105,8 +112,9 @@ impl<'o> Watch<'o> {
     }
 
     /// Chooses what is watched in a phase that the equations have just entered.
-    pub(super) fn begin(&mut self, phase: &Phase, equations: &Equations<'_>) {
+    pub(super) fn begin(&mut self, phase: &Phase, equations: &Equations<'_>, switching: &Switching<'_>) {
         self.list.clear();
+        self.list.extend(switching.watched().map(Watched::Relation));
         self.reference = (equations.determinant(), overlaps(equations));
         let mechanism = equations.mechanism;
         for (index, joint) in equations.sliders.iter().enumerate() {
@@ -157,7 +165,7 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// The value of a watched function at the last evaluation of the equations; not that of sticking.
+    /// The value of a watched function at the last evaluation of the equations; not that of sticking, nor of relations.
     ///
     /// # Errors
     /// A function of the user has no value.
@@ -199,7 +207,7 @@ impl<'o> Watch<'o> {
                 let normal_force = equations.normal_force(slider.contacts[0].index()).abs();
                 normal_force * slider.length / 2.0 - equations.reaction(Reaction::Couple(joint)).abs()
             }
-            Watched::Sticking => 0.0,
+            Watched::Sticking | Watched::Relation(_) => 0.0,
             Watched::Overlap(joint) => {
                 let slider = slider(joint);
                 configuration.overlap(mechanism, slider).unwrap_or(0.0) - LEAVES * slider.length
@@ -225,7 +233,8 @@ impl<'o> Watch<'o> {
             Watched::Share(..) => FORCE_TOLERANCE,
             Watched::Velocity(..) => VELOCITY_TOLERANCE * self.magnitudes.velocity,
             Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * equations.mechanism.size,
-            Watched::Sticking | Watched::Determinant | Watched::User(..) => 0.0,
+            Watched::Sticking => MARGIN_TOLERANCE,
+            Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::kind::RawKind;
 use super::shape::Shape;
+use crate::printable;
 
 /// Everything that is wrong with a raw problem; never empty where it is returned as an error.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +33,8 @@ impl From<RawFault> for RawFaults {
 impl fmt::Display for RawFaults {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (at, fault) in self.list.iter().enumerate() {
-            write!(formatter, "{}{fault}", if at == 0 { "" } else { "\n" })?;
+            let line = fault.to_string();
+            write!(formatter, "{}{}", if at == 0 { "" } else { "\n" }, printable::line(&line))?;
         }
         Ok(())
     }

@@ -26,7 +26,7 @@ pub fn to_text(report: &RawReport, style: Style) -> String {
     text.solutions("Preload gap", &report.totals[1], &report.gap_states);
     text.continua();
     text.strategy();
-    text.out
+    text.text()
 }
 
 type Text<'r> = Page<'r, RawReport>;
@@ -67,7 +67,7 @@ impl Text<'_> {
             }
             Status::One | Status::Several => format!("{single}."),
         };
-        self.line(&self.style.verdict(report.status, &verdict));
+        self.status(report.status, &verdict);
         if report.status == Status::Continuum {
             self.faces(&single);
         }
@@ -93,7 +93,7 @@ impl Text<'_> {
         };
         self.line(&format!("Hint: within {rounding} there is one:"));
         self.line("");
-        self.out.push_str(&rows(self.report.kind, unknowns, &[]));
+        self.lines(&rows(self.report.kind, unknowns, &[]));
     }
 
     /// What there is besides continua, and what is part of them.
@@ -122,14 +122,13 @@ impl Text<'_> {
     fn solutions(&mut self, title: &str, all: &str, solutions: &[RawSolution]) {
         for (at, solution) in solutions.iter().enumerate() {
             self.line("");
-            let title = self.style.heading(&format!("{title} {} of {all}", at + 1));
             let signs = if solution.signs.len() > SIGNS { String::new() } else { signs(solution) };
-            self.line(format!("{title}   {signs}").trim_end());
+            self.headed(&format!("{title} {} of {all}", at + 1), format!("   {signs}").trim_end());
             self.boundary(solution);
             if let Some(continuum) = solution.end_of_continuum {
                 self.line(&format!("  An end of continuum {}", continuum + 1));
             }
-            self.out.push_str(&rows(self.report.kind, &solution.unknowns, &solution.beyond_range));
+            self.lines(&rows(self.report.kind, &solution.unknowns, &solution.beyond_range));
             for gap in &solution.gaps {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
                 self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
@@ -177,15 +176,15 @@ impl Text<'_> {
         let all = &report.totals[2];
         for (at, continuum) in report.continua.iter().enumerate() {
             self.line("");
-            let title = self.style.heading(&format!("Continuum {} of {all}", at + 1));
+            let title = format!("Continuum {} of {all}", at + 1);
             let part_of = if continuum.maximal { "" } else { ", part of a larger one" };
             if let [only] = continuum.parts.as_slice() {
-                self.line(&format!("{title}{part_of}   {}", shape(only)));
+                self.headed(&title, &format!("{part_of}   {}", shape(only)));
                 self.part(only);
                 continue;
             }
             let parts = count(continuum.parts.len(), "part", "parts");
-            self.line(&format!("{title}{part_of}   {parts} that do not depend on each other"));
+            self.headed(&title, &format!("{part_of}   {parts} that do not depend on each other"));
             for part in continuum.parts.iter().take(PARTS) {
                 self.line(&format!("  Of unknowns {}: {}", ranges(&part.indices), shape(part)));
                 self.part(part);
@@ -214,7 +213,7 @@ impl Text<'_> {
                 number => format!("direction {}", number - points + 1),
             };
             let labels: Vec<String> = (0..chunk.len()).map(label).collect();
-            self.out.push_str(&labelled_rows(self.report.kind, (&part.indices, chunk), &labels, &[]));
+            self.lines(&labelled_rows(self.report.kind, (&part.indices, chunk), &labels, &[]));
         }
         let more = part.vertex_count - points + part.direction_count - part.directions.len();
         if more > 0 {

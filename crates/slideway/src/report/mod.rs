@@ -229,9 +229,12 @@ pub struct Margins {
     /// Up to this factor there is the same number of solutions (and of gap states); absent if it never changes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub another_count: Option<f64>,
-    /// From this factor on there is no solution, so that nothing moves; absent if there always is one.
+    /// Just beyond this factor there is no solution, so that nothing moves; absent if there always is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
+    /// From this greater factor on there are solutions again; absent if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solutions_again: Option<f64>,
     /// Up to this factor every load has exactly one solution (below 1: some other load has none or several already);
     /// absent if that is never lost, or was not computed because preloads jump with the side of contact.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -7,7 +7,6 @@ use super::{
     CertificateKind, ClosestMode, Contact, JointMode, ModeMargin, PatternSummary, Persistence, Report,
     Solution, Status, UncertainMode,
 };
-use anstyle::{AnsiColor, Style as Ansi};
 use std::fmt::Write;
 
 /// Whether the text may use colours.
@@ -18,28 +17,6 @@ pub enum Style {
     Plain,
     /// ANSI colours, for terminals.
     Colour,
-}
-
-impl Style {
-    pub(crate) fn paint(self, ansi: Ansi, text: &str) -> String {
-        match self {
-            Self::Plain => text.to_owned(),
-            Self::Colour => format!("{ansi}{text}{ansi:#}"),
-        }
-    }
-
-    pub(crate) fn heading(self, text: &str) -> String {
-        self.paint(Ansi::new().bold(), text)
-    }
-
-    pub(crate) fn verdict(self, status: Status, text: &str) -> String {
-        let colour = match status {
-            Status::One => AnsiColor::Green,
-            Status::None => AnsiColor::Red,
-            _ => AnsiColor::Yellow,
-        };
-        self.paint(colour.on_default().bold(), text)
-    }
 }
 
 /// The report as text.
@@ -62,7 +39,7 @@ pub fn to_text(report: &Report, style: Style) -> String {
     text.rejected();
     text.locked_modes();
     text.closest_modes();
-    text.out
+    text.text()
 }
 
 type Text<'r> = Page<'r, Report>;
@@ -134,7 +111,7 @@ impl Text<'_> {
                 "On the boundary: whether there is a solution cannot be told within rounding.".to_owned()
             }
         };
-        self.line(&self.style.verdict(report.status, &verdict));
+        self.status(report.status, &verdict);
         let search = match &report.patterns {
             Some(patterns) => tried(patterns),
             None => {
@@ -158,7 +135,7 @@ impl Text<'_> {
     fn solution(&mut self, title: &str, solution: &Solution) {
         self.line("");
         let signs = format!("signs {}", spaced(&solution.pattern));
-        self.line(&format!("{}   {signs}", self.style.heading(title)));
+        self.headed(title, &format!("   {signs}"));
         let contacts = &solution.contacts;
         let about_to_change = are(contacts.iter().filter(|c| c.side == 0 && c.preload_share.is_none()));
         let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
@@ -179,10 +156,10 @@ impl Text<'_> {
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
         let contacts = contact_table(&solution.contacts);
-        self.out.push_str(&contacts);
+        self.lines(&contacts);
         self.line("");
         let motion = motion_table(self.report, solution);
-        self.out.push_str(&motion);
+        self.lines(&motion);
         self.line("");
         if let Some(margin) = &solution.margin {
             self.line(&format!("  {}", margin_in_words(margin)));
@@ -213,16 +190,23 @@ impl Text<'_> {
             return;
         };
         let mut parts = Vec::new();
+        // Solutions may come back where friction is greater still.
+        let beyond = |factor: f64| match margins.solutions_again {
+            None => format!("beyond {} times", number(factor)),
+            Some(again) => {
+                format!("just beyond {} times, but again from {} times on", number(factor), number(again))
+            }
+        };
         match (margins.no_solution, margins.another_count) {
             _ if self.report.status == Status::None => {}
             (Some(jams), Some(changes)) if jams == changes => {
-                parts.push(format!("there is no solution beyond {} times", number(jams)));
+                parts.push(format!("there is no solution {}", beyond(jams)));
             }
             (jams, changes) => {
                 let text =
                     |factor: f64| format!("another number of solutions beyond {} times", number(factor));
                 parts.extend(changes.map(text));
-                parts.extend(jams.map(|factor| format!("none beyond {} times", number(factor))));
+                parts.extend(jams.map(|factor| format!("none {}", beyond(factor))));
             }
         }
         if parts.is_empty() && self.report.status != Status::None {
@@ -253,7 +237,7 @@ impl Text<'_> {
             .iter()
             .map(|range| format!("{} from {} to {}", range.name, number(range.from), number(range.to)))
             .collect();
-        self.line(&self.style.heading(&format!("For {}", ranges.join(", "))));
+        self.headline(&format!("For {}", ranges.join(", ")));
         let least = uncertainty.least_solutions;
         let solutions = match uncertainty.most_solutions {
             Some(most) if most == least => {
@@ -268,7 +252,7 @@ impl Text<'_> {
         }
         let rows: Vec<Vec<String>> =
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
-        self.out.push_str(&table(&["signs", "exists", "normal forces in N"], &rows, 3));
+        self.lines(&table(&["signs", "exists", "normal forces in N"], &rows, 3));
         let nominal: Vec<String> = uncertainty
             .parameters
             .iter()
@@ -342,7 +326,7 @@ impl Text<'_> {
             "The modes that come closest to locking (a determinant at zero is where friction locks a mode)";
         self.headline(heading);
         let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
-        self.out.push_str(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
+        self.lines(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
     }
 }
 

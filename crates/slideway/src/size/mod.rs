@@ -29,7 +29,7 @@ pub use report::{
 pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, backwards, given_range, linear};
+use crate::limits::{Varied, given_range};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -86,8 +86,7 @@ impl SizeOptions {
 /// and humps between them are followed to their extremum. The report says what such a search can miss.
 ///
 /// # Errors
-/// An unknown name, a range that is empty, reversed, or needed and absent, one on which nothing depends; a load that is
-/// unknown or zero; too many contact modes or states at rest. Values at which the mechanism cannot be assembled or
+/// An unknown name, a range that is empty, reversed, or needed and absent; a load that is unknown or zero; too many contact modes or states at rest. Values at which the mechanism cannot be assembled or
 /// solved are no error but part of the report.
 pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> {
     undisturbed(|work| size_of(model, options, work))
@@ -119,10 +118,7 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
         Some(text) => given_range(&varied, text)?,
         None => usual_range(model, &varied)?,
     };
-    let opposite = if options.both_directions { Some(Varied::new(&backwards(model)?, name)?) } else { None };
-    if !at_rest {
-        linear(&varied, range)?;
-    }
+    let opposite = if options.both_directions { Some(Varied::new(&model.reversed(), name)?) } else { None };
     let question = Question { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
     let value = varied.present()?;
     let present = present(&question, value, work.part(0, 2))?;

@@ -13,7 +13,7 @@ pub fn to_text(report: &SizeReport, style: Style) -> String {
     text.heading();
     text.intervals();
     text.margins();
-    text.out
+    text.text()
 }
 
 impl Page<'_, SizeReport> {
@@ -39,7 +39,7 @@ impl Page<'_, SizeReport> {
         self.line("");
         self.headline(&format!("Where the margin is at least {}", precise(report.margin)));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
-        self.out.push_str(&table(&["from", "to", "begins with", "ends with"], &rows, 0));
+        self.lines(&table(&["from", "to", "begins with", "ends with"], &rows, 0));
     }
 
     fn margins(&mut self) {
@@ -57,7 +57,7 @@ impl Page<'_, SizeReport> {
         };
         let rows: Vec<Vec<String>> =
             report.samples.iter().map(|sample| vec![precise(sample.at), margin(sample)]).collect();
-        self.out.push_str(&table(&[&name, "margin"], &rows, 0));
+        self.lines(&table(&[&name, "margin"], &rows, 0));
     }
 }
 

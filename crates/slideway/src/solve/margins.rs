@@ -41,6 +41,7 @@ pub(super) fn add(
     report.margins = Some(Margins {
         another_count: all.another_count(),
         no_solution: all.no_solution(),
+        solutions_again: all.solutions_again(),
         uniqueness: all.uniqueness(),
         critical_contact: friction.critical_contact(),
     });
@@ -104,10 +105,15 @@ impl Growth {
         self.counts.get(1).map(|next| next.from)
     }
 
-    /// The factor from which on there is neither a solution nor a gap state.
+    /// The factor just beyond which there is neither a solution nor a gap state.
     fn no_solution(&self) -> Option<f64> {
-        let jammed = |count: &&CountInterval| count.solutions + count.gap_states == 0;
-        self.counts.iter().find(jammed).map(|count| count.from)
+        self.counts.iter().find(|count| is_jammed(count)).map(|count| count.from)
+    }
+
+    /// The factor beyond that from which on there are solutions or gap states again.
+    fn solutions_again(&self) -> Option<f64> {
+        let beyond = self.counts.iter().skip_while(|count| !is_jammed(count));
+        beyond.skip_while(|count| is_jammed(count)).map(|count| count.from).next()
     }
 
     /// The interval of a mode that exists now.
@@ -116,6 +122,10 @@ impl Growth {
             |mode: &&ModeInterval| self::pattern(&mode.pattern) == pattern && mode.from.at <= 1.0 + AT_ONCE;
         self.existence.modes.iter().find(same)
     }
+}
+
+fn is_jammed(count: &CountInterval) -> bool {
+    count.solutions + count.gap_states == 0
 }
 
 fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval) -> report::ModeMargin {

@@ -43,6 +43,7 @@ pub(crate) use mode_problem::{
 pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
+pub(crate) use uncertainty::certain_counts;
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;

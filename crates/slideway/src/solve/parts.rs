@@ -13,13 +13,13 @@ use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
 use nalgebra::{DMatrix, DVector};
 
-/// Numbers that differ by less than this share of the largest are the same.
-const SAME: f64 = 1e-10;
+/// A load that changes by less than this share of it does not change: each of its numbers has rounding errors of its own.
+const SAME: f64 = 1e-13;
 /// A couple may exceed |N| L / 2 by this multiple of its terms before the slider counts as tipping.
 const COUPLE_TOLERANCE: f64 = 1e-9;
 
 /// Columns, jumps and right-hand side of eq. (6); below them those of the couples of guided sliders.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Parts {
     columns: BySide<DMatrix<f64>>,
     jumps: BySide<DMatrix<f64>>,
@@ -163,8 +163,8 @@ impl Parts {
     pub(crate) fn line_to(&self, end: &Self) -> ModeProblemLine {
         let between = |one: &BySide<DMatrix<f64>>, other: &BySide<DMatrix<f64>>| {
             let slope = BySide {
-                positive: without_rounding(&other.positive - &one.positive, &one.positive),
-                negative: without_rounding(&other.negative - &one.negative, &one.negative),
+                positive: &other.positive - &one.positive,
+                negative: &other.negative - &one.negative,
             };
             [one.clone(), slope]
         };
@@ -177,31 +177,6 @@ impl Parts {
             bounds: self.bounds.clone(),
             has_jump: self.has_jump.iter().zip(&end.has_jump).map(|(one, other)| *one || *other).collect(),
         }
-    }
-
-    /// Whether these numbers are those at `t` on the line from `start` to `end`.
-    pub(crate) fn is_between(&self, start: &Self, end: &Self, t: f64) -> bool {
-        self.is_mixture(&[(1.0 - t, start), (t, end)])
-    }
-
-    /// Whether these numbers are sums of others with these weights.
-    pub(crate) fn is_mixture(&self, weighted: &[(f64, &Self)]) -> bool {
-        let largest =
-            |size: fn(&Self) -> f64| weighted.iter().map(|(_, parts)| size(parts)).fold(0.0, f64::max);
-        let matrix = |part: fn(&Self) -> &DMatrix<f64>| {
-            let mut rest = part(self).clone();
-            weighted.iter().for_each(|(weight, parts)| rest -= part(parts) * *weight);
-            let scale = weighted.iter().map(|(_, parts)| part(parts).amax()).fold(0.0, f64::max);
-            rest.amax() <= SAME * scale
-        };
-        let mut load = self.right_hand_side.clone();
-        weighted.iter().for_each(|(weight, parts)| load -= &parts.right_hand_side * *weight);
-        matrix(|parts| &parts.columns.positive)
-            && matrix(|parts| &parts.columns.negative)
-            && matrix(|parts| &parts.jumps.positive)
-            && matrix(|parts| &parts.jumps.negative)
-            && load.amax() <= SAME * largest(|parts| parts.right_hand_side.amax())
-            && weighted.iter().all(|(_, parts)| self.bounds == parts.bounds)
     }
 
     /// The sum of others with these weights, of which there is at least one; none if they are not of one size.
@@ -284,20 +259,28 @@ impl Parts {
         })
     }
 
-    /// Whether these are the same numbers.
-    pub(crate) fn is_same(&self, other: &Self) -> bool {
-        self.is_between(other, other, 0.0)
+    /// How far a line from these numbers to others leads before they are changed by as much as they are: the share of the
+    /// way at which a column, or the loads and jumps together, has become as great as its change. None if nothing changes.
+    pub(crate) fn scale_of_change(&self, end: &Self) -> Option<f64> {
+        let share = |start: f64, change: f64| (change > 0.0).then(|| start / change);
+        let columns = [
+            (&self.columns.positive, &end.columns.positive),
+            (&self.columns.negative, &end.columns.negative),
+        ];
+        let columns = columns.into_iter().flat_map(|(start, end)| {
+            let size = |column: usize| start.column(column).amax();
+            (0..start.ncols()).filter_map(move |k| share(size(k), (end.column(k) - start.column(k)).amax()))
+        });
+        let right = |parts: &Self| {
+            let jumps = parts.jumps.positive.amax().max(parts.jumps.negative.amax());
+            parts.right_hand_side.amax().max(jumps)
+        };
+        let change = (&end.jumps.positive - &self.jumps.positive)
+            .amax()
+            .max((&end.jumps.negative - &self.jumps.negative).amax())
+            .max((&end.right_hand_side - &self.right_hand_side).amax());
+        columns.chain(share(right(self), change)).reduce(f64::min)
     }
-}
-
-/// Columns that change by no more than rounding do not change.
-fn without_rounding(mut slope: DMatrix<f64>, start: &DMatrix<f64>) -> DMatrix<f64> {
-    for (column, mut change) in slope.column_iter_mut().enumerate() {
-        if change.amax() <= SAME * start.column(column).amax() {
-            change.fill(0.0);
-        }
-    }
-    slope
 }
 
 /// The bound of each guided slider's couple, and its row among the unknowns.

@@ -205,6 +205,47 @@ fn halves(part: &[Interval], whole: &[Interval]) -> Option<[Vec<Interval>; 2]> {
     Some([half(part[longest].lower(), middle)?, half(middle, part[longest].upper())?])
 }
 
+/// The numbers of solutions and of preload-gap states, where they are proven to be the same for all values within the
+/// bounds; states in which a normal force exceeds `greatest` do not count.
+pub(crate) fn certain_counts(
+    enclosed: &EnclosedModeProblem,
+    result: &SearchResult,
+    options: &SolveOptions,
+    greatest: Option<f64>,
+) -> Option<[usize; 2]> {
+    let lists: StateLists = result.lists(options.most, 1);
+    let is_open = !lists.singular.is_empty() || !lists.undecided.is_empty() || !lists.all_listed;
+    if result.completeness != Completeness::Proven || is_open {
+        return None;
+    }
+    let solutions = lists.solutions.iter().map(|found| (pressed(&found.pattern), &found.certificate));
+    let gaps = lists.gaps.iter().map(|found| (found.pattern.clone(), &found.certificate));
+    let mut counts = [0; 2];
+    for (mode, certificate) in solutions.chain(gaps) {
+        let Certificate::Proven { unknowns } = certificate else { return None };
+        match enclosed.tipping(&mode, unknowns) {
+            Tipping::Never => {}
+            Tipping::Open => return None,
+            // Without normal force it may rest in its preload gap instead.
+            Tipping::Always
+                if enclosed.couples.iter().any(|couple| unknowns[couple.contact].contains(0.0)) =>
+            {
+                return None;
+            }
+            Tipping::Always => continue,
+        }
+        let greatest = greatest.unwrap_or(f64::INFINITY);
+        let forces = mode.iter().zip(unknowns).filter(|(state, _)| **state != ContactState::Gap);
+        let forces: Vec<&Interval> = forces.map(|(_, force)| force).collect();
+        if forces.iter().all(|force| force.upper() <= greatest) {
+            counts[usize::from(mode.contains(&ContactState::Gap))] += 1;
+        } else if forces.iter().all(|force| force.lower() <= greatest) {
+            return None;
+        }
+    }
+    Some(counts)
+}
+
 /// Bounds of the signed normal forces; a `y_k` is not negative.
 fn forces(mode: &[ContactState], unknowns: &[Interval]) -> Vec<[f64; 2]> {
     let one = |(state, y): (&ContactState, &Interval)| match state {

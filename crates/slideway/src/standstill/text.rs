@@ -19,7 +19,7 @@ pub fn to_text(report: &HoldReport, style: Style) -> String {
         text.release(index, release);
     }
     text.tried();
-    text.out
+    text.text()
 }
 
 type Text<'r> = Page<'r, HoldReport>;
@@ -66,7 +66,7 @@ impl Text<'_> {
             ),
             Verdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
         };
-        self.line(&self.style.paint(colour.on_default().bold(), &words));
+        self.painted(colour.on_default().bold(), &words, "");
         if !self.report.motions_without_inertia.is_empty() {
             self.line("How it begins to move is not known, as these motions have no inertia:");
             for motion in &self.report.motions_without_inertia {
@@ -124,7 +124,7 @@ impl Text<'_> {
                 vec![coordinate.name.clone(), "coordinate".to_owned(), value, coordinate.unit.to_owned()]
             }))
             .collect();
-        self.out.push_str(&table(&["", "", "acceleration", "unit"], &rows, 2));
+        self.lines(&table(&["", "", "acceleration", "unit"], &rows, 2));
         self.reactions(&release.reactions);
     }
 
@@ -146,7 +146,7 @@ impl Text<'_> {
         });
         let rows: Vec<Vec<String>> = rows.collect();
         if !rows.is_empty() {
-            self.out.push_str(&table(&header, &rows, 1));
+            self.lines(&table(&header, &rows, 1));
         }
         let hinges = reactions.hinges.iter().map(|hinge| {
             let what = format!("hinge force on {}", hinge.on);
@@ -154,7 +154,7 @@ impl Text<'_> {
         });
         let rows: Vec<Vec<String>> = hinges.collect();
         if !rows.is_empty() {
-            self.out.push_str(&table(&["", "", "x in N", "y in N"], &rows, 2));
+            self.lines(&table(&["", "", "x in N", "y in N"], &rows, 2));
         }
         for drive in &reactions.drives {
             self.line(&format!("  {}: {} {}", drive.name, words(drive.effort, scale), drive.unit));

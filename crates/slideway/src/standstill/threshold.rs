@@ -18,9 +18,9 @@ use super::rest::{Over, resting, static_coefficients, until_over};
 use super::setup::Setup;
 use super::state::{Question, State, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
-use crate::model::{Model, Settings};
+use crate::ids::FormulaId;
+use crate::model::Model;
 use crate::progress::Work;
-use nalgebra::DVector;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
 const ROUNDING: f64 = 1e-13;
@@ -32,11 +32,6 @@ const SECANT: [f64; 2] = [1e-6, 1e-8];
 const NEAR: f64 = 1e-9;
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
-/// Values at which the dependence of the coefficients on a parameter is sampled.
-const SAMPLES: [&str; 3] = ["2", "3", "4"];
-/// Coefficients must follow a straight line to this accuracy.
-const STRAIGHT: f64 = 1e-12;
-
 /// Static coefficients as a function `constant + slope p` of what is varied, for each contact and side.
 struct Law {
     varied: String,
@@ -68,7 +63,7 @@ pub(super) fn threshold(
             present: 1.0,
             lines: static_coefficients(setup).iter().map(|mu| mu.map(|mu| [0.0, mu])).collect(),
         },
-        Some(name) => parameter_law(model, options, setup, name)?,
+        Some(name) => parameter_law(model, setup, name)?,
     };
     let mut alone = setup.clone();
     alone.given = load.forces.clone();
@@ -145,59 +140,35 @@ fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Undecided>) 
     Ok(if (root - value).abs() <= NEAR * value { root } else { value })
 }
 
-/// How the static coefficients depend on a parameter, sampled at three values: they must follow straight lines that
-/// do not fall, and nothing else but friction may change.
-fn parameter_law(model: &Model, options: &HoldOptions, setup: &Setup, name: &str) -> Result<Law, Faults> {
-    if !model.parameters.iter().any(|parameter| *parameter.name == *name) {
-        let known = model.parameters.iter().map(|parameter| &*parameter.name);
+/// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is not negative,
+/// which their formulas tell, and nothing else but friction may depend on it.
+fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults> {
+    let known = || model.parameters.iter().map(|parameter| &*parameter.name);
+    let Some(parameter) = known().position(|other| other == name) else {
         let kind = FaultKind::UnknownName {
             what: "parameter",
             name: name.to_owned(),
-            nearest: nearest(name, known.clone()),
-            known: known.map(str::to_owned).collect(),
+            nearest: nearest(name, known()),
+            known: known().map(str::to_owned).collect(),
         };
         return Err(Fault::general(kind).into());
-    }
-    let refused = || Faults::from(Fault::general(FaultKind::NotOnlyFriction { parameter: name.to_owned() }));
-    let sample = |value: &str| {
-        let changed = model.with(&Settings::default().parameter(name, value)).map_err(|_| refused())?;
-        Setup::new(&changed, options).map_err(|_| refused())
     };
-    let [first, second, third] = [sample(SAMPLES[0])?, sample(SAMPLES[1])?, sample(SAMPLES[2])?];
-    if !differ_in_friction_alone(&first, setup) || !differ_in_friction_alone(&first, &second) {
+    let refused = || Faults::from(Fault::general(FaultKind::NotOnlyFriction { parameter: name.to_owned() }));
+    if !model.changes_friction_alone(parameter) {
         return Err(refused());
     }
-    let samples = [&first, &second, &third].map(static_coefficients);
-    let mut lines = Vec::new();
-    for ((first, second), third) in samples[0].iter().zip(&samples[1]).zip(&samples[2]) {
-        let mut sides = [[0.0; 2]; 2];
-        for (side, line) in sides.iter_mut().enumerate() {
-            let slope = second[side] - first[side];
-            let bend = third[side] - second[side] - slope;
-            if slope < 0.0 || bend.abs() > STRAIGHT * third[side].abs() {
-                return Err(refused());
-            }
-            *line = [first[side] - 2.0 * slope, slope];
-        }
-        lines.push(sides);
+    let line = |formula: FormulaId| model.line_of(formula, parameter).filter(|[_, slope]| *slope >= 0.0);
+    let lines: Option<Vec<[[f64; 2]; 2]>> = model
+        .contacts()
+        .map(|contact| {
+            let [positive, negative] = contact.mu_static.map(line);
+            Some([positive?, negative?])
+        })
+        .collect();
+    let lines = lines.filter(|lines| lines.len() == setup.mechanism.contacts.len()).ok_or_else(refused)?;
+    if lines.iter().flatten().all(|[_, slope]| *slope == 0.0) {
+        return Err(refused());
     }
-    let present = present(&lines, &static_coefficients(setup)).ok_or_else(refused)?;
+    let present = model.parameter_values(&model.constants()?)[parameter];
     Ok(Law { varied: name.to_owned(), present, lines })
-}
-
-/// The parameter's value in the model, from a coefficient that depends on it.
-fn present(lines: &[[[f64; 2]; 2]], coefficients: &[[f64; 2]]) -> Option<f64> {
-    let pairs = lines.iter().flatten().zip(coefficients.iter().flatten());
-    let mut values =
-        pairs.filter(|([_, slope], _)| *slope > 0.0).map(|([constant, slope], mu)| (mu - constant) / slope);
-    values.next()
-}
-
-fn differ_in_friction_alone(one: &Setup, other: &Setup) -> bool {
-    let same = |one: &DVector<f64>, other: &DVector<f64>| one == other;
-    let loads = one.load.iter().zip(&other.load).all(|(one, other)| same(&one.forces, &other.forces));
-    one.assembled.matrix == other.assembled.matrix
-        && one.assembled.friction == other.assembled.friction
-        && same(&one.given, &other.given)
-        && loads
 }

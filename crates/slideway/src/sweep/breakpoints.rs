@@ -24,7 +24,7 @@ pub(super) fn between(model: &Model, axis: &Axis) -> (Vec<Inserted>, Option<Stri
     // Listed values are those that are wanted.
     let Some([from, to]) = axis.values.range() else { return (Vec::new(), None) };
     let vary = format!("{}={from:e}..{to:e}", axis.quantity.name);
-    let report = match limits(model, &LimitsOptions::of(&vary)) {
+    let report = match limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of(&vary) }) {
         Ok(report) => report,
         Err(faults) => return (Vec::new(), Some(faults.to_string())),
     };

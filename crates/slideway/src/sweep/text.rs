@@ -12,7 +12,7 @@ pub fn to_text(sweep: &Sweep, state: &SweepState, style: Style) -> String {
     text.solutions();
     text.probability(sweep);
     text.remarks(sweep);
-    text.out
+    text.text()
 }
 
 impl Page<'_, SweepState> {

@@ -117,7 +117,8 @@ fn the_impulse_on_the_drawer_is_that_of_its_derivation() {
 /// `limits`, which knows nothing of time: the mode that locks begins at L - c, and both end where the spring is slack.
 #[test]
 fn limits_tell_where_the_drawer_locks_and_jams() {
-    let report = limits(&drawer("0.3 m"), &LimitsOptions::of("x=0 m..0.39 m")).unwrap();
+    let report =
+        limits(&drawer("0.3 m"), &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0 m..0.39 m") }).unwrap();
     let ends = |pattern: &str| -> Vec<[f64; 2]> {
         let modes = report.modes.iter().filter(|mode| mode.pattern == pattern);
         modes.map(|mode| [mode.from.unwrap(), mode.to.unwrap()]).collect()
@@ -131,7 +132,8 @@ fn limits_tell_where_the_drawer_locks_and_jams() {
     let history = opened("0.3 m");
     let jam = place(&history, &history.events[1]);
     assert!((jam - ends("+-")[0][1]).abs() < 1e-9, "{jam}");
-    let report = limits(&drawer("0.2 m"), &LimitsOptions::of("x=0 m..0.39 m")).unwrap();
+    let report =
+        limits(&drawer("0.2 m"), &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0 m..0.39 m") }).unwrap();
     let braked = report.modes.iter().find(|mode| mode.pattern == "+-").unwrap();
     close(&[[braked.from.unwrap(), braked.to.unwrap()]], [0.2, LOCKS]);
 }

@@ -18,6 +18,7 @@ mod gap_states;
 mod guided_slider;
 mod klepp_2002;
 mod limits;
+mod limits_known;
 mod limits_properties;
 mod loads;
 mod margins;

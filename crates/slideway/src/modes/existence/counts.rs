@@ -7,8 +7,6 @@ use crate::modes::solutions::ContactState;
 
 /// Ends closer than this share of the larger one are the same.
 const SAME_END: f64 = 1e-10;
-/// Solutions that differ by less than this share of the largest force are the same.
-const SAME_SOLUTION: f64 = 1e-8;
 
 /// An interval of the parameter with the same number of solutions throughout.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,29 +26,44 @@ pub struct CountInterval {
 /// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same solution,
 /// as they do when a normal force is zero throughout.
 pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
+    let same = |next: f64, kept: f64| next.is_finite() && next - kept <= SAME_END * next.abs();
+    let cells = cells(existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]).chain(range), same);
+    counts_in(existence, &cells, &|modes, at| line.distinct(modes, at))
+}
+
+/// The number of solutions in each of several cells, between whose ends no mode begins or ends; neighbours with equal
+/// numbers are joined. `distinct` has the number of different solutions of some modes at a place.
+pub fn counts_in(
+    existence: &Existence,
+    cells: &[[f64; 2]],
+    distinct: &dyn Fn(&[&ModeInterval], f64) -> usize,
+) -> Vec<CountInterval> {
     let mut intervals: Vec<CountInterval> = Vec::new();
-    for cell in cells(existence, range) {
+    for &cell in cells {
         let inside = middle(cell);
         let present: Vec<&ModeInterval> =
             existence.modes.iter().filter(|mode| mode.from.at < inside && inside < mode.to.at).collect();
         let (gaps, pressed): (Vec<_>, Vec<_>) =
             present.into_iter().partition(|mode| mode.pattern.contains(&ContactState::Gap));
-        let [solutions, gap_states] = [pressed, gaps].map(|modes| line.distinct(&modes, inside));
+        let [solutions, gap_states] = [pressed, gaps].map(|modes| distinct(&modes, inside));
         match intervals.last_mut() {
-            Some(last) if (last.solutions, last.gap_states) == (solutions, gap_states) => last.to = cell[1],
+            Some(last)
+                if last.to == cell[0] && (last.solutions, last.gap_states) == (solutions, gap_states) =>
+            {
+                last.to = cell[1];
+            }
             _ => intervals.push(CountInterval { from: cell[0], to: cell[1], solutions, gap_states }),
         }
     }
     intervals
 }
 
-/// The range, cut at the ends of all modes.
-fn cells(existence: &Existence, range: [f64; 2]) -> Vec<[f64; 2]> {
-    let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-    let mut ends: Vec<f64> = ends.chain(range).collect();
-    ends.sort_by(f64::total_cmp);
-    ends.dedup_by(|next, kept| *next == *kept || next.is_finite() && *next - *kept <= SAME_END * next.abs());
-    ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+/// The cells between places in any order; those that are the same are one.
+pub fn cells(places: impl Iterator<Item = f64>, same: impl Fn(f64, f64) -> bool) -> Vec<[f64; 2]> {
+    let mut places: Vec<f64> = places.collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|next, kept| *next == *kept || same(*next, *kept));
+    places.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
 /// A place inside a cell.
@@ -60,18 +73,21 @@ fn middle([from, to]: [f64; 2]) -> f64 {
 
 impl ModeProblemLine {
     /// Number of different solutions of some modes at a parameter where all of them exist.
-    fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
+    ///
+    /// Two patterns have the same solution only if the normal forces of all contacts in which they differ vanish in both, that
+    /// is, within their own rounding errors, however small they are beside others.
+    pub fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
         if modes.len() < 2 {
             return modes.len();
         }
-        let mut known: Vec<DVector<f64>> = Vec::with_capacity(modes.len());
+        let mut known: Vec<(&[ContactState], Vec<bool>)> = Vec::with_capacity(modes.len());
         for mode in modes {
-            let Some(force) = self.normal_force(&mode.pattern, at) else { continue };
-            let same = |other: &DVector<f64>| {
-                (other - &force).amax() <= SAME_SOLUTION * force.amax().max(other.amax())
+            let Some(vanishes) = self.line(&mode.pattern).vanishes(at) else { continue };
+            let same = |(pattern, other): &(&[ContactState], Vec<bool>)| {
+                (0..pattern.len()).all(|k| pattern[k] == mode.pattern[k] || other[k] && vanishes[k])
             };
             if !known.iter().any(same) {
-                known.push(force);
+                known.push((&mode.pattern, vanishes));
             }
         }
         known.len()

@@ -112,7 +112,8 @@ impl Line {
         if self.right_hand_side[0].is_empty() {
             return Extent::Parts(vec![Part { from: end(range[0]), to: end(range[1]) }]);
         }
-        let Some(reduced) = self.reduced(conditions, range) else { return Extent::SingularThroughout };
+        let (line, conditions) = self.in_units(conditions, range);
+        let Some(reduced) = line.reduced(&conditions, range) else { return Extent::SingularThroughout };
         match parts(&reduced, range) {
             Some(parts) => Extent::Parts(parts),
             None => Extent::NotComputed,
@@ -126,6 +127,29 @@ impl Line {
         }
         let zeros = self.reduced(&[], range).and_then(|reduced| reduced.poles());
         zeros.unwrap_or_default().into_iter().map(|Root(at)| at).collect()
+    }
+
+    /// The same equations and conditions with unknowns in units (powers of two, so that nothing is rounded) in which the
+    /// columns have entries of order one: a coefficient of friction may be very great.
+    fn in_units(&self, conditions: &[Condition], range: [f64; 2]) -> (Self, Vec<Condition>) {
+        let reach = range[0].abs().max(range[1].abs());
+        let unit = |column: usize| {
+            let [constant, slope] = [0, 1].map(|power| self.matrix[power].column(column).amax());
+            let size = constant.max(if slope == 0.0 { 0.0 } else { slope * reach });
+            if size > 0.0 && size.is_finite() { (-size.log2().round()).exp2() } else { 1.0 }
+        };
+        let units: Vec<f64> = (0..self.right_hand_side[0].len()).map(unit).collect();
+        let mut line = self.clone();
+        for matrix in &mut line.matrix {
+            for (mut column, unit) in matrix.column_iter_mut().zip(&units) {
+                column *= *unit;
+            }
+        }
+        let conditions = conditions.iter().map(|condition| Condition {
+            weights: condition.weights.map(|(unknown, weight)| (unknown, weight * units[unknown])),
+            ..*condition
+        });
+        (line, conditions.collect())
     }
 
     /// The equations at the base point with the best pivots.
@@ -167,6 +191,16 @@ impl Line {
             return Some(DVector::zeros(0));
         }
         self.matrix_at(at).lu().solve(&self.right_hand_side_at(at))
+    }
+
+    /// Which unknowns are zero within rounding, at a parameter where the equations are regular: no greater than the tolerance
+    /// times `|A^-1| (|A| |z| + |b|)`, the size of what they are the sum of.
+    pub(super) fn vanishes(&self, at: f64) -> Option<Vec<bool>> {
+        let (matrix, right) = (self.matrix_at(at), self.right_hand_side_at(at));
+        let solution = self.solution(at)?;
+        let terms = matrix.abs() * solution.abs() + right.abs();
+        let size = matrix.try_inverse()?.abs() * terms;
+        Some(solution.iter().zip(&size).map(|(value, size)| value.abs() <= TOLERANCE * size).collect())
     }
 
     /// What every unknown does towards the end of a part, whose other end is given.

@@ -29,7 +29,7 @@ use super::solutions::ContactState;
 use crate::progress::{Callback, Progress};
 use line::{Cause, Condition, End, Extent, Line, Part, Value};
 
-pub use counts::{CountInterval, counts};
+pub use counts::{CountInterval, cells, counts, counts_in};
 pub use line::Limit;
 
 /// Mode problems whose numbers are affine in a parameter `t`: index 0 holds the values at `t = 0`, index 1 what each

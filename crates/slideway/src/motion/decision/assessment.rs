@@ -1,14 +1,17 @@
 //! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the mechanism.
 
-use super::instant::Instant;
+use super::instant::{Group, Instant};
 use super::program::{Affine, Unsolved, highest};
-use super::system::{Inequality, Question, Subject, System};
+use super::system::{Forces, Inequality, Question, Subject, System};
 use crate::ids::ContactId;
+use crate::influence::ContactFriction;
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 
 /// Slacks below this are rounding.
 const ROUNDING: f64 = 1e-11;
+/// More combinations of sides of the contacts that stick in a group are not tried.
+const MOST_SIDES: usize = 4096;
 
 /// An inequality that decides, with its slack.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,16 +28,20 @@ pub(super) struct Slack {
 pub(super) enum Decisive {
     /// One inequality.
     One(Subject),
-    /// All that depend on what statics leaves open.
-    Open,
+    /// All that depend on what statics leaves open, in the group of joints that begins with this one.
+    Open(usize),
 }
 
-/// A phase with the sides of its sticking contacts and the reactions that leave most slack.
+/// A phase, or what a group of joints does in it, with the sides of its sticking contacts and the reactions that leave most
+/// slack.
+#[derive(Debug, Clone)]
 pub(super) struct Assessment {
     /// The phase; contacts that stick have the sides that leave most slack.
     pub(super) phase: Phase,
-    /// What statics leaves open.
-    pub(super) open: Vec<f64>,
+    /// Forces of the contacts, in units.
+    pub(super) forces: Forces,
+    /// Number of reactions that statics leaves open.
+    pub(super) indeterminate: usize,
     /// Slacks of its inequalities.
     pub(super) slacks: Vec<Slack>,
     /// The least slack of what concerns the joints that stick; infinite if none does.
@@ -44,6 +51,42 @@ pub(super) struct Assessment {
 }
 
 impl Assessment {
+    /// A phase without anything decided about it yet.
+    pub(super) fn nothing(phase: &Phase) -> Self {
+        let contacts = phase.contacts.len();
+        let none = ContactFriction { positive_face: 0.0, negative_face: 0.0 };
+        Self {
+            phase: phase.clone(),
+            forces: Forces {
+                frictions: vec![none; contacts],
+                normal: vec![0.0; contacts],
+                shares: vec![None; contacts],
+            },
+            indeterminate: 0,
+            slacks: Vec::new(),
+            margin: f64::INFINITY,
+            redundant: false,
+        }
+    }
+
+    /// The same with what another one says of a group.
+    pub(super) fn with(mut self, group: &Group, part: &Self) -> Self {
+        for &joint in &group.joints {
+            self.phase.joints[joint] = part.phase.joints[joint];
+        }
+        for &k in &group.contacts {
+            self.phase.contacts[k] = part.phase.contacts[k];
+            self.forces.frictions[k] = part.forces.frictions[k];
+            self.forces.normal[k] = part.forces.normal[k];
+            self.forces.shares[k] = part.forces.shares[k];
+        }
+        self.indeterminate += part.indeterminate;
+        self.slacks.extend(&part.slacks);
+        self.margin = self.margin.min(part.margin);
+        self.redundant |= part.redundant;
+        self
+    }
+
     /// The least slack.
     pub(super) fn least(&self) -> f64 {
         self.slacks.iter().map(|slack| slack.value).fold(f64::INFINITY, f64::min)
@@ -60,7 +103,8 @@ impl Assessment {
 }
 
 /// A phase at an instant, with the sides of its sticking contacts that leave most slack; nothing if its equations
-/// contradict each other for all of them.
+/// contradict each other for all of them. No further sides are tried in a group once an admissible state has a margin that is
+/// enough.
 ///
 /// # Errors
 /// If a linear program was not solved.
@@ -68,25 +112,36 @@ pub(super) fn assess(
     instant: &Instant<'_>,
     question: &Question<'_>,
     phase: &Phase,
-    tolerance: f64,
+    (tolerance, enough): (f64, f64),
 ) -> Result<Option<Assessment>, Unsolved> {
-    best_sides(instant, question, phase, (tolerance, f64::INFINITY))
+    let mut whole = Assessment::nothing(phase);
+    for group in &instant.groups {
+        let Some(part) = assess_group(instant, question, (phase, group), (tolerance, enough))? else {
+            return Ok(None);
+        };
+        whole = whole.with(group, &part);
+    }
+    Ok(Some(whole))
 }
 
-/// The same, but no further sides are tried once an admissible state has this margin.
+/// The same of a group of joints.
 ///
 /// # Errors
 /// If a linear program was not solved.
-pub(super) fn best_sides(
+pub(super) fn assess_group(
     instant: &Instant<'_>,
     question: &Question<'_>,
-    phase: &Phase,
+    (phase, group): (&Phase, &Group),
     (tolerance, enough): (f64, f64),
 ) -> Result<Option<Assessment>, Unsolved> {
     let mut best: Option<Assessment> = None;
-    for sides in sticking_sides(instant, phase) {
-        let phase = with_sides(phase, &sides);
-        let Some(found) = assess_sides(instant, question, phase)? else { continue };
+    let sticking = sticking_sides(question, phase, (instant, group));
+    for number in 0.. {
+        if number > MOST_SIDES {
+            return Err(Unsolved);
+        }
+        let Some(phase) = with_sides(phase, &sticking, number) else { break };
+        let Some(found) = assess_sides(instant, question, (phase, group))? else { continue };
         if best.as_ref().is_none_or(|best| found.is_better_than(best, tolerance)) {
             let done = found.margin >= enough && found.least() >= -tolerance;
             best = Some(found);
@@ -98,49 +153,41 @@ pub(super) fn best_sides(
     Ok(best)
 }
 
-/// The system of an assessment that is there.
-pub(super) fn system_of<'s>(
-    instant: &'s Instant<'s>,
-    question: &'s Question<'s>,
-    assessment: &'s Assessment,
-) -> Option<System<'s>> {
-    System::new(instant, question, &assessment.phase)
-}
-
 fn assess_sides(
     instant: &Instant<'_>,
     question: &Question<'_>,
-    phase: Phase,
+    (phase, group): (Phase, &Group),
 ) -> Result<Option<Assessment>, Unsolved> {
-    let Some(system) = System::new(instant, question, &phase) else { return Ok(None) };
-    let dimension = system.dimension();
+    let mut found = Assessment::nothing(&phase);
+    let Some(system) = System::new(instant, question, &phase, group) else { return Ok(None) };
     let inequalities = system.inequalities();
-    let redundant = system.is_redundant();
     let depends = |inequality: &&Inequality| inequality.slack.coefficients.iter().any(|a| *a != 0.0);
     let together: Vec<Affine> =
         inequalities.iter().filter(depends).map(|inequality| inequality.slack.clone()).collect();
-    let mut slacks = Vec::with_capacity(inequalities.len());
+    found.indeterminate = system.dimension();
+    found.redundant = system.is_redundant();
     let open = if together.is_empty() {
-        vec![0.0; dimension]
+        vec![0.0; found.indeterminate]
     } else {
-        let (value, open) = highest(&together, dimension)?;
-        slacks.push(Slack { subject: Decisive::Open, value: without_rounding(value) });
+        let (value, open) = highest(&together, found.indeterminate)?;
+        found.slacks.push(Slack { subject: Decisive::Open(group.joints[0]), value: without_rounding(value) });
         open
     };
     for inequality in inequalities.iter().filter(|inequality| !depends(inequality)) {
         let value = without_rounding(inequality.slack.constant);
-        slacks.push(Slack { subject: Decisive::One(inequality.subject), value });
+        found.slacks.push(Slack { subject: Decisive::One(inequality.subject), value });
     }
     let sticks = |subject: &Decisive| match subject {
-        Decisive::Open => true,
+        Decisive::Open(_) => true,
         Decisive::One(Subject::Pressure(k) | Subject::Couple(k) | Subject::Friction(k)) => {
             instant.joint_of(*k).is_some_and(|joint| phase.joints[joint] == JointPhase::Sticking)
         }
         Decisive::One(Subject::Share(_) | Subject::Slip(_)) => false,
     };
-    let margins = slacks.iter().filter(|slack| sticks(&slack.subject)).map(|slack| slack.value);
-    let margin = margins.fold(f64::INFINITY, f64::min);
-    Ok(Some(Assessment { phase, open, slacks, margin, redundant }))
+    let margins = found.slacks.iter().filter(|slack| sticks(&slack.subject)).map(|slack| slack.value);
+    found.margin = margins.fold(f64::INFINITY, f64::min);
+    system.write_forces(&open, &mut found.forces);
+    Ok(Some(found))
 }
 
 fn without_rounding(slack: f64) -> f64 {
@@ -159,34 +206,32 @@ pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [Contact
     if instant.mechanism.preload_jumps(ContactId(k)) { &ALL } else { &PRESSED }
 }
 
-/// All combinations of sides of the contacts that stick; the phase's own one first.
-fn sticking_sides(instant: &Instant<'_>, phase: &Phase) -> Vec<Vec<(usize, ContactPhase)>> {
-    let mut all = vec![Vec::new()];
-    for (joint, state) in phase.joints.iter().enumerate() {
-        if *state != JointPhase::Sticking {
-            continue;
-        }
-        for &k in &instant.joints[joint].contacts {
-            let mut options = side_options(instant, k).to_vec();
-            options.sort_by_key(|option| *option != phase.contacts[k]);
-            all = all
-                .into_iter()
-                .flat_map(|sides: Vec<(usize, ContactPhase)>| {
-                    options
-                        .iter()
-                        .map(move |side| [sides.as_slice(), &[(k, *side)]].concat())
-                        .collect::<Vec<_>>()
-                })
-                .collect();
-        }
-    }
-    all
+/// The contacts of a group that stick, with their possible sides, the phase's own one first.
+fn sticking_sides(
+    question: &Question<'_>,
+    phase: &Phase,
+    (instant, group): (&Instant<'_>, &Group),
+) -> Vec<(usize, Vec<ContactPhase>)> {
+    let sticks = |joint: &&usize| phase.joints[**joint] == JointPhase::Sticking;
+    let contacts = group.joints.iter().filter(sticks).flat_map(|joint| &instant.joints[*joint].contacts);
+    let options = |k: &usize| {
+        let mut options = question.sides[*k].clone();
+        options.sort_by_key(|option| *option != phase.contacts[*k]);
+        (*k, options)
+    };
+    contacts.map(options).collect()
 }
 
-fn with_sides(phase: &Phase, sides: &[(usize, ContactPhase)]) -> Phase {
+/// A phase with the combination of sides of this number; nothing behind the last.
+pub(super) fn with_sides(
+    phase: &Phase,
+    sides: &[(usize, Vec<ContactPhase>)],
+    mut number: usize,
+) -> Option<Phase> {
     let mut changed = phase.clone();
-    for (k, side) in sides {
-        changed.contacts[*k] = *side;
+    for (k, options) in sides.iter().rev() {
+        changed.contacts[*k] = options[number % options.len()];
+        number /= options.len();
     }
-    changed
+    (number == 0).then_some(changed)
 }

@@ -25,7 +25,7 @@ struct Accelerations {
     coordinates: Vec<f64>,
 }
 
-/// How a phase stands to its bounds; nothing if it violates one at once, or if its equations contradict each other a
+/// How a phase stands to its bounds; else those that it violates at once, or none if its equations contradict each other a
 /// little later.
 ///
 /// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
@@ -34,26 +34,23 @@ pub(super) fn standing(
     mechanism: &Mechanism,
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
-) -> Option<Standing> {
-    if assessment.least() < -BOUNDARY {
-        return None;
-    }
+) -> Result<Standing, Vec<Decisive>> {
     let bounds: Vec<usize> =
         (0..assessment.slacks.len()).filter(|&index| assessment.slacks[index].value <= BOUNDARY).collect();
     if bounds.is_empty() && !assessment.redundant {
-        return Some(Standing::Inside);
+        return Ok(Standing::Inside);
     }
     let limits = |indices: &[usize]| -> Vec<Limit> {
         indices.iter().map(|&index| limit(instant, assessment.slacks[index].subject)).collect()
     };
-    let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped };
+    let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
     let scale = time_scale(instant, configuration);
-    let later = match flow.slacks(configuration, (instant, question, assessment), STEP * scale) {
+    let later = match flow.slacks(configuration, (instant, assessment), STEP * scale) {
         Ok(Later::Lasts(later)) => later,
-        Ok(Later::Ends) => return None,
-        Ok(Later::Unsolved) | Err(_) => return Some(Standing::Undecided(limits(&bounds))),
+        Ok(Later::Ends) => return Err(Vec::new()),
+        Ok(Later::Unsolved) | Err(_) => return Ok(Standing::Undecided(limits(&bounds))),
     };
-    let mut constant = Vec::new();
+    let (mut constant, mut violated) = (Vec::new(), Vec::new());
     for &index in &bounds {
         let first = assessment.slacks[index];
         let at = |step: usize| later[step].get(index).filter(|slack| slack.subject == first.subject);
@@ -64,13 +61,15 @@ pub(super) fn standing(
         let rate = (-3.0 * first.value + 4.0 * second.value - third.value) / (2.0 * STEP);
         let curvature = (first.value - 2.0 * second.value + third.value) / (STEP * STEP);
         if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
-            return None;
-        }
-        if rate <= NO_RATE && curvature <= NO_CURVATURE {
+            violated.push(first.subject);
+        } else if rate <= NO_RATE && curvature <= NO_CURVATURE {
             constant.push(index);
         }
     }
-    Some(if bounds.is_empty() {
+    if !violated.is_empty() {
+        return Err(violated);
+    }
+    Ok(if bounds.is_empty() {
         Standing::Inside
     } else if constant.is_empty() {
         Standing::Leaves(limits(&bounds))
@@ -84,7 +83,7 @@ fn limit(instant: &Instant<'_>, subject: Decisive) -> Limit {
         Decisive::One(Subject::Pressure(k)) => Limit::NormalForce(ContactId(k)),
         Decisive::One(Subject::Share(k)) => Limit::PreloadShare(ContactId(k)),
         Decisive::One(Subject::Couple(k)) => Limit::Couple(ContactId(k)),
-        Decisive::One(Subject::Friction(_)) | Decisive::Open => Limit::Sticking,
+        Decisive::One(Subject::Friction(_)) | Decisive::Open(_) => Limit::Sticking,
         Decisive::One(Subject::Slip(joint)) => {
             Limit::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
         }
@@ -104,6 +103,7 @@ struct Flow<'f> {
     mechanism: &'f Mechanism,
     phase: &'f Phase,
     stopped: &'f [bool],
+    shift: &'f DVector<f64>,
 }
 
 type Slacks = Vec<super::assessment::Slack>;
@@ -132,10 +132,10 @@ impl Flow<'_> {
     fn slacks(
         &self,
         configuration: &Configuration,
-        (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
+        (instant, assessment): (&Instant<'_>, &Assessment),
         step: f64,
     ) -> Result<Later<[Slacks; 2]>, Faults> {
-        let Some(start) = accelerations(instant, question, assessment) else { return Ok(Later::Ends) };
+        let start = accelerations(instant, assessment);
         self.step(configuration, &start, step)?.and_then(|(next, start, first)| {
             self.step(&next, &start, step)?.and_then(|(_, _, second)| Ok(Later::Lasts([first, second])))
         })
@@ -156,26 +156,22 @@ impl Flow<'_> {
     }
 
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
-        let instant = Instant::new(self.mechanism, configuration)?;
+        let mut instant = Instant::new(self.mechanism, configuration)?;
+        instant.change_base(self.shift);
         let question = instant.question(self.stopped);
-        let assessment = match assess(&instant, &question, self.phase, BOUNDARY) {
+        let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
             Ok(Some(assessment)) => assessment,
             Ok(None) => return Ok(Later::Ends),
             Err(_) => return Ok(Later::Unsolved),
         };
-        let found = accelerations(&instant, &question, &assessment);
-        Ok(found.map_or(Later::Ends, |found| Later::Lasts((found, assessment.slacks))))
+        Ok(Later::Lasts((accelerations(&instant, &assessment), assessment.slacks)))
     }
 }
 
-fn accelerations(
-    instant: &Instant<'_>,
-    question: &Question<'_>,
-    assessment: &Assessment,
-) -> Option<Accelerations> {
-    let state = state(instant, question, assessment)?;
+fn accelerations(instant: &Instant<'_>, assessment: &Assessment) -> Accelerations {
+    let state = state(instant, assessment);
     let bodies = state.unknowns.rows(0, 3 * instant.mechanism.bodies.len()).into_owned();
-    Some(Accelerations { bodies, coordinates: state.coordinate_accelerations })
+    Accelerations { bodies, coordinates: state.coordinate_accelerations }
 }
 
 /// The configuration after a step in which accelerations go from `start` to `end` in proportion to time.
@@ -204,5 +200,6 @@ fn advanced(from: &Configuration, start: &Accelerations, end: &Accelerations, st
         rates: from.rates.iter().zip(both).map(|(qd, (a, b))| qd + gain(*a, *b)).collect(),
         time: from.time + step,
         steps: from.steps,
+        pieces: from.pieces.clone(),
     }
 }

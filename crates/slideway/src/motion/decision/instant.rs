@@ -1,14 +1,17 @@
 //! A mechanism at one instant: how normal forces, sliding accelerations and couples answer to friction.
 
+use super::assessment::Assessment;
+use super::bounds::possible_sides;
 use super::system::Question;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, JointId};
+use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
-use crate::model::SliderKind;
-use crate::motion::Phase;
+use crate::model::{PreloadLine, SliderKind};
+use crate::modes::Side;
+use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
 
 /// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
@@ -19,6 +22,12 @@ const SAME: f64 = 1e-12;
 const DEPENDENT: f64 = 1e-10;
 /// Accelerations below this, in units, are zero.
 const NO_ACCELERATION: f64 = 1e-10;
+
+/// A joint that only a force greater than this, in units, could keep from sliding cannot stick.
+const GREATEST_FORCE: f64 = 1e8;
+/// What is left of a normal force, in units, or of a share, where an event has found it to be zero; it is greater only where it
+/// has no bounds.
+const NEARLY_ZERO: f64 = 1e-4;
 
 /// Units in which the numbers of a decision are of order one.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +55,17 @@ pub(super) struct SlidingJoint {
     pub(super) velocity: f64,
     /// Whether any friction could make it stick.
     pub(super) has_friction: bool,
+    /// Units of the bodies that joints connect with it.
+    pub(super) units: Units,
+}
+
+/// Sliding joints that act on one another; no friction of another joint has any influence on them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Group {
+    /// The joints.
+    pub(super) joints: Vec<usize>,
+    /// Their contacts.
+    pub(super) contacts: Vec<usize>,
 }
 
 /// What is asked of all unknowns, as it answers to the friction forces: normal forces of the contacts, accelerations
@@ -69,10 +89,14 @@ pub(super) struct Instant<'m> {
     pub(super) influence: Influence,
     /// Its sliding joints.
     pub(super) joints: Vec<SlidingJoint>,
-    /// Units of forces and accelerations.
+    /// Units of the whole.
     pub(super) units: Units,
     /// What is asked of forces and accelerations.
     pub(super) outputs: Outputs,
+    /// By how much these differ from the loads, see [`Self::vanish`].
+    pub(super) shift: DVector<f64>,
+    /// The sliding joints in groups that are decided separately.
+    pub(super) groups: Vec<Group>,
 }
 
 impl<'m> Instant<'m> {
@@ -83,21 +107,27 @@ impl<'m> Instant<'m> {
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         let influence = Influence::new(&equations);
-        let joints = sliding_joints(mechanism, configuration, &equations);
-        let units = units(mechanism, &influence, &equations);
-        let outputs = outputs(mechanism, &influence, &joints, units);
-        Ok(Self { mechanism, equations, influence, joints, units, outputs })
+        let mut joints = sliding_joints(mechanism, configuration, &equations);
+        let units = set_units(mechanism, &influence, &equations, &mut joints);
+        let outputs = outputs(mechanism, &influence, &joints);
+        let groups = groups(&joints, &outputs);
+        let shift = DVector::zeros(outputs.base.len());
+        Ok(Self { mechanism, equations, influence, joints, units, outputs, shift, groups })
     }
 
     /// Takes over the loads at another time, where nothing has moved.
     ///
     /// # Errors
     /// Loads without a value.
-    pub(super) fn change_loads(&mut self, configuration: &Configuration) -> Result<(), Faults> {
-        self.equations.change_loads(self.mechanism, configuration)?;
+    pub(super) fn change_loads(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+    ) -> Result<(), Faults> {
+        self.equations.change_loads(mechanism, configuration)?;
         self.influence.frictionless = self.equations.without_noise(&self.equations.frictionless());
-        self.units = units(self.mechanism, &self.influence, &self.equations);
-        self.outputs = outputs(self.mechanism, &self.influence, &self.joints, self.units);
+        self.units = set_units(self.mechanism, &self.influence, &self.equations, &mut self.joints);
+        self.outputs = outputs(self.mechanism, &self.influence, &self.joints);
         Ok(())
     }
 
@@ -106,7 +136,8 @@ impl<'m> Instant<'m> {
         Question {
             outputs: &self.outputs,
             wanted: vec![0.0; self.joints.len()],
-            preload: Some(self.units.force),
+            has_preload: true,
+            sides: possible_sides(self),
             stopped,
             opposes: None,
         }
@@ -130,9 +161,61 @@ impl<'m> Instant<'m> {
         Outputs { base: DVector::zeros(self.outputs.base.len()), columns: self.outputs.columns.clone() }
     }
 
-    /// The mass by which forces and accelerations, or impulses and velocities, are related in these units (kg).
-    pub(super) fn mass_unit(&self) -> f64 {
-        self.units.force / self.units.acceleration
+    /// The units of a contact.
+    pub(super) fn units_of(&self, k: usize) -> Units {
+        self.joint_of(k).map_or(self.units, |joint| self.joints[joint].units)
+    }
+
+    /// The sign of the acceleration of a joint that has no sliding velocity but passes: near a dead centre its acceleration comes
+    /// from the geometry of the motion (or from a drive), and no force along its guide that could occur would change it.
+    pub(super) fn passes(&self, joint: usize) -> Option<f64> {
+        let acceleration = self.outputs.base[self.sliding_output(joint)];
+        let holding_force = acceleration.abs() / self.mobility(joint, joint).abs();
+        (acceleration.abs() > NO_ACCELERATION && holding_force > GREATEST_FORCE)
+            .then(|| acceleration.signum())
+    }
+
+    /// Makes normal forces, or what is left of preload gaps, exactly zero in a state: its equations hold again with loads that
+    /// differ by no more than what is left of them, and so do those of its neighbours, in which the contacts press on the other
+    /// side.
+    pub(super) fn vanish(&mut self, contacts: &[usize], state: &Assessment) {
+        let mut shift = DVector::zeros(self.outputs.base.len());
+        for &k in contacts {
+            let Some(JointPhase::Sliding(sign)) = self.joint_of(k).map(|joint| state.phase.joints[joint])
+            else {
+                continue;
+            };
+            let [plus, minus] = [0, 1].map(|side| self.outputs.columns[side].column(k));
+            let contact = self.contact(k);
+            match (state.phase.contacts[k], state.forces.shares[k]) {
+                (ContactPhase::Pressed(side), _) if state.forces.normal[k].abs() <= NEARLY_ZERO => {
+                    let face = usize::from(side == Side::Negative);
+                    let pressure = side.sign() * state.forces.normal[k];
+                    shift.axpy(contact.mu[face] * sign * pressure, &[plus, minus][face], 1.0);
+                    shift[k] -= state.forces.normal[k];
+                }
+                (ContactPhase::PreloadGap, Some(share)) if (share - share.round()).abs() <= NEARLY_ZERO => {
+                    let unit = self.units_of(k).force;
+                    let [more, less] =
+                        contact.preload.map(|preload| (share - share.round()) * sign * preload / unit);
+                    match contact.preload_line {
+                        PreloadLine::Pressed => {
+                            shift.axpy(more, &plus, 1.0);
+                            shift.axpy(-less, &minus, 1.0);
+                        }
+                        PreloadLine::Centre => shift.axpy((more - less) / 2.0, &(plus + minus), 1.0),
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.change_base(&shift);
+    }
+
+    /// Adds to what there is without friction, in units.
+    pub(super) fn change_base(&mut self, shift: &DVector<f64>) {
+        self.outputs.base += shift;
+        self.shift += shift;
     }
 
     /// Whether a joint does not accelerate while others are held, whatever forces act.
@@ -255,45 +338,133 @@ fn sliding_joints(
             row: SlidingRow::new(mechanism, configuration, slider),
             velocity: first.unwrap_or(0.0),
             has_friction,
+            units: Units { force: 1.0, length: mechanism.size, acceleration: 1.0 },
         })
     };
     mechanism.joints.iter().enumerate().filter_map(one).collect()
 }
 
-/// The greatest of all loads, preloads and forces of inertia, and the acceleration that it gives the greatest mass.
-fn units(mechanism: &Mechanism, influence: &Influence, equations: &KineticEquations) -> Units {
+/// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is
+/// small; the units of the whole.
+fn set_units(
+    mechanism: &Mechanism,
+    influence: &Influence,
+    equations: &KineticEquations,
+    joints: &mut [SlidingJoint],
+) -> Units {
+    let connected = connected(mechanism);
+    let units =
+        |counts: &dyn Fn(BodyId) -> bool, least: f64| units(mechanism, (influence, equations), counts, least);
+    let whole = units(&|_| true, 1.0);
+    for joint in joints {
+        let slider = mechanism.slider(joint.id);
+        let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
+        let part = body.map(|body| connected[body.index()]);
+        joint.units = units(&|other| Some(connected[other.index()]) == part, whole.force);
+    }
+    whole
+}
+
+/// For each body a number that it shares with the bodies that are connected with it by joints.
+fn connected(mechanism: &Mechanism) -> Vec<usize> {
+    let mut parts: Vec<usize> = (0..mechanism.bodies.len()).collect();
+    for joint in &mechanism.joints {
+        let [one, other] = match &joint.kind {
+            JointKind::Hinge([first, second]) => [first.frame, second.frame],
+            JointKind::Slider(slider) => [slider.block, slider.guide],
+        };
+        if let (Some(one), Some(other)) = (one.body(), other.body()) {
+            join(&mut parts, one.index(), other.index());
+        }
+    }
+    parts
+}
+
+/// Puts what two members belong to together.
+fn join(parts: &mut [usize], one: usize, other: usize) {
+    let (kept, dissolved) = (parts[one], parts[other]);
+    parts.iter_mut().filter(|part| **part == dissolved).for_each(|part| *part = kept);
+}
+
+/// The sliding joints in groups without influence on one another.
+fn groups(joints: &[SlidingJoint], outputs: &Outputs) -> Vec<Group> {
+    let mut parts: Vec<usize> = (0..joints.len()).collect();
+    let contacts = outputs.columns[0].ncols();
+    let mut couples = contacts + joints.len()..;
+    for (index, joint) in joints.iter().enumerate() {
+        let couple = joint.couple.and_then(|_| couples.next());
+        let rows: Vec<usize> =
+            joint.contacts.iter().copied().chain([contacts + index]).chain(couple).collect();
+        for (other, rubbing) in joints.iter().enumerate() {
+            let acts = |k: &usize| {
+                outputs.columns.iter().any(|column| rows.iter().any(|row| column[(*row, *k)] != 0.0))
+            };
+            if parts[index] != parts[other] && rubbing.contacts.iter().any(acts) {
+                join(&mut parts, index, other);
+            }
+        }
+    }
+    let mut groups: Vec<Group> = Vec::new();
+    let mut place = vec![None; joints.len()];
+    for (index, joint) in joints.iter().enumerate() {
+        let group = *place[parts[index]].get_or_insert_with(|| {
+            groups.push(Group { joints: Vec::new(), contacts: Vec::new() });
+            groups.len() - 1
+        });
+        groups[group].joints.push(index);
+        groups[group].contacts.extend(&joint.contacts);
+    }
+    groups
+}
+
+/// The greatest of the loads, preloads and forces of inertia of some bodies, and the acceleration that it gives the greatest
+/// of their masses; where there is no force, the given one.
+fn units(
+    mechanism: &Mechanism,
+    (influence, equations): (&Influence, &KineticEquations),
+    counts: &dyn Fn(BodyId) -> bool,
+    otherwise: f64,
+) -> Units {
     let length = mechanism.size;
-    let masses = mechanism.bodies.iter().map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
+    let bodies = || mechanism.bodies.iter().enumerate().filter(|(index, _)| counts(BodyId(*index)));
+    let masses = bodies().map(|(_, body)| body.mass.max(body.moment_of_inertia / length.powi(2)));
     let mass = masses.fold(0.0, f64::max);
-    let loads = equations.applied.iter().map(|wrench| wrench.force.norm().max(wrench.couple.abs() / length));
-    let preloads = mechanism.contacts.iter().flat_map(|contact| contact.preload);
-    let inertia = mechanism.bodies.iter().enumerate().flat_map(|(index, body)| {
+    let belongs = |frame: Frame| frame.body().is_some_and(counts);
+    let loads = equations.applied.iter().filter(|wrench| belongs(wrench.frame));
+    let loads = loads.map(|wrench| wrench.force.norm().max(wrench.couple.abs() / length));
+    let preloads = mechanism.contacts.iter().filter(|contact| {
+        mechanism.slider(contact.joint).is_some_and(|slider| belongs(slider.block) || belongs(slider.guide))
+    });
+    let preloads = preloads.flat_map(|contact| contact.preload);
+    let inertia = bodies().flat_map(|(index, body)| {
         let [x, y, turn] = [0, 1, 2].map(|part| influence.frictionless[3 * index + part]);
         [body.mass * x, body.mass * y, body.moment_of_inertia * turn / length]
     });
     let force = loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max);
-    let force = if force > 0.0 && force.is_finite() { force } else { 1.0 };
+    let force = if force > 0.0 && force.is_finite() { force } else { otherwise };
     Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }
 }
 
-fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[SlidingJoint], units: Units) -> Outputs {
+fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[SlidingJoint]) -> Outputs {
     let contacts = mechanism.contacts.len();
-    let couples: Vec<usize> =
-        joints.iter().filter_map(|joint| joint.couple.map(|(_, place)| place)).collect();
+    let couples: Vec<(usize, f64)> = joints
+        .iter()
+        .filter_map(|joint| joint.couple.map(|(_, place)| (place, joint.units.force * joint.units.length)))
+        .collect();
+    let mut force = vec![1.0; contacts];
+    for joint in joints {
+        joint.contacts.iter().for_each(|&k| force[k] = joint.units.force);
+    }
     let rows = contacts + joints.len() + couples.len();
-    let per_force = |row: usize| match row.checked_sub(contacts + joints.len()) {
-        Some(_) => 1.0 / units.length,
-        None if row >= contacts => units.force / units.acceleration,
-        None => 1.0,
+    let unit = |row: usize| match row.checked_sub(contacts) {
+        None => force[row],
+        Some(joint) if joint < joints.len() => joints[joint].units.acceleration,
+        Some(other) => couples[other - joints.len()].1,
     };
-    let of = |unknowns: &DVector<f64>, normals: &DVector<f64>, row: usize| {
-        if row < contacts {
-            normals[row]
-        } else if row < contacts + joints.len() {
-            joints[row - contacts].row.change(unknowns)
-        } else {
-            unknowns[couples[row - contacts - joints.len()]]
-        }
+    let of = |unknowns: &DVector<f64>, normals: &DVector<f64>, row: usize| match row.checked_sub(contacts) {
+        None => normals[row],
+        Some(joint) if joint < joints.len() => joints[joint].row.change(unknowns),
+        Some(other) => unknowns[couples[other - joints.len()].0],
     };
     let normals = influence.normal_forces();
     let base = DVector::from_fn(rows, |row, _| {
@@ -301,14 +472,14 @@ fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[SlidingJoint]
             Some(joint) if joint < joints.len() => joints[joint].row.acceleration(&influence.frictionless),
             _ => of(&influence.frictionless, &normals, row),
         };
-        value * per_force(row) / units.force
+        value / unit(row)
     });
     let mut columns = [0, 1].map(|side| {
         let mut columns = DMatrix::zeros(rows, contacts);
         for (k, column) in influence.columns.iter().enumerate() {
             let normals = influence.normal_part(&column[side]);
             for row in 0..rows {
-                let value = of(&column[side], &normals, row) * per_force(row);
+                let value = of(&column[side], &normals, row) * (force[k] / unit(row));
                 columns[(row, k)] = if value.abs() <= NO_INFLUENCE { 0.0 } else { value };
             }
         }

@@ -1,7 +1,7 @@
 //! Dynamic jamming: the impulse that stops a mechanism which has no admissible acceleration (theory, section 8).
 
-use super::assessment::{Assessment, assess, side_options, system_of};
-use super::instant::{Instant, Outputs};
+use super::assessment::{Assessment, assess_group, side_options};
+use super::instant::{Group, Instant, Outputs};
 use super::successors::combinations;
 use super::system::Question;
 use super::{BOUNDARY, MOST_STATES};
@@ -119,19 +119,24 @@ impl Search<'_> {
         let stopped = vec![false; self.instant.joints.len()];
         let velocity = self.instant.joints[joint].velocity;
         let mut wanted = vec![0.0; self.instant.joints.len()];
-        wanted[joint] = -velocity / self.speed;
+        wanted[joint] = -velocity / (self.instant.joints[joint].units.acceleration * self.time());
         let question = Question {
             outputs: self.outputs,
             wanted,
-            preload: None,
+            has_preload: false,
+            sides: (0..self.outputs.columns[0].ncols()).map(|k| self.sides(k)).collect(),
             stopped: &stopped,
             opposes: Some((joint, velocity.signum())),
         };
-        for phase in self.patterns(joint)? {
-            match assess(self.instant, &question, &phase, BOUNDARY) {
+        let Some(group) = self.instant.groups.iter().find(|group| group.joints.contains(&joint)) else {
+            return Ok(());
+        };
+        for phase in self.patterns(joint, group)? {
+            let of = (&phase, group);
+            match assess_group(self.instant, &question, of, (BOUNDARY, f64::INFINITY)) {
                 Err(_) => found.unsolved += 1,
                 Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => {
-                    found.impulses.extend(self.impulse(joint, &question, &assessment));
+                    found.impulses.extend(self.impulse(joint, &assessment));
                 }
                 Ok(_) => {}
             }
@@ -139,12 +144,26 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// States of the other joints, with all sides of the contacts that slide.
-    fn patterns(&self, stopping: usize) -> Result<Vec<Phase>, Faults> {
-        let joints: Vec<Vec<JointPhase>> =
-            (0..self.instant.joints.len()).map(|joint| self.options(joint, stopping)).collect();
+    /// The sides of a contact during an impulse.
+    fn sides(&self, k: usize) -> Vec<ContactPhase> {
+        side_options(self.instant, k)[..2].to_vec()
+    }
+
+    /// The time in which the unit of acceleration gives the greatest sliding velocity (s).
+    fn time(&self) -> f64 {
+        self.speed / self.instant.units.acceleration
+    }
+
+    /// States of the other joints of a group, with all sides of the contacts that slide; the others remain as they are.
+    fn patterns(&self, stopping: usize, group: &Group) -> Result<Vec<Phase>, Faults> {
+        let joint_options = |joint: usize| {
+            let mut options = self.options(joint, stopping);
+            options.truncate(if group.joints.contains(&joint) { 3 } else { 1 });
+            options
+        };
+        let joints: Vec<Vec<JointPhase>> = (0..self.instant.joints.len()).map(joint_options).collect();
         let contacts: Vec<usize> = (0..self.outputs.columns[0].ncols()).collect();
-        let sides = contacts.iter().map(|_| 2);
+        let sides = group.contacts.iter().map(|_| 2);
         let counts = joints.iter().map(Vec::len).chain(sides);
         let states = counts.fold(1_u64, |product, count| product.saturating_mul(count as u64));
         if states > MOST_STATES {
@@ -153,10 +172,13 @@ impl Search<'_> {
         let mut all = Vec::new();
         for joints in combinations(&joints) {
             let sides = |k: &usize| {
-                let pressed = &side_options(self.instant, *k)[..2];
+                let mut pressed = self.sides(*k);
                 let sticks =
                     self.instant.joint_of(*k).is_some_and(|joint| joints[joint] == JointPhase::Sticking);
-                if sticks { pressed[..1].to_vec() } else { pressed.to_vec() }
+                if sticks || !group.contacts.contains(k) {
+                    pressed.truncate(1);
+                }
+                pressed
             };
             let options: Vec<Vec<ContactPhase>> = contacts.iter().map(sides).collect();
             let phases = combinations(&options).into_iter();
@@ -187,15 +209,10 @@ impl Search<'_> {
 
     /// The impulse of an admissible state, as far as the first sliding velocity reaches zero; nothing if a joint that was
     /// at rest would slide against its friction's sense.
-    fn impulse(&self, joint: usize, question: &Question<'_>, assessment: &Assessment) -> Option<Impulse> {
-        let system = system_of(self.instant, question, assessment)?;
-        let unit = self.instant.mass_unit() * self.speed;
-        let scaled = |friction: ContactFriction, unit: f64| ContactFriction {
-            positive_face: friction.positive_face * unit,
-            negative_face: friction.negative_face * unit,
-        };
-        let whole: Vec<ContactFriction> =
-            system.frictions(&assessment.open).into_iter().map(|friction| scaled(friction, unit)).collect();
+    fn impulse(&self, joint: usize, assessment: &Assessment) -> Option<Impulse> {
+        let unit = |k: usize| self.instant.units_of(k).force * self.time();
+        let frictions = assessment.forces.frictions.iter().enumerate();
+        let whole: Vec<ContactFriction> = frictions.map(|(k, friction)| friction.times(unit(k))).collect();
         let jumps = self.instant.influence.of_friction(&whole);
         let part = self.part(&assessment.phase, &jumps)?;
         let jumps = jumps * part;
@@ -204,13 +221,13 @@ impl Search<'_> {
             .collect();
         let rest = self.instant.joints.iter().zip(&sliding_velocities).filter(|(_, after)| **after == 0.0);
         let after = self.after(&jumps);
-        let normals = system.normal_forces(&assessment.open);
+        let normals = assessment.forces.normal.iter().enumerate();
         Some(Impulse {
             wedged: self.instant.joints[joint].id,
             at_rest: rest.map(|(joint, _)| joint.id).collect(),
             sides: assessment.phase.contacts.clone(),
-            normal_impulses: normals.into_iter().map(|normal| normal * unit * part).collect(),
-            friction_impulses: whole.into_iter().map(|friction| scaled(friction, part)).collect(),
+            normal_impulses: normals.map(|(k, normal)| normal * unit(k) * part).collect(),
+            friction_impulses: whole.into_iter().map(|friction| friction.times(part)).collect(),
             energy_lost: self.kinetic_energy(self.configuration) - self.kinetic_energy(&after),
             after,
             sliding_velocities,

@@ -1,7 +1,8 @@
 //! Decisions at events: which phases can follow, how long joints can stick, what a jam does (theory, section 8).
 //!
 //! A phase is a state of every sliding joint, sticking or sliding one way or the other, and of every contact, pressed
-//! to one side or in its preload gap. All of them are tried; each is a system of linear equations and inequalities:
+//! to one side or in its preload gap. Joints without influence on one another are decided separately. In each group of joints the
+//! states are tried, those in which most joints stick first; each is a system of linear equations and inequalities:
 //!
 //! ```text
 //! slides   F_k = (mu_k |N_k| + F_k0) s_k                s_k = sign of the sliding velocity, of the acceleration at rest
@@ -16,6 +17,9 @@
 //! the contacts that slide alone.
 //!
 //! # At a boundary
+//! A normal force whose zero ends a phase is exactly zero: what the steps have left of it is taken off the loads, so that a phase and its
+//! neighbour, in which the contact presses on the other side, satisfy the same equations.
+//!
 //! Right after an event some slack is zero: a normal force at its change of side, the friction of a joint that begins
 //! to slip, the acceleration of a joint that has just stopped. Such a phase counts only if the slack grows from zero
 //! along the phase's own motion. This is decided by the first and then the second derivative of the slack, from two
@@ -24,16 +28,18 @@
 //! says so, [`Standing::Undecided`].
 //!
 //! # Accuracy
-//! Slacks are in units of the greatest force (load, preload or inertia) or of the acceleration that it gives the
-//! greatest mass. A slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6
+//! Slacks are in units of the greatest force (load, preload or inertia) on the bodies that joints connect with one another, or of
+//! the acceleration that it gives the greatest of their masses. A slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6
 //! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
 
 mod assessment;
+mod bounds;
 mod elastic;
 mod growth;
 mod holding;
 mod instant;
 mod jam;
+mod parts;
 mod program;
 mod sieve;
 mod state;
@@ -52,7 +58,7 @@ use crate::ids::{ContactId, JointId};
 
 /// Slacks closer to zero than this are at the boundary.
 const BOUNDARY: f64 = 1e-8;
-/// More states of joints and contacts are refused.
+/// Where so many states of a group were tried without finding one that can follow, it is refused.
 const MOST_STATES: u64 = 100_000;
 
 /// How a phase stands to what bounds it at the instant.

@@ -1,6 +1,6 @@
 //! A fast test of patterns in which everything slides: most of them are far from any state.
 
-use super::instant::Instant;
+use super::instant::{Group, Instant};
 use super::system::{Question, face};
 use crate::model::PreloadLine;
 use crate::motion::{ContactPhase, JointPhase, Phase};
@@ -15,6 +15,7 @@ const REGULAR: f64 = 1e-6;
 pub(super) struct Sieve<'s> {
     question: &'s Question<'s>,
     instant: &'s Instant<'s>,
+    group: &'s Group,
     joint: Vec<Option<usize>>,
     /// Row by row, the right-hand side last.
     matrix: Vec<f64>,
@@ -22,13 +23,14 @@ pub(super) struct Sieve<'s> {
 }
 
 impl<'s> Sieve<'s> {
-    /// A sieve for a question about accelerations.
-    pub(super) fn new(question: &'s Question<'s>, instant: &'s Instant<'s>) -> Self {
-        let contacts = instant.mechanism.contacts.len();
+    /// A sieve for a question about accelerations of a group of joints.
+    pub(super) fn new(question: &'s Question<'s>, instant: &'s Instant<'s>, group: &'s Group) -> Self {
+        let contacts = group.contacts.len();
         Self {
             question,
             instant,
-            joint: (0..contacts).map(|k| instant.joint_of(k)).collect(),
+            group,
+            joint: group.contacts.iter().map(|&k| instant.joint_of(k)).collect(),
             matrix: vec![0.0; contacts * (contacts + 1)],
             pressure: vec![0.0; contacts],
         }
@@ -41,19 +43,21 @@ impl<'s> Sieve<'s> {
     }
 
     /// mu_k s_k and F_k0 s_k of a contact that slides and is pressed, in units, and the face.
-    fn friction(&self, phase: &Phase, k: usize) -> Option<(f64, f64, usize)> {
+    fn friction(&self, phase: &Phase, index: usize) -> Option<(f64, f64, usize)> {
+        let k = self.group.contacts[index];
         let (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) =
-            (phase.joints[self.joint[k]?], phase.contacts[k])
+            (phase.joints[self.joint[index]?], phase.contacts[k])
         else {
             return None;
         };
         let (contact, face) = (self.instant.contact(k), face(side));
-        let preload = self.question.preload.map_or(0.0, |unit| contact.preload[face] / unit);
+        let preload = contact.preload[face] / self.instant.units_of(k).force;
         Some((contact.mu[face] * sign, preload * sign, face))
     }
 
     /// What a friction adds to an output, by its own force and by the preload, for a unit of pressure.
-    fn effect(&self, row: usize, k: usize, (mu, preload, face): (f64, f64, usize)) -> (f64, f64) {
+    fn effect(&self, row: usize, index: usize, (mu, preload, face): (f64, f64, usize)) -> (f64, f64) {
+        let k = self.group.contacts[index];
         let [plus, minus] = [0, 1].map(|side| self.question.outputs.columns[side][(row, k)]);
         let own = if face == 0 { plus } else { minus };
         let at_preload = match self.instant.contact(k).preload_line {
@@ -67,12 +71,12 @@ impl<'s> Sieve<'s> {
         let contacts = self.pressure.len();
         let width = contacts + 1;
         for row in 0..contacts {
-            self.matrix[row * width + contacts] = self.question.outputs.base[row];
+            self.matrix[row * width + contacts] = self.question.outputs.base[self.group.contacts[row]];
         }
         for k in 0..contacts {
             let friction = self.friction(phase, k)?;
             for row in 0..contacts {
-                let (own, preload) = self.effect(row, k, friction);
+                let (own, preload) = self.effect(self.group.contacts[row], k, friction);
                 self.matrix[row * width + k] = -own;
                 self.matrix[row * width + contacts] += preload;
             }
@@ -126,7 +130,7 @@ impl<'s> Sieve<'s> {
     fn is_pushed_back(&self, phase: &Phase) -> bool {
         let begins =
             |joint: &usize| self.question.stopped[*joint] && self.instant.joints[*joint].has_friction;
-        (0..phase.joints.len()).filter(begins).any(|joint| {
+        self.group.joints.iter().copied().filter(begins).any(|joint| {
             let JointPhase::Sliding(sign) = phase.joints[joint] else { return false };
             let row = self.instant.sliding_output(joint);
             let mut acceleration = self.question.outputs.base[row];

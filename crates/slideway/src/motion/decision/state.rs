@@ -1,8 +1,7 @@
 //! Accelerations and reactions of a phase.
 
-use super::assessment::{Assessment, system_of};
-use super::instant::Instant;
-use super::system::Question;
+use super::assessment::Assessment;
+use super::instant::{Group, Instant};
 use crate::influence::ContactFriction;
 use crate::kinetics::Layout;
 use crate::motion::{JointPhase, Phase};
@@ -37,50 +36,42 @@ pub struct PhaseState {
 }
 
 /// What a phase does to a mechanism.
-pub(super) fn state(
-    instant: &Instant<'_>,
-    question: &Question<'_>,
-    assessment: &Assessment,
-) -> Option<PhaseState> {
-    let system = system_of(instant, question, assessment)?;
-    let unit = instant.units.force;
-    let scaled = |friction: ContactFriction| ContactFriction {
-        positive_face: friction.positive_face * unit,
-        negative_face: friction.negative_face * unit,
-    };
-    let frictions: Vec<ContactFriction> =
-        system.frictions(&assessment.open).into_iter().map(scaled).collect();
+pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseState {
+    let forces = &assessment.forces;
+    let unit = |k: usize| instant.units_of(k).force;
+    let scaled = |(k, friction): (usize, &ContactFriction)| friction.times(unit(k));
+    let frictions: Vec<ContactFriction> = forces.frictions.iter().enumerate().map(scaled).collect();
     let unknowns = instant.influence.unknowns(&frictions);
     let sliding = instant.joints.iter().zip(&assessment.phase.joints);
     let acceleration = |(joint, phase): (&super::instant::SlidingJoint, &JointPhase)| match phase {
         JointPhase::Sticking => 0.0,
         JointPhase::Sliding(_) => joint.row.acceleration(&unknowns),
     };
-    Some(PhaseState {
+    PhaseState {
         coordinate_accelerations: instant.equations.coordinate_accelerations(&unknowns),
         sliding_accelerations: sliding.map(acceleration).collect(),
-        normal_forces: system.normal_forces(&assessment.open).into_iter().map(|n| n * unit).collect(),
+        normal_forces: forces.normal.iter().enumerate().map(|(k, normal)| normal * unit(k)).collect(),
         frictions,
-        shares: system.shares(&assessment.open),
-        indeterminate: assessment.open.len(),
+        shares: forces.shares.clone(),
+        indeterminate: assessment.indeterminate,
         margin: assessment.margin.is_finite().then_some(assessment.margin),
         least_slack: assessment.least(),
         layout: instant.influence.layout().clone(),
         unknowns,
-    })
+    }
 }
 
-/// Whether two phases are the same but for the sides of contacts that stick and the signs of joints without friction,
-/// which have no effect.
-pub(super) fn is_same_phase(instant: &Instant<'_>, one: &Phase, other: &Phase) -> bool {
-    let joints = one.joints.iter().zip(&other.joints).zip(&instant.joints);
-    let same_joints = joints.map(|((a, b), joint)| {
-        a == b || (!joint.has_friction && matches!((a, b), (JointPhase::Sliding(_), JointPhase::Sliding(_))))
-    });
-    let contacts = one.contacts.iter().zip(&other.contacts).enumerate();
-    let same_contacts = contacts.map(|(k, (a, b))| {
-        let joint = instant.joint_of(k);
-        a == b || joint.is_some_and(|joint| one.joints[joint] == JointPhase::Sticking)
-    });
-    one.contacts.len() == other.contacts.len() && same_joints.chain(same_contacts).all(|same| same)
+/// Whether a group does the same in two phases, but for the sides of contacts that stick and the signs of joints without
+/// friction, which have no effect.
+pub(super) fn is_same_phase(instant: &Instant<'_>, group: &Group, [one, other]: [&Phase; 2]) -> bool {
+    let slides = |phase: &Phase, joint: usize| matches!(phase.joints[joint], JointPhase::Sliding(_));
+    let same_joint = |joint: usize| {
+        one.joints[joint] == other.joints[joint]
+            || (!instant.joints[joint].has_friction && slides(one, joint) && slides(other, joint))
+    };
+    let same_contact = |k: usize| {
+        one.contacts[k] == other.contacts[k]
+            || instant.joint_of(k).is_some_and(|joint| one.joints[joint] == JointPhase::Sticking)
+    };
+    group.joints.iter().all(|joint| same_joint(*joint)) && group.contacts.iter().all(|k| same_contact(*k))
 }

@@ -1,7 +1,7 @@
 //! How much friction is left to joints that stick.
 
 use super::BOUNDARY;
-use super::assessment::{assess, best_sides};
+use super::assessment::assess;
 use super::instant::Instant;
 use super::state::{PhaseState, state};
 use crate::configuration::Configuration;
@@ -52,7 +52,7 @@ pub fn sticking_margin(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let found = best_sides(&instant, &instant.question(&stopped), phase, (BOUNDARY, ENOUGH));
+    let found = assess(&instant, &instant.question(&stopped), phase, (BOUNDARY, ENOUGH));
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
 
@@ -70,9 +70,11 @@ pub fn sticking(
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
     let question = instant.question(&stopped);
-    let Ok(Some(assessment)) = assess(&instant, &question, phase, BOUNDARY) else { return Ok(None) };
-    let state = state(&instant, &question, &assessment);
-    Ok(state.map(|state| Sticking { margin: assessment.margin, phase: assessment.phase, state }))
+    let Ok(Some(assessment)) = assess(&instant, &question, phase, (BOUNDARY, f64::INFINITY)) else {
+        return Ok(None);
+    };
+    let state = state(&instant, &assessment);
+    Ok(Some(Sticking { margin: assessment.margin, phase: assessment.phase, state }))
 }
 
 /// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; nothing where its equations

@@ -1,24 +1,22 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::{Assessment, Decisive, assess, best_sides, side_options};
-use super::elastic::{attainability, verdict};
+use super::assessment::{Assessment, assess};
+use super::elastic::attainability;
 use super::growth::standing;
 use super::instant::Instant;
-use super::sieve::Sieve;
-use super::state::{PhaseState, is_same_phase, state};
+use super::parts::{Detail, Part, Search};
+use super::state::{PhaseState, state};
 use super::sticking::ENOUGH;
-use super::system::{Question, Subject};
-use super::{BOUNDARY, MOST_STATES, Standing};
+use super::{BOUNDARY, Limit, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::JointId;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
-use crate::modes::Side;
-use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::motion::{self, JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 
-/// Accelerations and forces that differ by less than this, in units, are the same.
-const SAME: f64 = 1e-6;
+/// More combinations of what independent groups of joints can do are not listed.
+const MOST_COMBINATIONS: usize = 256;
 const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
@@ -31,6 +29,8 @@ pub struct Successors {
     pub tipping: Vec<Tipping>,
     /// Phases of which a linear program was not solved.
     pub unsolved: Vec<Phase>,
+    /// Whether these are all; else there are so many states that some in which fewer joints stick were left out.
+    pub complete: bool,
 }
 
 /// A phase that can follow.
@@ -59,14 +59,18 @@ pub struct Tipping {
     pub joints: Vec<JointId>,
 }
 
-/// Every phase that can follow at an instant, in the order in which they are to be preferred:
+/// The phases that can follow at an instant, in the order in which they are to be preferred. Groups of joints without
+/// influence on one another are decided separately; in each of them come
 ///
-/// 1. the present phase, if it still exists;
-/// 2. one that continues it: accelerations and reactions do not jump;
-/// 3. of the others, one in which a stopped joint sticks before those in which all stopped joints slip: static friction
-///    keeps what has come to rest until it is pushed;
+/// 1. what rests, stays: phases in which more of the joints stick that stuck before, then those in which more joints stick. So a
+///    phase comes before those in which fewer of its joints stick. The other rules decide only between phases with equally many.
+/// 2. the present phase, if it still exists;
+/// 3. one that continues it: accelerations and reactions do not jump;
 /// 4. attainable ones before those with flutter or without a verdict;
 /// 5. unattainable ones, unless they are the present phase or continue one that is unattainable itself.
+///
+/// A group in which nothing happens, because no joint of it has just stopped and its part of the previous phase is admissible and at
+/// no boundary, goes on as before, unless that is so of all groups.
 ///
 /// `stopped` says of every sliding joint, in the order of the mechanism's joints, whether its velocity is zero; the
 /// others slide with the sign of their velocity. Bodies may move in any case. Of `previous` only what it does matters, not
@@ -101,7 +105,16 @@ pub fn successors(
     stopped: &[bool],
     previous: Option<&Phase>,
 ) -> Result<Successors, Faults> {
-    at(mechanism, configuration, (stopped, previous), Detail::Everything)
+    let instant = Instant::new(mechanism, configuration)?;
+    instant.check_joints(stopped.len())?;
+    let sign = |(joint, stopped): (&super::instant::SlidingJoint, &bool)| match joint.velocity {
+        0.0 => 0.0,
+        _ if *stopped => 0.0,
+        velocity => velocity.signum(),
+    };
+    let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
+    let event = motion::Instant { mechanism, configuration, signs: &signs, zero: &[], previous };
+    at(instant, &event, Detail::Everything)
 }
 
 /// The phases of [`successors`], with no more than it takes to put them in their order: patterns of sliding that are
@@ -111,248 +124,152 @@ pub fn successors(
 ///
 /// # Errors
 /// As [`successors`].
-pub(crate) fn continuations(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    stopped: &[bool],
-    previous: Option<&Phase>,
-) -> Result<Successors, Faults> {
-    at(mechanism, configuration, (stopped, previous), Detail::Order)
+pub(crate) fn continuations(event: &motion::Instant<'_>) -> Result<Successors, Faults> {
+    let instant = Instant::new(event.mechanism, event.configuration)?;
+    at(instant, event, Detail::Order)
 }
 
-fn at(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    (stopped, previous): (&[bool], Option<&Phase>),
-    detail: Detail,
-) -> Result<Successors, Faults> {
-    let instant = Instant::new(mechanism, configuration)?;
-    instant.check_joints(stopped.len())?;
-    if let Some(previous) = previous {
+fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> Result<Successors, Faults> {
+    instant.check_joints(event.signs.len())?;
+    if let Some(previous) = event.previous {
         instant.check(previous)?;
+        vanish(&mut instant, event, previous);
     }
-    let search = Search { mechanism, configuration, instant: &instant, stopped, previous, detail };
-    search.run()
+    let instant = &instant;
+    let sign = |(joint, sign): (usize, &f64)| match *sign {
+        0.0 => instant.passes(joint).unwrap_or(0.0),
+        sign => sign,
+    };
+    let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
+    let event = &motion::Instant { signs: &signs, ..*event };
+    let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
+    let question = instant.question(&stopped);
+    let search = Search { instant, event, question: &question, detail };
+    let mut found = Successors { complete: true, ..Successors::default() };
+    let parts = search.parts(&mut found)?;
+    let start = Assessment::nothing(&search.any_phase());
+    for chosen in choices(&parts, &mut found.complete) {
+        let whole = instant.groups.iter().zip(&chosen);
+        let whole = whole.fold(start.clone(), |whole, (group, part)| whole.with(group, &part.assessment));
+        let at = (instant, &question, &whole);
+        match standing(event.mechanism, event.configuration, at) {
+            Ok(standing) => found.list.push(successor(&search, &whole, (&chosen, standing))),
+            Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
+        }
+    }
+    // What has fallen to zero goes on to fall where nothing else is seen.
+    found.list.sort_by_key(|successor| {
+        let ends = |limit: &Limit| matches!(limit, Limit::NormalForce(k) | Limit::PreloadShare(k) if event.zero.contains(k));
+        let undecided = matches!(&successor.standing, Standing::Undecided(limits) if limits.iter().any(ends));
+        successor.is_present && undecided
+    });
+    if found.list.is_empty() && !found.complete {
+        let states = parts.iter().fold(1_u64, |product, part| product.saturating_mul(part.len() as u64));
+        let limit = MOST_COMBINATIONS as u64;
+        return Err(Fault::general(FaultKind::TooManyStates { states, limit }).into());
+    }
+    without_copies(&search, &mut found.list);
+    if found.list.len() == 1 && detail == Detail::Order {
+        found.list[0].attainability = Attainability::without_eigenvalues(Verdict::NotComputed, ALONE);
+    }
+    Ok(found)
 }
 
-/// How much is told of the phases.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Detail {
-    /// Everything.
-    Everything,
-    /// What decides their order.
-    Order,
-}
-
-struct Search<'s> {
-    mechanism: &'s Mechanism,
-    configuration: &'s Configuration,
-    instant: &'s Instant<'s>,
-    stopped: &'s [bool],
-    previous: Option<&'s Phase>,
-    detail: Detail,
-}
-
-impl Search<'_> {
-    fn run(&self) -> Result<Successors, Faults> {
-        let question = self.instant.question(self.stopped);
-        let mut found = Successors::default();
-        let mut sieve = (self.detail == Detail::Order).then(|| Sieve::new(&question, self.instant));
-        let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
-        for phase in self.candidates()? {
-            if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&phase)) {
-                continue;
-            }
-            let Ok(assessment) = best_sides(self.instant, &question, &phase, (BOUNDARY, enough)) else {
-                found.unsolved.push(phase);
-                continue;
-            };
-            let Some(assessment) = assessment else { continue };
-            if let Some(tipping) = self.tipping(&assessment) {
-                found.tipping.push(tipping);
-                continue;
-            }
-            let at = (self.instant, &question, &assessment);
-            let Some(standing) = standing(self.mechanism, self.configuration, at) else { continue };
-            found.list.extend(self.successor(&question, &assessment, standing));
-        }
-        let alone = found.list.len() == 1 && self.detail == Detail::Order;
-        let previous = self.previous.filter(|_| !alone);
-        let before = previous.and_then(|previous| self.present(&question, previous));
-        for successor in &mut found.list {
-            let is_continued = |before| self.is_continued(&successor.state, &successor.phase, before);
-            successor.continues = successor.is_present || before.as_ref().is_some_and(is_continued);
-            successor.attainability = self.attainability(&successor.phase, alone);
-        }
-        let matters = |one: &Successor| {
-            one.continues && !one.is_present && one.attainability.verdict == Verdict::Unattainable
-        };
-        let follows_unattainable = found.list.iter().any(matters)
-            && self.previous.is_some_and(|previous| self.verdict(previous) == Verdict::Unattainable);
-        found.list.sort_by_key(|successor| rank(successor, follows_unattainable));
-        Ok(found)
+/// Makes exactly zero in the previous phase what the event has found to be zero.
+fn vanish(instant: &mut Instant<'_>, event: &motion::Instant<'_>, previous: &Phase) {
+    if event.zero.is_empty() {
+        return;
     }
-
-    fn verdict(&self, phase: &Phase) -> Verdict {
-        verdict(self.instant, self.configuration, phase)
-    }
-
-    fn attainability(&self, phase: &Phase, alone: bool) -> Attainability {
-        match self.detail {
-            Detail::Everything => attainability(self.instant, self.configuration, phase),
-            Detail::Order if alone => Attainability::without_eigenvalues(Verdict::NotComputed, ALONE),
-            Detail::Order => Attainability::without_eigenvalues(self.verdict(phase), ""),
-        }
-    }
-
-    /// The previous phase at this instant.
-    fn present(&self, question: &Question<'_>, previous: &Phase) -> Option<PhaseState> {
-        let assessment = assess(self.instant, question, previous, BOUNDARY).ok()??;
-        state(self.instant, question, &assessment)
-    }
-
-    /// All states of the joints with all sides of the contacts that slide; contacts that stick have any side.
-    fn candidates(&self) -> Result<Vec<Phase>, Faults> {
-        let joints: Vec<Vec<JointPhase>> =
-            (0..self.stopped.len()).map(|joint| self.joint_options(joint)).collect();
-        let sides: Vec<_> =
-            (0..self.mechanism.contacts.len()).map(|k| side_options(self.instant, k)).collect();
-        let counts = joints.iter().map(Vec::len).chain(sides.iter().map(|sides| sides.len()));
-        let states = counts.fold(1_u64, |product, count| product.saturating_mul(count as u64));
-        if states > MOST_STATES {
-            return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
-        }
-        let mut all = Vec::new();
-        for joints in combinations(&joints).into_iter().filter(|joints| self.can_begin(joints)) {
-            let sticks = |k: usize| {
-                self.instant.joint_of(k).is_some_and(|joint| joints[joint] == JointPhase::Sticking)
-            };
-            let options: Vec<Vec<ContactPhase>> = sides
-                .iter()
-                .enumerate()
-                .map(
-                    |(k, sides)| {
-                        if sticks(k) { vec![ContactPhase::Pressed(Side::Positive)] } else { sides.to_vec() }
-                    },
-                )
-                .collect();
-            let phases = combinations(&options).into_iter();
-            all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts }));
-        }
-        Ok(all)
-    }
-
-    /// Whether the joints that begin to slip can do so: none depends on joints that stick, and those that depend on one
-    /// another slip in the senses that belong together.
-    fn can_begin(&self, joints: &[JointPhase]) -> bool {
-        let held: Vec<usize> =
-            (0..joints.len()).filter(|&joint| joints[joint] == JointPhase::Sticking).collect();
-        let begins = |joint: usize| match joints[joint] {
-            JointPhase::Sliding(sign) if self.instant.joints[joint].has_friction => {
-                (self.stopped[joint] || self.velocity(joint).zero).then_some((joint, sign))
-            }
-            _ => None,
-        };
-        let slipping: Vec<(usize, f64)> = (0..joints.len()).filter_map(begins).collect();
-        let mut pairs = slipping
-            .iter()
-            .enumerate()
-            .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
-        !slipping.iter().any(|(joint, _)| self.instant.is_held(*joint, &held))
-            && pairs.all(|pair| self.instant.can_begin_together(pair))
-    }
-
-    fn joint_options(&self, joint: usize) -> Vec<JointPhase> {
-        let SlidingVelocity { sign, zero } = self.velocity(joint);
-        if !self.instant.joints[joint].has_friction {
-            vec![JointPhase::Sliding(sign)]
-        } else if self.stopped[joint] || zero {
-            vec![JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)]
-        } else {
-            vec![JointPhase::Sliding(sign)]
-        }
-    }
-
-    fn velocity(&self, joint: usize) -> SlidingVelocity {
-        let velocity = self.instant.joints[joint].velocity;
-        SlidingVelocity { sign: if velocity < 0.0 { -1.0 } else { 1.0 }, zero: velocity == 0.0 }
-    }
-
-    /// The guided sliders that would tip in a phase that nothing else forbids.
-    fn tipping(&self, assessment: &Assessment) -> Option<Tipping> {
-        let mut joints = Vec::new();
-        for slack in assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY) {
-            let Decisive::One(Subject::Couple(k)) = slack.subject else { return None };
-            let joint = self.mechanism.contacts[k].joint;
-            if !joints.contains(&joint) {
-                joints.push(joint);
-            }
-        }
-        (!joints.is_empty()).then(|| Tipping { phase: assessment.phase.clone(), joints })
-    }
-
-    fn successor(
-        &self,
-        question: &Question<'_>,
-        assessment: &Assessment,
-        standing: Standing,
-    ) -> Option<Successor> {
-        let state = state(self.instant, question, assessment)?;
-        let mut phase = assessment.phase.clone();
-        for (joint, found) in phase.joints.iter_mut().enumerate() {
-            let acceleration = state.sliding_accelerations[joint];
-            let at_rest = self.stopped[joint] || self.velocity(joint).zero;
-            if !self.instant.joints[joint].has_friction && at_rest && acceleration < 0.0 {
-                *found = JointPhase::Sliding(-1.0);
-            }
-        }
-        let is_present = self.previous.is_some_and(|previous| is_same_phase(self.instant, previous, &phase));
-        let attainability = Attainability::without_eigenvalues(Verdict::NotComputed, "");
-        Some(Successor { phase, state, is_present, continues: is_present, standing, attainability })
-    }
-
-    fn is_continued(&self, state: &PhaseState, phase: &Phase, before: &PhaseState) -> bool {
-        let units = &self.instant.units;
-        let previous = self.previous.map(|previous| &previous.joints[..]).unwrap_or_default();
-        let slides = |joint: usize| {
-            let slides = |phase: &JointPhase| matches!(phase, JointPhase::Sliding(_));
-            slides(&phase.joints[joint]) && previous.get(joint).is_some_and(slides)
-        };
-        let bodies = 0..3 * self.mechanism.bodies.len();
-        let mut accelerations = bodies.map(|index| {
-            let unit = if index % 3 == 2 { units.acceleration / units.length } else { units.acceleration };
-            (state.unknowns[index] - before.unknowns[index]) / unit
-        });
-        let mut forces = (0..phase.contacts.len())
-            .filter(|&k| self.instant.joint_of(k).is_some_and(slides))
-            .map(|k| (state.normal_forces[k] - before.normal_forces[k]) / units.force);
-        let small = |difference: f64| difference.abs() <= SAME;
-        accelerations.all(small) && forces.all(small)
+    let stopped = vec![false; instant.joints.len()];
+    let before = assess(instant, &instant.question(&stopped), previous, (BOUNDARY, ENOUGH));
+    if let Ok(Some(before)) = before {
+        let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
+        instant.vanish(&contacts, &before);
     }
 }
 
-struct SlidingVelocity {
-    sign: f64,
-    zero: bool,
+/// Every way to choose one part for each group, the preferred ones first; if there are too many, those in which all groups
+/// but one take the preferred one.
+fn choices<'p>(parts: &'p [Vec<Part>], complete: &mut bool) -> Vec<Vec<&'p Part>> {
+    let references: Vec<Vec<&Part>> = parts.iter().map(|parts| parts.iter().collect()).collect();
+    let count = parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len()));
+    if count <= MOST_COMBINATIONS {
+        return combinations(&references);
+    }
+    *complete = false;
+    let first: Vec<&Part> = references.iter().map(|parts| parts[0]).collect();
+    let others = references.iter().enumerate().flat_map(|(group, parts)| {
+        let first = &first;
+        parts[1..].iter().map(move |part| {
+            let mut chosen = first.clone();
+            chosen[group] = part;
+            chosen
+        })
+    });
+    std::iter::once(first.clone()).chain(others).collect()
 }
 
-/// Place in the order of preference.
-fn rank(successor: &Successor, follows_unattainable: bool) -> [u8; 3] {
-    let sticks = successor.phase.joints.contains(&JointPhase::Sticking);
-    let verdict = match successor.attainability.verdict {
-        Verdict::Attainable => 0,
-        Verdict::Flutter => 1,
-        Verdict::NotComputed => 2,
+fn successor(
+    search: &Search<'_>,
+    assessment: &Assessment,
+    (parts, standing): (&[&Part], Standing),
+) -> Successor {
+    let (instant, event) = (search.instant, search.event);
+    let state = state(instant, assessment);
+    let mut phase = assessment.phase.clone();
+    for (joint, found) in phase.joints.iter_mut().enumerate() {
+        let acceleration = state.sliding_accelerations[joint];
+        if !instant.joints[joint].has_friction && event.signs[joint] == 0.0 && acceleration < 0.0 {
+            *found = JointPhase::Sliding(-1.0);
+        }
+    }
+    let attainability = match search.detail {
+        Detail::Everything => attainability(instant, event.configuration, &phase),
+        Detail::Order => {
+            let worst = parts.iter().map(|part| part.verdict).max_by_key(|verdict| severity(*verdict));
+            Attainability::without_eigenvalues(worst.unwrap_or(Verdict::NotComputed), "")
+        }
+    };
+    let is_present = parts.iter().all(|part| part.is_present);
+    let continues = parts.iter().all(|part| part.continues);
+    Successor { phase, state, is_present, continues, standing, attainability }
+}
+
+/// What the verdict about several independent groups comes to: the greatest of all.
+fn severity(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::NotComputed => 0,
+        Verdict::Attainable => 1,
+        Verdict::Flutter => 2,
         Verdict::Undecided => 3,
         Verdict::Unattainable => 4,
+    }
+}
+
+/// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as far as can be
+/// seen.
+fn without_copies(search: &Search<'_>, list: &mut Vec<Successor>) {
+    let stays_zero = |one: &Successor, k: usize| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&Limit::NormalForce(ContactId(k))));
+    let is_copy = |one: &Successor, other: &Successor| {
+        let same = |k: usize| {
+            one.phase.contacts[k] == other.phase.contacts[k] || (stays_zero(one, k) && stays_zero(other, k))
+        };
+        one.phase.joints == other.phase.joints
+            && (0..one.phase.contacts.len()).all(same)
+            && search
+                .instant
+                .groups
+                .iter()
+                .all(|group| search.is_same_motion(group, [&one.state, &other.state]))
     };
-    let class = match successor {
-        Successor { is_present: true, .. } => 0,
-        Successor { continues: true, .. } if verdict < 4 || follows_unattainable => 1,
-        _ if verdict == 4 => 3,
-        _ => 2,
-    };
-    [class, u8::from(!sticks), verdict]
+    let mut index = 1;
+    while index < list.len() {
+        if list[..index].iter().any(|before| is_copy(before, &list[index])) {
+            list.remove(index);
+        } else {
+            index += 1;
+        }
+    }
 }
 
 /// Every way to choose one of each list, the last list changing fastest.

@@ -1,6 +1,6 @@
 //! One pattern of sticking and slipping joints and of sides as linear equations and inequalities.
 
-use super::instant::{Instant, Outputs};
+use super::instant::{Group, Instant, Outputs};
 use super::program::Affine;
 use crate::ids::ContactId;
 use crate::influence::ContactFriction;
@@ -68,8 +68,10 @@ pub(super) struct Question<'q> {
     pub(super) outputs: &'q Outputs,
     /// The sliding acceleration (or jump of the sliding velocity) of every joint that sticks, in units.
     pub(super) wanted: Vec<f64>,
-    /// The unit of force in which preloads are counted; nothing if they are left out.
-    pub(super) preload: Option<f64>,
+    /// Whether preloads count.
+    pub(super) has_preload: bool,
+    /// The sides that each contact may take.
+    pub(super) sides: Vec<Vec<ContactPhase>>,
     /// Joints whose velocity is zero: those of them that slide have just begun to.
     pub(super) stopped: &'q [bool],
     /// A joint that sticks only at the end, and the sign of the sliding velocity that its friction opposes.
@@ -81,6 +83,7 @@ pub(super) struct System<'s> {
     instant: &'s Instant<'s>,
     question: &'s Question<'s>,
     phase: &'s Phase,
+    group: &'s Group,
     /// Friction of each contact at both faces.
     friction: Vec<[Expression; 2]>,
     /// |N_k|, nothing in a preload gap.
@@ -94,27 +97,28 @@ pub(super) struct System<'s> {
 }
 
 impl<'s> System<'s> {
-    /// The pattern of a phase with its equations; nothing where they contradict each other.
+    /// The pattern of a group of joints in a phase, with its equations; nothing where they contradict each other.
     pub(super) fn new(
         instant: &'s Instant<'s>,
         question: &'s Question<'s>,
         phase: &'s Phase,
+        group: &'s Group,
     ) -> Option<Self> {
         let contacts = phase.contacts.len();
         let mut system = Self {
             instant,
             question,
             phase,
-            friction: Vec::with_capacity(contacts),
+            group,
+            friction: vec![Default::default(); contacts],
             pressure: vec![None; contacts],
             sticking: vec![[None; 3]; contacts],
             share: vec![None; contacts],
             unknowns: 0,
             solutions: AffineSet { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) },
         };
-        for k in 0..contacts {
-            let friction = system.friction_of(k);
-            system.friction.push(friction);
+        for &k in &group.contacts {
+            system.friction[k] = system.friction_of(k);
         }
         let (matrix, right_hand_side) = system.equations();
         system.solutions = AffineSet::of(matrix, right_hand_side)?;
@@ -130,7 +134,7 @@ impl<'s> System<'s> {
     /// not because joints that stick depend on one another.
     pub(super) fn is_redundant(&self) -> bool {
         let stuck = self.stuck_joints();
-        let excess = self.pressure.len() + stuck.len() - (self.unknowns - self.dimension());
+        let excess = self.group.contacts.len() + stuck.len() - (self.unknowns - self.dimension());
         excess > 0 && excess > self.instant.dependent(&stuck)
     }
 
@@ -139,10 +143,10 @@ impl<'s> System<'s> {
     }
 
     fn preload(&self, k: usize) -> [f64; 2] {
-        match self.question.preload {
-            Some(unit) => self.instant.contact(k).preload.map(|preload| preload / unit),
-            None => [0.0; 2],
+        if !self.question.has_preload {
+            return [0.0; 2];
         }
+        self.instant.contact(k).preload.map(|preload| preload / self.instant.units_of(k).force)
     }
 
     fn new_unknown(&mut self) -> usize {
@@ -241,8 +245,8 @@ impl<'s> System<'s> {
     fn output(&self, row: usize) -> Expression {
         let outputs = self.question.outputs;
         let mut expression = Expression::default().shifted(outputs.base[row]);
-        for (k, faces) in self.friction.iter().enumerate() {
-            for (face, friction) in faces.iter().enumerate() {
+        for &k in &self.group.contacts {
+            for (face, friction) in self.friction[k].iter().enumerate() {
                 let factor = outputs.columns[face][(row, k)];
                 if factor != 0.0 {
                     expression = expression.plus(factor, friction);
@@ -255,12 +259,12 @@ impl<'s> System<'s> {
     /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that sticks.
     fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
         let stuck = self.stuck_joints();
-        let contacts = self.pressure.len();
+        let contacts = self.group.contacts.len();
         let mut matrix = DMatrix::zeros(contacts + stuck.len(), self.unknowns);
         let mut right_hand_side = DVector::zeros(contacts + stuck.len());
-        for k in 0..contacts {
+        for (row, &k) in self.group.contacts.iter().enumerate() {
             let normal = self.normal_force(k);
-            write(k, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
+            write(row, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
         }
         for (index, &joint) in stuck.iter().enumerate() {
             let acceleration = self.output(self.instant.sliding_output(joint));
@@ -271,8 +275,8 @@ impl<'s> System<'s> {
     }
 
     fn stuck_joints(&self) -> Vec<usize> {
-        let joints = self.phase.joints.iter().enumerate();
-        joints.filter(|(_, joint)| **joint == JointPhase::Sticking).map(|(index, _)| index).collect()
+        let joints = self.group.joints.iter().copied();
+        joints.filter(|&joint| self.phase.joints[joint] == JointPhase::Sticking).collect()
     }
 
     fn normal_force(&self, k: usize) -> Expression {
@@ -306,7 +310,7 @@ impl<'s> System<'s> {
         let mut add = |subject: Subject, slack: Expression| {
             all.push(Inequality { subject, slack: self.function(&slack) });
         };
-        for k in 0..self.pressure.len() {
+        for &k in &self.group.contacts {
             if let Some(pressure) = self.pressure[k] {
                 add(Subject::Pressure(k), Expression::unknown(pressure, 1.0));
             }
@@ -320,6 +324,9 @@ impl<'s> System<'s> {
         }
         for (row, joint) in self.instant.couple_outputs() {
             let (Some((half, _)), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
+            if !self.group.contacts.contains(k) {
+                continue;
+            }
             let half = half / self.instant.units.length;
             let pressure =
                 self.pressure[*k].map_or_else(Expression::default, |p| Expression::unknown(p, half));
@@ -327,13 +334,13 @@ impl<'s> System<'s> {
                 add(Subject::Couple(*k), pressure.clone().plus(sign, &self.output(row)));
             }
         }
-        for (joint, phase) in self.phase.joints.iter().enumerate() {
-            if let JointPhase::Sliding(sign) = phase
+        for &joint in &self.group.joints {
+            if let JointPhase::Sliding(sign) = self.phase.joints[joint]
                 && self.question.stopped[joint]
                 && self.instant.joints[joint].has_friction
             {
                 let acceleration = self.output(self.instant.sliding_output(joint));
-                add(Subject::Slip(joint), Expression::default().plus(*sign, &acceleration));
+                add(Subject::Slip(joint), Expression::default().plus(sign, &acceleration));
             }
         }
         all
@@ -393,25 +400,26 @@ impl<'s> System<'s> {
         self.function(expression).at(z)
     }
 
-    /// Friction of every contact at both faces, in units.
-    pub(super) fn frictions(&self, z: &[f64]) -> Vec<ContactFriction> {
-        let one = |faces: &[Expression; 2]| {
-            let [positive_face, negative_face] = [0, 1].map(|face| self.value(&faces[face], z));
-            ContactFriction { positive_face, negative_face }
-        };
-        self.friction.iter().map(one).collect()
+    /// Adds the forces of this group to those of all contacts.
+    pub(super) fn write_forces(&self, z: &[f64], forces: &mut Forces) {
+        for &k in &self.group.contacts {
+            let [positive_face, negative_face] = [0, 1].map(|face| self.value(&self.friction[k][face], z));
+            forces.frictions[k] = ContactFriction { positive_face, negative_face };
+            forces.normal[k] = self.value(&self.normal_force(k), z);
+            forces.shares[k] = self.share[k].map(|share| self.value(&Expression::unknown(share, 1.0), z));
+        }
     }
+}
 
-    /// Normal forces in units, exactly zero in a preload gap.
-    pub(super) fn normal_forces(&self, z: &[f64]) -> Vec<f64> {
-        (0..self.pressure.len()).map(|k| self.value(&self.normal_force(k), z)).collect()
-    }
-
+/// Forces of all contacts, in units.
+#[derive(Debug, Clone)]
+pub(super) struct Forces {
+    /// Friction at both faces.
+    pub(super) frictions: Vec<ContactFriction>,
+    /// Normal forces, exactly zero in a preload gap.
+    pub(super) normal: Vec<f64>,
     /// Shares of the positive faces of contacts in their preload gaps that slide.
-    pub(super) fn shares(&self, z: &[f64]) -> Vec<Option<f64>> {
-        let one = |share: &Option<usize>| share.map(|share| self.value(&Expression::unknown(share, 1.0), z));
-        self.share.iter().map(one).collect()
-    }
+    pub(super) shares: Vec<Option<f64>>,
 }
 
 /// Puts the equation `expression = 0` into a row, scaled to a greatest coefficient of one.

@@ -101,8 +101,7 @@ impl Equations<'_> {
             for wrench in effort_forces(self.mechanism, &self.configuration, &drive.effort) {
                 add(&self.configuration, &wrench, |row, value| self.system.add(row, effort, -value));
             }
-            let Configuration { coordinates, rates, time, .. } = &self.configuration;
-            let prescribed = self.mechanism.quantity(drive.acceleration, coordinates, rates, *time);
+            let prescribed = self.configuration.quantity(self.mechanism, drive.acceleration);
             self.unknowns[effort] =
                 prescribed.map_err(|fault| Failure::Loads(fault.into()))? + self.row.right_hand_side;
         }

@@ -3,13 +3,14 @@
 use super::closed_forms::block;
 use super::{mechanism_of, model_of};
 use crate::configuration::Configuration;
+use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::model::Settings;
 use crate::modes::Side;
 use crate::motion::decision::{Holding, Successor, Successors, continuations, sticking_margin, successors};
 use crate::motion::equations::sliding_joints;
-use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::motion::{ContactPhase, Instant, JointPhase, Phase};
 
 /// A sequence of numbers between 0 and 1 (D. E. Knuth's MMIX generator).
 struct Numbers(u64);
@@ -59,6 +60,22 @@ fn at_rest(mechanism: &Mechanism, configuration: &Configuration) -> Vec<bool> {
     sliding_joints(mechanism).iter().map(|joint| velocity(joint).abs() < 1e-12).collect()
 }
 
+/// What a simulation asks.
+fn fast(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    stopped: &[bool],
+    previous: Option<&Phase>,
+) -> Result<Successors, Faults> {
+    let sign = |(joint, stopped): (&JointId, &bool)| {
+        let contact = mechanism.slider(*joint).unwrap().contacts[0];
+        let velocity = configuration.contact(mechanism, contact).sliding_velocity;
+        if *stopped { 0.0 } else { velocity.signum() }
+    };
+    let signs: Vec<f64> = sliding_joints(mechanism).iter().zip(stopped).map(sign).collect();
+    continuations(&Instant { mechanism, configuration, signs: &signs, zero: &[], previous })
+}
+
 /// What the states came to that were compared.
 #[derive(Debug, Default)]
 struct Covered {
@@ -76,14 +93,14 @@ impl Covered {
     fn compare(&mut self, name: &str, mechanism: &Mechanism, configuration: &Configuration) {
         let stopped = at_rest(mechanism, configuration);
         let Ok(first) = successors(mechanism, configuration, &stopped, None) else {
-            assert!(continuations(mechanism, configuration, &stopped, None).is_err(), "{name}");
+            assert!(fast(mechanism, configuration, &stopped, None).is_err(), "{name}");
             self.refused += 1;
             return;
         };
         let last = first.list.last().map(|successor| successor.phase.clone());
         for previous in [None, last.as_ref()] {
             let all = successors(mechanism, configuration, &stopped, previous).unwrap();
-            let fast = continuations(mechanism, configuration, &stopped, previous).unwrap();
+            let fast = fast(mechanism, configuration, &stopped, previous).unwrap();
             assert_eq!(phases(mechanism, &all), phases(mechanism, &fast), "{name}");
             let tipping = |found: &Successors| -> Vec<(Vec<JointPhase>, Vec<JointId>)> {
                 found.tipping.iter().map(|one| (one.phase.joints.clone(), one.joints.clone())).collect()

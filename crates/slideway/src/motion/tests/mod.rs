@@ -4,8 +4,10 @@
 mod agreement;
 mod closed_forms;
 mod continuations;
+mod layers;
 mod limits;
 mod mechanisms;
+mod rest;
 mod simple;
 mod stops;
 

@@ -39,7 +39,8 @@ impl TryAll {
                         }
                     });
                     sides
-                        && (!instant.stopped[index] || sign * sliding_acceleration(equations, index) > -1e-12)
+                        && (instant.signs[index] != 0.0
+                            || sign * sliding_acceleration(equations, index) > -1e-12)
                 }
             }
         })
@@ -82,12 +83,10 @@ impl Decisions for TryAll {
         let joints = sliding_joints(instant.mechanism);
         let choices: Vec<Vec<JointPhase>> = (0..joints.len())
             .map(|index| {
-                let slider = instant.mechanism.slider(joints[index]).unwrap();
-                let velocity = equations.contacts[slider.contacts[0].index()].sliding_velocity;
-                if instant.stopped[index] {
+                if instant.signs[index] == 0.0 {
                     vec![JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)]
                 } else {
-                    vec![JointPhase::Sliding(velocity.signum())]
+                    vec![JointPhase::Sliding(instant.signs[index])]
                 }
             })
             .collect();

@@ -1,0 +1,257 @@
+//! Text from models, file names and arguments on a terminal: whatever it holds, nothing of it acts there.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+mod command;
+
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use slideway::printable;
+use std::fs::{self, File, OpenOptions};
+use std::io::Read;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Sets the title of a terminal, rings, makes a link, clears it (as C1), colours as the program does, hides, reverses the
+/// order of letters, goes back on the line, and begins a line of its own.
+const HOSTILE: &str = "A\u{1b}]0;owned\u{7}\u{1b}]8;;http://example.org\u{1b}\\B\u{1b}]8;;\u{1b}\\\u{9b}2J\u{90}q\u{9c}\
+                       \u{1b}[32mC\u{1b}[0m\u{200b}\u{feff}\u{202e}D\u{2066}\u{200f}\u{61c}\u{7f}\u{8}\rE\nOne solution.\u{2028}F\u{e0041}";
+
+/// What a program wrote on a terminal, standard output and standard error together, and its exit code.
+fn on_terminal(command: &mut Command) -> (String, i32) {
+    let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&master).unwrap();
+    unlockpt(&master).unwrap();
+    let name = ptsname(&master, Vec::new()).unwrap();
+    let path = Path::new(std::ffi::OsStr::from_bytes(name.as_bytes()));
+    let slave = OpenOptions::new().read(true).write(true).open(path).unwrap();
+    let stream = || Stdio::from(slave.try_clone().unwrap());
+    let mut child = command
+        .env("TERM", "xterm-256color")
+        .stdin(stream())
+        .stdout(stream())
+        .stderr(stream())
+        .spawn()
+        .unwrap();
+    // The command keeps its streams until it is dropped or given others.
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    drop(slave);
+    let mut bytes = Vec::new();
+    // Reading ends with an error once the program has closed the terminal.
+    let _ = File::from(master).read_to_end(&mut bytes);
+    let code = child.wait().unwrap().code().unwrap();
+    (String::from_utf8(bytes).unwrap().replace("\r\n", "\n"), code)
+}
+
+/// The text without the styles that the program uses (ECMA-48, SGR: bold and colours of letters), and whether it had any.
+fn without_styles(text: &str) -> (String, bool) {
+    let mut parts = text.split("\u{1b}[");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    let mut styled = false;
+    for part in parts {
+        let end = part.find(|c: char| !c.is_ascii_digit() && c != ';').unwrap_or(part.len());
+        match part[end..].strip_prefix('m') {
+            Some(rest)
+                if ["", "0", "1", "4"].contains(&&part[..end]) || part[..end].starts_with(['3', '9']) =>
+            {
+                out.push_str(rest);
+                styled = true;
+            }
+            _ => out.extend(["\u{1b}[", part]),
+        }
+    }
+    (out, styled)
+}
+
+/// Sees to it that nothing in a text acts on who shows it.
+fn assert_inert(text: &str, what: &str) {
+    let shown = printable::lines(text);
+    let differs = text.chars().zip(shown.chars()).position(|(c, shown)| c != shown);
+    let around = differs.map(|at| text.chars().skip(at.saturating_sub(30)).take(60).collect::<String>());
+    assert!(text == shown, "{what}: {around:?}");
+}
+
+/// A text as a string of TOML.
+fn toml_text(text: &str) -> String {
+    let escaped = text.chars().map(|c| format!("\\U{:08x}", u32::from(c)));
+    format!("\"{}\"", escaped.collect::<String>())
+}
+
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("terminal").join(name);
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.join(name), text).unwrap();
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = command::command(arguments);
+        command.current_dir(&self.0);
+        command
+    }
+}
+
+/// A model of the gallery with another title.
+fn titled(model: &str, title: &str) -> String {
+    let text = fs::read_to_string(command::top().join("models").join(model)).unwrap();
+    let lines = text.lines().map(|line| {
+        if line.starts_with("title = ") { format!("title = {}", toml_text(title)) } else { line.to_owned() }
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+const ANSWERS: [&str; 12] = [
+    "solve drawer.toml",
+    "solve drawer.toml --set mu=0.7",
+    "limits drawer.toml --vary mu",
+    "size drawer.toml --vary L --margin 2",
+    "drive drawer.toml",
+    "check drawer.toml",
+    "hold drawer.toml --rate x=0 --load resistance",
+    "simulate oscillator.toml --until 0.2s",
+    "simulate oscillator.toml --until 0.2s --all-branches",
+    "draw drawer.toml",
+    "report drawer.toml",
+    "sweep drawer.toml --vary mu=0..1:3",
+];
+
+/// The words of a command.
+fn words(command: &str) -> Vec<&str> {
+    command.split(' ').collect()
+}
+
+#[test]
+fn a_title_is_told_as_if_it_were_plain_text() {
+    let folder = |name: &str, title: &str| {
+        let folder = Folder::new(name);
+        folder.write("drawer.toml", &titled("drawer.toml", title));
+        folder.write("oscillator.toml", &titled("frictional-oscillator.toml", title));
+        folder
+    };
+    let hostile = folder("hostile", HOSTILE);
+    let plain = folder("plain", &printable::line(HOSTILE));
+    for command in ANSWERS {
+        let (told, code) = on_terminal(&mut hostile.command(&words(command)));
+        let (expected, expected_code) = on_terminal(&mut plain.command(&words(command)));
+        let (without, styled) = without_styles(&told);
+        assert_inert(&without, command);
+        // A drawing and a page may be laid out otherwise; a page and a table tell the text of the model.
+        if !matches!(words(command)[0], "draw" | "report" | "sweep") {
+            assert!(styled, "{command}: {told}");
+            assert_eq!(told, expected, "{command}");
+        }
+        let tells = ["solve", "limits", "check"].contains(&words(command)[0]);
+        assert!(!tells || told.contains(r"\u001b]0;owned\u0007"), "{command}: {told}");
+        assert_eq!(code, expected_code, "{command}");
+    }
+}
+
+#[test]
+fn faults_quote_a_model_without_its_controls() {
+    let folder = Folder::new("faults");
+    let hostile = toml_text(HOSTILE);
+    let models = [
+        (
+            "key",
+            format!("{hostile} = 1\n[bodies.{hostile}]\nmass = 1\n[joints.{hostile}]\ntype = {hostile}\n"),
+        ),
+        ("name", titled("drawer.toml", "").replace("block = \"drawer\"", &format!("block = {hostile}"))),
+        ("unit", titled("drawer.toml", "").replace("\"0.4 m\"", &hostile)),
+        ("raw", "x = \u{1b}]0;owned\u{7} # \u{9b}2J \u{202e}\r\n".to_owned()),
+        ("comment", "[bodies] # \u{9b}2J \u{202e} \u{90}q\nx = 2 # \u{9b}2J\n".to_owned()),
+    ];
+    for (name, text) in &models {
+        folder.write(&format!("{name}.toml"), text);
+        let (told, code) = on_terminal(&mut folder.command(&["solve", &format!("{name}.toml")]));
+        assert_eq!(code, 2, "{told}");
+        let (without, styled) = without_styles(&told);
+        assert!(styled && without.contains("error"), "{told}");
+        assert_inert(&without, name);
+    }
+    let key = serde_json::to_string(HOSTILE).unwrap();
+    folder.write("problem.json", &format!(r#"{{"type": "lcp", {key}: 1, "M": {key}}}"#));
+    let (told, code) = on_terminal(&mut folder.command(&["modes", "problem.json"]));
+    assert_eq!(code, 2, "{told}");
+    assert_inert(&without_styles(&told).0, "modes");
+}
+
+#[test]
+fn names_of_files_and_arguments_are_told_without_their_controls() {
+    let folder = Folder::new("names");
+    let name = HOSTILE.replace('/', "_");
+    let set = format!("{name}=1");
+    folder.write(&name, "mass = 1\n");
+    folder.write("drawer.toml", &titled("drawer.toml", "A drawer"));
+    let absent = format!("absent{name}");
+    let output = format!("{absent}/x.toml");
+    let commands: [&[&str]; 13] = [
+        &["solve", &name],
+        &["check", &absent],
+        &["modes", &name],
+        &["modes", &absent],
+        &["models", &name],
+        &["draw", "drawer.toml", "-o", &name],
+        &["solve", "drawer.toml", "-o", &name],
+        &["solve", "drawer.toml", "-o", &output],
+        &["solve", "drawer.toml", "--set", &set],
+        &["simulate", "drawer.toml", "--until", &name],
+        &["sweep", "drawer.toml", "--vary", &set],
+        &["solve", "drawer.toml", "--format", &name],
+        &[&name],
+    ];
+    for arguments in commands {
+        let (told, code) = on_terminal(&mut folder.command(arguments));
+        assert_eq!(code, 2, "{arguments:?}: {told}");
+        let (without, _) = without_styles(&told);
+        assert!(without.contains(r"\u001b]0;owned\u0007"), "{arguments:?}: {told}");
+        assert_inert(&without, &format!("{arguments:?}"));
+    }
+}
+
+#[test]
+fn files_hold_no_controls_and_json_gives_the_title_back() {
+    let folder = Folder::new("files");
+    folder.write("drawer.toml", &titled("drawer.toml", HOSTILE));
+    folder.write("oscillator.toml", &titled("frictional-oscillator.toml", HOSTILE));
+    let commands = [
+        ("solve drawer.toml --format json -o", "solve.json"),
+        ("check drawer.toml --format json -o", "check.json"),
+        ("limits drawer.toml --vary mu --format json -o", "limits.json"),
+        ("simulate oscillator.toml --until 0.1s -o", "simulate.json"),
+        ("draw drawer.toml -o", "draw.svg"),
+        ("draw drawer.toml -o", "draw.png"),
+        ("report drawer.toml -o", "report.html"),
+        ("limits drawer.toml --vary mu --plot", "limits.svg"),
+        ("sweep drawer.toml --vary mu=0..1:5 -o sweep.csv --plot", "sweep.svg"),
+        ("map drawer.toml --x mu=0..1 --y a=0..1 --size 20x20 -o", "map.svg"),
+        ("simulate oscillator.toml --until 0.1s --plot", "motion.svg"),
+        ("simulate oscillator.toml --until 0.1s --animate", "moving.svg"),
+        ("simulate oscillator.toml --until 0.1s --animate", "moving.html"),
+    ];
+    for (command, file) in commands {
+        let mut words = words(command);
+        words.push(file);
+        let run = folder.command(&words).output().unwrap();
+        assert!(run.status.success(), "{command}: {}", String::from_utf8_lossy(&run.stderr));
+        let bytes = fs::read(folder.0.join(file)).unwrap();
+        if file.ends_with("png") {
+            continue;
+        }
+        let text = String::from_utf8(bytes).unwrap();
+        assert_inert(&text, file);
+        if file.ends_with("json") {
+            let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+            let title = value["model"]["title"].as_str().or(value["title"].as_str());
+            assert_eq!(title.unwrap_or(HOSTILE), HOSTILE, "{file}");
+        } else {
+            assert!(text.contains("u001b]0;owned"), "{file}");
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Where modes exist in a range, how many solutions there are in between, and how that is known.
+
+use super::LimitsOptions;
+use super::closed_form::closed_form;
+use super::examine::Examiner;
+use super::scan::Scanner;
+use super::varied::Varied;
+use crate::expression::Degree;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes};
+use crate::progress::Work;
+
+/// The most patterns whose limits are computed.
+const PATTERNS: u64 = 1 << 14;
+/// How often values at which the certified search contradicts the ends are scanned around.
+const ROUNDS: usize = 3;
+
+/// The modes of one direction of motion.
+pub(crate) struct Found {
+    pub(crate) existence: Existence,
+    pub(crate) counts: Vec<CountInterval>,
+    /// How the number of solutions of each of `counts` is known.
+    pub(crate) known: Vec<Knowledge>,
+    pub(crate) gaps: Vec<Gap>,
+    pub(crate) method: Method,
+    /// Every value at which the mode problem was made.
+    pub(crate) tried: Vec<f64>,
+}
+
+/// How the ends of modes were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Method {
+    /// As zeros of determinants.
+    ClosedForm,
+    /// The mode problem is the same everywhere; `at_rest` if static friction is not.
+    Same { at_rest: bool },
+    /// From values that were tried.
+    Bracketing,
+}
+
+/// What is known of the number of solutions in an interval.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Knowledge {
+    /// The longest stretch for all values of which the number is proven.
+    pub(crate) proven: Option<[f64; 2]>,
+    pub(crate) elsewhere: Elsewhere,
+}
+
+/// What is known outside the proven stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Elsewhere {
+    /// All of the interval is proven, but for what is nearer to its ends than [`super::examine::MARGIN`].
+    Nothing,
+    /// The number follows from zeros of determinants.
+    ClosedForm,
+    /// It was found at values, the greatest distance between which is this.
+    Sampled(f64),
+    /// The certified search finds another number at some value.
+    Contradicted,
+}
+
+/// A range in which there is no mode problem, and why: the faults in its middle.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Gap {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) faults: Faults,
+}
+
+impl Gap {
+    /// The first reason, in words.
+    pub(crate) fn reason(&self) -> String {
+        self.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string())
+    }
+}
+
+/// Where modes exist in a range.
+///
+/// # Errors
+/// Too many modes.
+pub(crate) fn find(
+    varied: &Varied,
+    range: [f64; 2],
+    options: &LimitsOptions,
+    work: Work<'_>,
+) -> Result<Found, Faults> {
+    let existence =
+        ExistenceOptions { range, greatest_normal_force: options.max_reaction, patterns: PATTERNS };
+    let found = found(varied, &existence, options.effort, work);
+    found.map_err(|TooManyModes { contacts, limit, .. }| {
+        Fault::general(FaultKind::TooManyModes { contacts, limit }).into()
+    })
+}
+
+fn found(
+    varied: &Varied,
+    options: &ExistenceOptions,
+    effort: u64,
+    work: Work<'_>,
+) -> Result<Found, TooManyModes> {
+    let scanner = Scanner { varied, options: *options, work: work.part(0, 2) };
+    let mut found = match closed_form(varied, options, work.part(0, 2))? {
+        Some(found) => found,
+        None => scanner.scan(&[])?,
+    };
+    let mut places = Vec::new();
+    for round in 0..=ROUNDS {
+        let contradicted = Examiner::new(varied, options, effort, work.part(1, 2)).examine(&mut found);
+        if contradicted.is_empty() || round == ROUNDS {
+            break;
+        }
+        places.extend(contradicted);
+        found = scanner.scan(&places)?;
+    }
+    if varied.dependence().problem == Degree::Constant && found.method == Method::Bracketing {
+        found.method = Method::Same { at_rest: varied.dependence().at_rest };
+    }
+    Ok(found)
+}

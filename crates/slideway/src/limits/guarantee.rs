@@ -1,0 +1,73 @@
+//! What a search for limits can miss, in words.
+
+use super::find::{Elsewhere, Found, Method};
+use crate::report::precise;
+
+/// How the ends were found, and how the numbers of solutions between them are known.
+pub(crate) fn guarantee(found: &Found) -> String {
+    let mut sentences = vec![match found.method {
+        Method::ClosedForm => {
+            "The mode problem depends linearly on it, so that all ends are zeros of determinants.".to_owned()
+        }
+        Method::Same { at_rest: false } => "The mode problem does not depend on it.".to_owned(),
+        Method::Same { at_rest: true } => {
+            "The mode problem does not depend on it: static friction counts at rest (`slideway hold`)."
+                .to_owned()
+        }
+        Method::Bracketing => format!(
+            "{} values were tried, and what changes between them was bisected to machine precision.",
+            found.tried.len()
+        ),
+    }];
+    sentences.extend(knowledge(found));
+    let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
+    if left_out > 0 {
+        sentences.push(format!(
+            "{left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
+        ));
+    }
+    sentences.join(" ")
+}
+
+/// How the numbers of solutions are known.
+fn knowledge(found: &Found) -> Option<String> {
+    let known = found.known.iter().map(|known| known.elsewhere);
+    let sampled =
+        known.clone().filter_map(|one| if let Elsewhere::Sampled(by) = one { Some(by) } else { None });
+    let spacing = sampled.fold(0.0, f64::max);
+    let is_any = |wanted: Elsewhere| found.known.iter().any(|known| known.elsewhere == wanted);
+    let is_proven = found.known.iter().any(|known| known.proven.is_some());
+    if found.known.is_empty() {
+        return None;
+    }
+    if found.known.iter().all(|known| known.elsewhere == Elsewhere::Nothing) {
+        return Some(format!(
+            "The numbers of solutions are proven, but for a ten-thousandth of what lies between two ends of modes, next to these{}.",
+            if matches!(found.method, Method::Bracketing) { ", which come from rounded numbers" } else { "" }
+        ));
+    }
+    let mut parts = Vec::new();
+    if is_proven {
+        parts.push("the numbers of solutions are proven where that is said".to_owned());
+    }
+    let they = if is_proven { "elsewhere they" } else { "the numbers of solutions" };
+    if is_any(Elsewhere::ClosedForm) {
+        parts.push(format!("{they} follow from these zeros, which are computed in rounded numbers"));
+    }
+    if spacing > 0.0 {
+        parts.push(format!(
+            "{they} were found at values up to {} apart: a mode that comes and goes between two of them may be missed",
+            precise(spacing)
+        ));
+    }
+    if is_any(Elsewhere::Contradicted) {
+        parts.push(
+            "intervals that are not decided contain a value with another number of solutions".to_owned(),
+        );
+    }
+    let mut text = parts.join("; ");
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    Some(text + ".")
+}

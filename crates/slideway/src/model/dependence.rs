@@ -1,0 +1,195 @@
+//! On what the mode problem depends, decided from the formulas and from where they stand in the mechanism.
+//!
+//! The numbers of the mode problem, eq. (6), are affine in a parameter where it stands in these places only, each formula
+//! being affine in it while all others keep their values:
+//!
+//! | place | what is affine |
+//! |---|---|
+//! | coefficients of friction | the columns `c_k` |
+//! | preloads | the jumps `d_k` |
+//! | forces, moments, gravity, springs, dampers, prescribed accelerations | the right-hand side `N(0)` |
+//! | masses and moments of inertia, if every coordinate is driven | the right-hand side: all accelerations are prescribed |
+//!
+//! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is constant.
+
+use super::{ForceValue, Gravity, Inertia, JointKind, LoadKind, Model, Moment};
+use crate::expression::{Degree, Symbol, Values};
+use crate::ids::FormulaId;
+use std::collections::BTreeSet;
+
+/// How the mode problem depends on a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Dependence {
+    /// That of its numbers.
+    pub(crate) problem: Degree,
+    /// That of what only has to be allowed: static friction above kinetic, travel, stiffness of guides.
+    pub(crate) conditions: Degree,
+    /// Whether static friction, which counts at rest alone, depends on it.
+    pub(crate) at_rest: bool,
+}
+
+impl Model {
+    /// How the mode problem depends on a parameter in a fixed state, the parameter itself having a value of its own.
+    pub(crate) fn dependence(&self, parameter: usize) -> Dependence {
+        let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
+        let affine = places.friction().max(places.loads()).max(places.weights()).max(places.accelerations());
+        let at_rest = places.static_friction();
+        let conditions = at_rest.max(places.conditions());
+        let elsewhere = if places.others() == Degree::Constant { Degree::Constant } else { Degree::Other };
+        Dependence { problem: affine.max(elsewhere), conditions, at_rest: at_rest != Degree::Constant }
+    }
+
+    /// The constant and the slope of a formula that does not depend on the motion and is affine in a parameter `p`,
+    /// `constant + slope p`; none if it is not affine.
+    pub(crate) fn line_of(&self, formula: FormulaId, parameter: usize) -> Option<[f64; 2]> {
+        let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
+        if places.degree(formula) == Degree::Other {
+            return None;
+        }
+        let [at_zero, at_one] = [0.0, 1.0].map(|value| self.value_at(formula, parameter, value));
+        let constant = at_zero?;
+        Some([constant, at_one? - constant])
+    }
+
+    /// The value that a formula of parameters would have with a value of one of them, whether or not it is allowed.
+    fn value_at(&self, formula: FormulaId, parameter: usize, value: f64) -> Option<f64> {
+        let mut parameters = vec![0.0; self.parameters.len()];
+        let evaluate = |id: FormulaId, parameters: &[f64]| {
+            let values = Values { parameters, coordinates: &[], rates: &[], time: 0.0 };
+            self.formula(id).expression.evaluate(&values)
+        };
+        for &index in &self.evaluation_order {
+            let own = self.parameters[index].value;
+            // One without a value is not used, or has been refused before.
+            let following = || evaluate(own, &parameters).unwrap_or(f64::NAN);
+            parameters[index] = if index == parameter { value } else { following() };
+        }
+        evaluate(formula, &parameters).ok()
+    }
+
+    /// How all parameters depend on one.
+    fn degrees(&self, parameter: usize) -> Vec<Degree> {
+        let mut degrees = vec![Degree::Constant; self.parameters.len()];
+        for &index in &self.evaluation_order {
+            let formula = self.formula(self.parameters[index].value);
+            degrees[index] = if index == parameter {
+                Degree::Affine
+            } else {
+                formula.expression.degree(&|symbol| of_symbol(symbol, &degrees))
+            };
+        }
+        degrees
+    }
+}
+
+/// Coordinates, rates and the time of a state are constants there.
+fn of_symbol(symbol: Symbol, parameters: &[Degree]) -> Degree {
+    match symbol {
+        Symbol::Parameter(index) => parameters[index],
+        Symbol::Coordinate(_) | Symbol::Rate(_) | Symbol::Time => Degree::Constant,
+    }
+}
+
+/// A walk over all places where formulas stand.
+struct Places<'m> {
+    model: &'m Model,
+    parameters: Vec<Degree>,
+    seen: BTreeSet<FormulaId>,
+}
+
+impl Places<'_> {
+    fn degree(&mut self, id: FormulaId) -> Degree {
+        self.seen.insert(id);
+        self.model.formula(id).expression.degree(&|symbol| of_symbol(symbol, &self.parameters))
+    }
+
+    fn greatest(&mut self, ids: impl IntoIterator<Item = FormulaId>) -> Degree {
+        ids.into_iter().fold(Degree::Constant, |degree, id| degree.max(self.degree(id)))
+    }
+
+    fn friction(&mut self) -> Degree {
+        let contacts = self.model.contacts();
+        let ids =
+            contacts.flat_map(|contact| contact.mu.into_iter().chain(contact.preload.into_iter().flatten()));
+        self.greatest(ids.collect::<Vec<_>>())
+    }
+
+    fn static_friction(&mut self) -> Degree {
+        let own = |contact: &super::Contact| {
+            let pairs = contact.mu_static.into_iter().zip(contact.mu);
+            pairs
+                .filter(|(mu_static, mu)| mu_static != mu)
+                .map(|(mu_static, _)| mu_static)
+                .collect::<Vec<_>>()
+        };
+        self.greatest(self.model.contacts().flat_map(own).collect::<Vec<_>>())
+    }
+
+    fn loads(&mut self) -> Degree {
+        self.model.loads.iter().fold(Degree::Constant, |degree, load| degree.max(self.load(&load.kind)))
+    }
+
+    fn load(&mut self, load: &LoadKind) -> Degree {
+        match load {
+            LoadKind::Force { force: ForceValue::Components(components), .. } => self.greatest(*components),
+            LoadKind::Force { force: ForceValue::Along(magnitude, _), .. } => self.degree(*magnitude),
+            LoadKind::Torque { moment, .. } => self.degree(*moment),
+            LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => {
+                self.degree(*damping)
+            }
+            LoadKind::Spring { stiffness, free_length: free, .. }
+            | LoadKind::TorsionalSpring { stiffness, free_angle: free, .. } => {
+                let stiffness = self.degree(*stiffness);
+                stiffness.times(self.greatest(*free))
+            }
+        }
+    }
+
+    /// Gravity, and inertia if no acceleration is unknown.
+    fn weights(&mut self) -> Degree {
+        let gravity = match self.model.gravity {
+            Gravity::None => Degree::Constant,
+            Gravity::Down(magnitude) => self.degree(magnitude),
+            Gravity::Components(components) => self.greatest(components),
+        };
+        if self.model.drives.len() < self.model.coordinates.len() {
+            return gravity;
+        }
+        let bodies = self.model.bodies.iter().map(|body| match &body.inertia {
+            Inertia::Massless => gravity,
+            Inertia::Massive { mass, moment, .. } => {
+                let mass = self.degree(*mass);
+                let moment = match moment {
+                    Moment::Given(moment) => self.degree(*moment),
+                    Moment::Bar(_) | Moment::Rectangle(_) | Moment::Disc(_) => mass,
+                };
+                gravity.times(mass).max(moment)
+            }
+        });
+        bodies.fold(gravity, Degree::max)
+    }
+
+    fn accelerations(&mut self) -> Degree {
+        self.greatest(self.model.drives.iter().filter_map(|drive| drive.acceleration).collect::<Vec<_>>())
+    }
+
+    fn conditions(&mut self) -> Degree {
+        let stiffness: Vec<FormulaId> =
+            self.model.contacts().filter_map(|contact| contact.stiffness).collect();
+        let travel = self.model.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => slider.travel,
+            JointKind::Hinge(_) => None,
+        });
+        let travel: Vec<FormulaId> = travel.flatten().collect();
+        let events = self.model.events.iter().map(|event| event.zero_of);
+        self.greatest(stiffness.into_iter().chain(travel).chain(events).collect::<Vec<_>>())
+    }
+
+    /// Whatever stands elsewhere; parameters count where they are used.
+    fn others(&mut self) -> Degree {
+        self.seen.extend(self.model.parameters.iter().map(|parameter| parameter.value));
+        let all = (0..self.model.formulas.len()).map(FormulaId);
+        let others: Vec<FormulaId> = all.filter(|id| !self.seen.contains(id)).collect();
+        self.greatest(others)
+    }
+}

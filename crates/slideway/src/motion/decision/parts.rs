@@ -1,0 +1,325 @@
+//! What a group of joints can do at an instant, decided without the others.
+
+use super::assessment::{Assessment, Decisive, assess_group, with_sides};
+use super::elastic::verdict;
+use super::instant::{Group, Instant};
+use super::sieve::Sieve;
+use super::state::{PhaseState, is_same_phase, state};
+use super::sticking::ENOUGH;
+use super::successors::{Successors, Tipping};
+use super::system::{Question, Subject};
+use super::{BOUNDARY, MOST_STATES};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::motion::{self, ContactPhase, JointPhase, Phase};
+use crate::report::Verdict;
+use std::cmp::Reverse;
+
+/// Accelerations and forces that differ by less than this, in units, are the same.
+const SAME: f64 = 1e-6;
+/// When a state has been found, no more than so many are tried in all, ...
+const FURTHER_STATES: u64 = 10_000;
+/// ... and where more joints are at rest, none in which fewer stick than in one that is at no boundary.
+const FEW_RESTING: usize = 4;
+/// Of more joints at rest in one group the others only stick.
+const MOST_RESTING: usize = 60;
+
+/// How much is told of the phases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// Everything.
+    Everything,
+    /// What decides their order.
+    Order,
+}
+
+/// What a group of joints can do.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    /// Forces of this group.
+    pub(super) assessment: Assessment,
+    /// Whether it is what the group did before.
+    pub(super) is_present: bool,
+    /// Whether accelerations and normal forces are what they were.
+    pub(super) continues: bool,
+    /// Whether it is attainable if all other groups are locked.
+    pub(super) verdict: Verdict,
+}
+
+/// The search for what groups of joints can do.
+pub(super) struct Search<'s> {
+    pub(super) instant: &'s Instant<'s>,
+    pub(super) event: &'s motion::Instant<'s>,
+    pub(super) question: &'s Question<'s>,
+    pub(super) detail: Detail,
+}
+
+impl Search<'_> {
+    /// For each group of joints what it can do, the preferred first.
+    ///
+    /// # Errors
+    /// More states than are tried.
+    pub(super) fn parts(&self, found: &mut Successors) -> Result<Vec<Vec<Part>>, Faults> {
+        let before: Vec<Option<Assessment>> =
+            self.instant.groups.iter().map(|group| self.before(group)).collect();
+        let undisturbed: Vec<bool> = self
+            .instant
+            .groups
+            .iter()
+            .zip(&before)
+            .map(|(group, before)| before.as_ref().is_some_and(|before| self.is_undisturbed(group, before)))
+            .collect();
+        let nothing_happens = undisturbed.iter().all(|undisturbed| *undisturbed);
+        let mut parts = Vec::with_capacity(self.instant.groups.len());
+        for (index, group) in self.instant.groups.iter().enumerate() {
+            parts.push(match &before[index] {
+                Some(before) if undisturbed[index] && !nothing_happens => vec![before.clone()],
+                _ => self.admissible(group, found)?,
+            });
+        }
+        let alone = self.detail == Detail::Order && parts.iter().all(|parts| parts.len() == 1);
+        let groups = self.instant.groups.iter().zip(&before);
+        Ok(groups
+            .zip(parts)
+            .map(|((group, before), parts)| self.in_order(group, parts, (before.as_ref(), alone)))
+            .collect())
+    }
+
+    /// A phase with the joints that certainly slide.
+    pub(super) fn any_phase(&self) -> Phase {
+        let joint = |joint: usize| match self.event.signs[joint] {
+            0.0 if self.instant.joints[joint].has_friction => JointPhase::Sticking,
+            sign => JointPhase::Sliding(if sign < 0.0 { -1.0 } else { 1.0 }),
+        };
+        Phase {
+            joints: (0..self.event.signs.len()).map(joint).collect(),
+            contacts: self.question.sides.iter().map(|sides| sides[0]).collect(),
+        }
+    }
+
+    /// What a group did before, at this instant.
+    fn before(&self, group: &Group) -> Option<Assessment> {
+        let previous = self.event.previous?;
+        self.assess(previous, group).ok()?
+    }
+
+    fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, super::program::Unsolved> {
+        let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
+        assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
+    }
+
+    /// Whether nothing happens in a group: no joint of it has just stopped or turned, and what it did is at no boundary.
+    fn is_undisturbed(&self, group: &Group, before: &Assessment) -> bool {
+        let keeps = |joint: &usize| match before.phase.joints[*joint] {
+            JointPhase::Sticking => self.event.signs[*joint] == 0.0,
+            JointPhase::Sliding(sign) => {
+                self.event.signs[*joint] == sign || !self.instant.joints[*joint].has_friction
+            }
+        };
+        group.joints.iter().all(keeps) && before.least() > BOUNDARY && !before.redundant
+    }
+
+    /// All admissible states of a group, or those in which most joints stick, which are tried first.
+    fn admissible(&self, group: &Group, found: &mut Successors) -> Result<Vec<Assessment>, Faults> {
+        let mut list: Vec<Assessment> = Vec::new();
+        let mut sieve =
+            (self.detail == Detail::Order).then(|| Sieve::new(self.question, self.instant, group));
+        let stuck = |phase: &Phase| {
+            group.joints.iter().filter(|joint| phase.joints[**joint] == JointPhase::Sticking).count()
+        };
+        let is_large = stuck(&self.any_phase()) > FEW_RESTING;
+        let mut most = 0;
+        for (tried, phase) in (1..).zip(self.patterns(group)) {
+            let limit = if list.is_empty() { MOST_STATES } else { FURTHER_STATES };
+            if tried > limit || (is_large && stuck(&phase) < most) {
+                if list.is_empty() {
+                    return Err(Fault::general(FaultKind::TooManyStates { states: tried, limit }).into());
+                }
+                found.complete = false;
+                break;
+            }
+            if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&phase)) {
+                continue;
+            }
+            match self.assess(&phase, group) {
+                Err(_) => found.unsolved.push(phase),
+                Ok(None) => {}
+                Ok(Some(assessment)) if assessment.least() >= -BOUNDARY => {
+                    if assessment.least() > BOUNDARY && !assessment.redundant {
+                        most = most.max(stuck(&phase));
+                    }
+                    list.push(assessment);
+                }
+                Ok(Some(assessment)) => {
+                    let violated = assessment.slacks.iter().filter(|slack| slack.value < -BOUNDARY);
+                    let subjects = violated.map(|slack| slack.subject);
+                    found.tipping.extend(self.tipping(&assessment.phase, subjects));
+                }
+            }
+        }
+        Ok(list)
+    }
+
+    /// All states of the joints of a group with all sides of the contacts that slide, those in which most joints stick first;
+    /// contacts that stick have any side.
+    fn patterns<'p>(&'p self, group: &'p Group) -> impl Iterator<Item = Phase> + 'p {
+        let rests =
+            |joint: &usize| self.event.signs[*joint] == 0.0 && self.instant.joints[*joint].has_friction;
+        let resting: Vec<usize> = group.joints.iter().copied().filter(rests).collect();
+        let most = u32::try_from(resting.len().min(MOST_RESTING)).unwrap_or(0);
+        (0..=most).flat_map(move |count| subsets(most, count)).flat_map(move |slips| {
+            let slipping: Vec<usize> = (0..resting.len())
+                .filter(|place| slips >> place & 1 == 1)
+                .map(|place| resting[place])
+                .collect();
+            let senses = (0..1_u64 << slipping.len()).map(move |senses| {
+                let mut phase = self.any_phase();
+                for (place, &joint) in slipping.iter().enumerate() {
+                    phase.joints[joint] =
+                        JointPhase::Sliding(if senses >> place & 1 == 1 { -1.0 } else { 1.0 });
+                }
+                phase
+            });
+            senses.filter(|phase| self.can_begin(group, &phase.joints)).flat_map(|phase| {
+                let sliding = group.contacts.iter().filter(|k| {
+                    let joint = self.instant.joint_of(**k);
+                    joint.is_some_and(|joint| phase.joints[joint] != JointPhase::Sticking)
+                });
+                let sides: Vec<(usize, Vec<ContactPhase>)> =
+                    sliding.map(|k| (*k, self.question.sides[*k].clone())).collect();
+                (0..).map_while(move |number| with_sides(&phase, &sides, number))
+            })
+        })
+    }
+
+    /// Whether the joints that begin to slip can do so: none depends on joints that stick, and those that depend on one
+    /// another slip in the senses that belong together.
+    fn can_begin(&self, group: &Group, joints: &[JointPhase]) -> bool {
+        let of_group = || group.joints.iter().copied();
+        let held: Vec<usize> = of_group().filter(|&joint| joints[joint] == JointPhase::Sticking).collect();
+        let begins = |joint: usize| match joints[joint] {
+            JointPhase::Sliding(sign) if self.instant.joints[joint].has_friction => {
+                (self.event.signs[joint] == 0.0).then_some((joint, sign))
+            }
+            _ => None,
+        };
+        let slipping: Vec<(usize, f64)> = of_group().filter_map(begins).collect();
+        let mut pairs = slipping
+            .iter()
+            .enumerate()
+            .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
+        !slipping.iter().any(|(joint, _)| self.instant.is_held(*joint, &held))
+            && pairs.all(|pair| self.instant.can_begin_together(pair))
+    }
+
+    /// The guided sliders that would tip in a phase that violates nothing but these inequalities.
+    pub(super) fn tipping(&self, phase: &Phase, violated: impl Iterator<Item = Decisive>) -> Option<Tipping> {
+        let mut joints = Vec::new();
+        for subject in violated {
+            let Decisive::One(Subject::Couple(k)) = subject else { return None };
+            let joint = self.instant.contact(k).joint;
+            if !joints.contains(&joint) {
+                joints.push(joint);
+            }
+        }
+        (!joints.is_empty()).then(|| Tipping { phase: phase.clone(), joints })
+    }
+
+    /// What a group can do, in the order of preference; verdicts and what is continued are left out where a single phase can follow.
+    fn in_order(
+        &self,
+        group: &Group,
+        list: Vec<Assessment>,
+        (before, alone): (Option<&Assessment>, bool),
+    ) -> Vec<Part> {
+        let state_before = before.filter(|_| !alone).map(|before| state(self.instant, before));
+        let part = |assessment: Assessment| {
+            let same =
+                |before: &Assessment| is_same_phase(self.instant, group, [&before.phase, &assessment.phase]);
+            let is_present = before.is_some_and(same);
+            let continued = |before: &PhaseState| self.is_continued(group, before, &assessment);
+            let continues = is_present || state_before.as_ref().is_some_and(continued);
+            let verdict = if alone { Verdict::NotComputed } else { self.verdict(group, &assessment.phase) };
+            Part { assessment, is_present, continues, verdict }
+        };
+        let mut parts: Vec<Part> = list.into_iter().map(part).collect();
+        let continues_unattainable =
+            |part: &Part| part.continues && !part.is_present && part.verdict == Verdict::Unattainable;
+        let follows_unattainable = parts.iter().any(continues_unattainable)
+            && self
+                .event
+                .previous
+                .is_some_and(|previous| self.verdict(group, previous) == Verdict::Unattainable);
+        parts.sort_by_key(|part| self.rank(group, part, follows_unattainable));
+        parts
+    }
+
+    /// The verdict about what a group does, all others being locked.
+    fn verdict(&self, group: &Group, phase: &Phase) -> Verdict {
+        let mut phase = phase.clone();
+        for (joint, found) in phase.joints.iter_mut().enumerate() {
+            if !group.joints.contains(&joint) {
+                *found = JointPhase::Sticking;
+            }
+        }
+        verdict(self.instant, self.event.configuration, &phase)
+    }
+
+    /// Whether accelerations and the normal forces of joints that go on sliding are what they were.
+    fn is_continued(&self, group: &Group, before: &PhaseState, assessment: &Assessment) -> bool {
+        let previous = self.event.previous.map(|previous| &previous.joints[..]).unwrap_or_default();
+        let slides = |joint: usize| {
+            let slides = |phase: &JointPhase| matches!(phase, JointPhase::Sliding(_));
+            slides(&assessment.phase.joints[joint]) && previous.get(joint).is_some_and(slides)
+        };
+        let state = state(self.instant, assessment);
+        let small = |k: &usize| {
+            (state.normal_forces[*k] - before.normal_forces[*k]).abs()
+                <= SAME * self.instant.units_of(*k).force
+        };
+        let mut contacts = group.contacts.iter().filter(|k| self.instant.joint_of(**k).is_some_and(slides));
+        self.is_same_motion(group, [&state, before]) && contacts.all(small)
+    }
+
+    /// Whether accelerations do not differ.
+    pub(super) fn is_same_motion(&self, group: &Group, [one, other]: [&PhaseState; 2]) -> bool {
+        let Some(&joint) = group.joints.first() else { return true };
+        let units = self.instant.joints[joint].units;
+        (0..3 * self.instant.mechanism.bodies.len()).all(|index| {
+            let unit = if index % 3 == 2 { units.acceleration / units.length } else { units.acceleration };
+            (one.unknowns[index] - other.unknowns[index]).abs() <= SAME * unit
+        })
+    }
+
+    /// Place in the order of preference.
+    fn rank(&self, group: &Group, part: &Part, follows_unattainable: bool) -> (Reverse<[usize; 2]>, [u8; 2]) {
+        let sticks = |phase: &Phase, joint: usize| phase.joints[joint] == JointPhase::Sticking;
+        let stuck = || group.joints.iter().filter(|joint| sticks(&part.assessment.phase, **joint));
+        let before = |joint: &&usize| self.event.previous.is_some_and(|previous| sticks(previous, **joint));
+        let verdict = match part.verdict {
+            Verdict::Attainable => 0,
+            Verdict::Flutter => 1,
+            Verdict::NotComputed => 2,
+            Verdict::Undecided => 3,
+            Verdict::Unattainable => 4,
+        };
+        let class = match part {
+            Part { is_present: true, .. } => 0,
+            Part { continues: true, .. } if verdict < 4 || follows_unattainable => 1,
+            _ if verdict == 4 => 3,
+            _ => 2,
+        };
+        (Reverse([stuck().filter(before).count(), stuck().count()]), [class, verdict])
+    }
+}
+
+/// All sets of so many of the first numbers, as bits.
+fn subsets(of: u32, count: u32) -> impl Iterator<Item = u64> {
+    let first = (1_u64 << count) - 1;
+    // R. W. Gosper: the next number with as many bits (M. Beeler, R. W. Gosper, R. Schroeppel, HAKMEM, item 175, 1972).
+    let next = |set: &u64| {
+        let lowest = set & set.wrapping_neg();
+        let carried = set + lowest;
+        (lowest > 0).then(|| carried | (((set ^ carried) >> 2) / lowest))
+    };
+    std::iter::successors(Some(first), next).take_while(move |set| *set < 1 << of)
+}

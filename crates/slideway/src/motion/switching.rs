@@ -1,0 +1,198 @@
+//! Time events: where loads and drives jump or have a kink.
+//!
+//! Within a phase every relation (`sign`, `step`, `abs`, `min`, `max`, tables) of the loads and drives is held on the piece on
+//! which it is, so that the motion is smooth; a relation whose arguments depend on the motion is watched like a normal force.
+//! Where they depend on time alone the end of the piece is computed in advance: time is passed through in cells on which
+//! interval arithmetic proves the margin to be positive, and what is left is a time within rounding. So none is missed,
+//! however long the steps are.
+
+use super::root::first_fall;
+use crate::configuration::Configuration;
+use crate::expression::{End, Expression, Piece, Values};
+use crate::interval::Interval;
+use crate::mechanism::{Mechanism, Pieces, Relation};
+use std::convert::Infallible;
+use std::sync::Arc;
+
+/// The first look ahead, in units in the last place of the time.
+const NEXT: f64 = 4.0;
+/// Each look ahead is this much farther than the one before.
+const FARTHER: f64 = 16.0;
+/// So often: from neighbouring times to any.
+const LOOKS: i32 = 64;
+/// The first look from time zero (s).
+const NEAREST: f64 = 1e-60;
+
+/// A relation and an end of its piece.
+pub(super) type Switch = (usize, End);
+
+/// The relations of loads and drives along a motion.
+pub(super) struct Switching<'m> {
+    mechanism: &'m Mechanism,
+    relations: Vec<Relation>,
+    pieces: Arc<Pieces>,
+    parameters: Vec<Interval>,
+    /// Until when no relation of time alone leaves its piece, and those that leave it then.
+    next: f64,
+    due: Vec<Switch>,
+}
+
+impl<'m> Switching<'m> {
+    /// All relations on the pieces on which they are just after a state.
+    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
+        let relations = mechanism.relations();
+        let pieces = Arc::new(Pieces::free(mechanism, &relations));
+        let values = mechanism.values(&[], &[], 0.0);
+        let parameters = values.parameters.iter().map(|value| Interval::point(*value)).collect();
+        let next = f64::NEG_INFINITY;
+        let mut switching = Self { mechanism, relations, pieces, parameters, next, due: Vec::new() };
+        for relation in 0..switching.relations.len() {
+            let piece = switching.ahead(configuration, relation);
+            switching.set(relation, piece);
+        }
+        switching
+    }
+
+    /// The pieces; nothing without relations.
+    pub(super) fn pieces(&self) -> Option<Arc<Pieces>> {
+        (!self.relations.is_empty()).then(|| Arc::clone(&self.pieces))
+    }
+
+    /// The ends that have to be watched: those of relations that depend on the motion.
+    pub(super) fn watched(&self) -> impl Iterator<Item = Switch> + '_ {
+        let held = |relation: &usize| {
+            !self.relations[*relation].kind.of_time && self.pieces.piece(*relation) != Piece::Free
+        };
+        let relations = (0..self.relations.len()).filter(held);
+        relations.flat_map(|relation| End::BOTH.map(|end| (relation, end)))
+    }
+
+    /// How far a relation is from an end of its piece; infinite where it has none.
+    pub(super) fn margin(&self, configuration: &Configuration, (relation, end): Switch) -> f64 {
+        let Configuration { coordinates, rates, time, .. } = configuration;
+        let values = self.mechanism.values(coordinates, rates, *time);
+        let (expression, pieces, number) = self.of(relation);
+        expression.margin(&values, pieces, (number, end)).unwrap_or(f64::INFINITY)
+    }
+
+    /// The first time after `time`, and at most `until`, at which a relation of time alone leaves its piece; infinite if none
+    /// does.
+    pub(super) fn next(&mut self, time: f64, until: f64) -> f64 {
+        if !self.due.is_empty() {
+            return self.next;
+        }
+        if self.next >= until {
+            return f64::INFINITY;
+        }
+        let from = time.max(self.next);
+        let mut first = until;
+        for relation in (0..self.relations.len()).filter(|relation| self.relations[*relation].kind.of_time) {
+            for end in End::BOTH {
+                let Some(zero) = self.end_of((relation, end), [from, first]) else { continue };
+                if zero < first {
+                    self.due.clear();
+                }
+                first = zero;
+                self.due.push((relation, end));
+            }
+        }
+        self.next = first;
+        if self.due.is_empty() { f64::INFINITY } else { first }
+    }
+
+    /// The relations that leave their pieces at [`Self::next`], which has come.
+    pub(super) fn due(&mut self) -> Vec<Switch> {
+        std::mem::take(&mut self.due)
+    }
+
+    /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there.
+    pub(super) fn switch(&mut self, switches: &[Switch]) -> Vec<String> {
+        let mut jumping: Vec<String> = Vec::new();
+        for &(relation, end) in switches {
+            let (expression, _, number) = self.of(relation);
+            let Piece::Held(piece) = self.pieces.piece(relation) else { continue };
+            let beyond = expression.beyond(number, piece, end);
+            self.set(relation, Piece::Held(beyond));
+            let Relation { owner, kind, .. } = &self.relations[relation];
+            if kind.jumps && !jumping.iter().any(|name| **name == **owner) {
+                jumping.push(owner.to_string());
+            }
+        }
+        jumping
+    }
+
+    /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none: where something stops.
+    pub(super) fn settle(&mut self, configuration: &Configuration) {
+        for relation in 0..self.relations.len() {
+            let at_end = |end: End| self.margin(configuration, (relation, end)) == 0.0;
+            let is_free = self.pieces.piece(relation) == Piece::Free;
+            if !self.relations[relation].kind.of_time && (is_free || End::BOTH.into_iter().any(at_end)) {
+                let piece = self.ahead(configuration, relation);
+                self.set(relation, piece);
+            }
+        }
+    }
+
+    /// Finds new pieces for all relations of the motion: velocities have jumped.
+    pub(super) fn jump(&mut self, configuration: &Configuration) {
+        for relation in 0..self.relations.len() {
+            if !self.relations[relation].kind.of_time {
+                let piece = self.ahead(configuration, relation);
+                self.set(relation, piece);
+            }
+        }
+    }
+
+    fn of(&self, relation: usize) -> (&'m Expression, &[Piece], usize) {
+        let Relation { formula, number, .. } = self.relations[relation];
+        (self.mechanism.expression(formula), self.pieces.of(formula), number)
+    }
+
+    fn set(&mut self, relation: usize, piece: Piece) {
+        if self.pieces.piece(relation) != piece {
+            Arc::make_mut(&mut self.pieces).set(relation, piece);
+            if self.relations[relation].kind.of_time {
+                // What was searched with the old pieces says nothing any more.
+                self.next = f64::NEG_INFINITY;
+                self.due.clear();
+            }
+        }
+    }
+
+    /// The piece of a relation just after a state: at the nearest time ahead at which it can be told from rounding, as the
+    /// velocities go on. Free if it can be told nowhere: the argument stays at the threshold.
+    fn ahead(&self, configuration: &Configuration, relation: usize) -> Piece {
+        let (expression, pieces, number) = self.of(relation);
+        let Configuration { coordinates, rates, time, .. } = configuration;
+        let first = if *time == 0.0 { NEAREST } else { NEXT * f64::EPSILON * time.abs() };
+        let steps = std::iter::once(0.0).chain((0..LOOKS).map(|look| first * FARTHER.powi(look)));
+        let rates: Vec<Interval> = rates.iter().map(|rate| Interval::point(*rate)).collect();
+        let piece = |step: f64| {
+            let step = Interval::point(step);
+            let moved = coordinates.iter().zip(&rates);
+            let coordinates: Vec<Interval> =
+                moved.map(|(value, rate)| Interval::point(*value) + step * *rate).collect();
+            let values = Values {
+                parameters: &self.parameters,
+                coordinates: &coordinates,
+                rates: &rates,
+                time: Interval::point(*time) + step,
+            };
+            expression.piece(&values, pieces, number)
+        };
+        steps.into_iter().find_map(piece).map_or(Piece::Free, Piece::Held)
+    }
+
+    /// The first time in a range at which a relation of time alone leaves its piece.
+    fn end_of(&self, (relation, end): Switch, [from, until]: [f64; 2]) -> Option<f64> {
+        let (expression, pieces, number) = self.of(relation);
+        let margin = |time: Interval| {
+            let values = Values { parameters: &self.parameters, coordinates: &[], rates: &[], time };
+            expression.margin(&values, pieces, (number, end))
+        };
+        margin(Interval::point(from))?;
+        let Ok(fall) =
+            first_fall::<Infallible>([from, until], |time| Ok(margin(time).unwrap_or(Interval::ZERO)));
+        fall
+    }
+}

@@ -1,0 +1,76 @@
+//! Any text as a title, a model or a raw problem: what is told of it acts neither on a terminal nor in a picture or a page.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use slideway::configuration::Configuration;
+use slideway::mechanism::Mechanism;
+use slideway::model::Model;
+use slideway::printable;
+use slideway::raw_problem::RawProblem;
+use slideway::report::{self, Style};
+use slideway::{check, gallery, solve};
+use slideway_pictures::drawing::{Shown, sheet, svg};
+use slideway_pictures::page::{Page, to_html};
+
+/// Nothing is hidden in a text; `own` are the escape sequences of the program's colours.
+fn assert_inert(text: &str, own: &[&str]) {
+    let plain = own.iter().fold(text.to_owned(), |plain, sequence| plain.replace(sequence, ""));
+    assert_eq!(printable::lines(&plain), plain);
+}
+
+const COLOURS: [&str; 5] = ["\u{1b}[0m", "\u{1b}[1m", "\u{1b}[31m", "\u{1b}[32m", "\u{1b}[33m"];
+
+fn told(model: &Model) {
+    let found = check::check(model).map(|found| {
+        assert_inert(&check::to_json(&found), &[]);
+        check::to_text(&found, Style::Colour)
+    });
+    assert_inert(&found.unwrap_or_else(|faults| faults.to_string()), &COLOURS);
+    let Ok(answer) = solve::solve(model) else { return };
+    let text = report::to_text(&answer, Style::Colour);
+    assert_inert(&text, &COLOURS);
+    // Colours are the program's own: without them, and in plain text, the same is told.
+    let plain = COLOURS.iter().fold(text, |plain, sequence| plain.replace(sequence, ""));
+    assert_eq!(plain, report::to_text(&answer, Style::Plain));
+    let json: serde_json::Value = serde_json::from_str(&report::to_json(&answer)).expect("JSON");
+    assert_eq!(json["model"]["title"].as_str(), model.title.as_deref());
+    assert_inert(&report::to_json(&answer), &[]);
+    assert_inert(&report::to_csv(&answer), &[]);
+    let Ok(mechanism) = Mechanism::new(model) else { return };
+    let Ok(configuration) = Configuration::new(&mechanism) else { return };
+    let Some(sheet) = sheet(&mechanism, &configuration, Some(&answer), Shown::All) else { return };
+    let title = model.title.as_deref().unwrap_or_default();
+    let page = Page {
+        command: title,
+        name: title,
+        text: title,
+        settings: &[title.to_owned()],
+        sheet: &sheet,
+        report: Ok(&answer),
+        limits: &[],
+        figures: &[],
+    };
+    assert_inert(&to_html(&page).expect("a page"), &[]);
+    let frame = svg::Frame {
+        bounds: sheet.bounds,
+        title,
+        description: title,
+        width: None,
+        colours: svg::Colours::Page,
+    };
+    assert_inert(&svg::write(&sheet.scene, &frame), &[]);
+}
+
+fuzz_target!(|text: &str| {
+    match Model::parse(text) {
+        Ok(model) => drop(model),
+        Err(faults) => assert_inert(&faults.to_string(), &[]),
+    }
+    if let Err(faults) = RawProblem::from_json(text.as_bytes()) {
+        assert_inert(&faults.to_string(), &[]);
+    }
+    let drawer = gallery::find("drawer").expect("a model of the gallery");
+    let mut model = Model::parse(drawer.text).expect("a model of the gallery");
+    model.title = Some(text.to_owned());
+    told(&model);
+});
