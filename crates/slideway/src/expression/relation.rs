@@ -76,14 +76,7 @@ impl Operation {
     /// The piece on which numbers are.
     fn piece(&self, arguments: &[f64]) -> i64 {
         match self {
-            Self::Unary(Unary::Step) => {
-                if arguments[0] < 0.0 {
-                    -1
-                } else {
-                    1
-                }
-            }
-            Self::Unary(Unary::Abs) => {
+            Self::Unary(Unary::Step | Unary::Abs) => {
                 if arguments[0] < 0.0 {
                     -1
                 } else {

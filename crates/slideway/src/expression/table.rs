@@ -111,6 +111,7 @@ impl Table {
     }
 
     /// How many rows there are before an argument, counted through all periods; of rows with the same argument all.
+    #[allow(clippy::cast_possible_wrap, clippy::cast_possible_truncation)]
     pub(super) fn piece(&self, argument: f64) -> i64 {
         let before = |argument: f64| self.rows.partition_point(|[place, _]| place.value <= argument) as i64;
         let Some(period) = self.period() else { return before(argument) };
@@ -120,6 +121,7 @@ impl Table {
     }
 
     /// Pieces of a period.
+    #[allow(clippy::cast_possible_wrap)]
     fn pieces(&self) -> i64 {
         self.rows.len() as i64 - 1
     }
@@ -141,16 +143,12 @@ impl Table {
     /// The straight line of a piece.
     pub(super) fn on_piece<T: Real>(&self, argument: T, piece: i64) -> T {
         let written = |entry: Entry| T::written(entry.value, entry.enclosure);
-        match self.rows_of(piece) {
-            Some(([[x0, y0], [x1, y1]], shift)) => {
-                let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(written);
-                y0 + (argument - T::exactly(shift) - x0) / (x1 - x0) * (y1 - y0)
-            }
-            None => {
-                let held = if piece <= 0 { self.rows.first() } else { self.rows.last() };
-                held.map_or(T::zero(), |[_, value]| written(*value))
-            }
+        if let Some(([[x0, y0], [x1, y1]], shift)) = self.rows_of(piece) {
+            let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(written);
+            return y0 + (argument - T::exactly(shift) - x0) / (x1 - x0) * (y1 - y0);
         }
+        let held = if piece <= 0 { self.rows.first() } else { self.rows.last() };
+        held.map_or(T::zero(), |[_, value]| written(*value))
     }
 
     /// How far an argument is from an end of a piece; nothing where it has none.

@@ -362,9 +362,10 @@ impl Builder<'_> {
             (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()))
         else {
             let quantity = "a coefficient of the kinetic equations".to_owned();
-            return Fault::general(match condition.is_finite() {
-                true => FaultKind::IllConditioned { condition: *condition },
-                false => FaultKind::Overflow { quantity },
+            return Fault::general(if condition.is_finite() {
+                FaultKind::IllConditioned { condition: *condition }
+            } else {
+                FaultKind::Overflow { quantity }
             });
         };
         let motion = motion_in_words(self.mechanism, self.configuration, &accelerations);

@@ -240,6 +240,8 @@ mod tests {
         map: BTreeMap<u8, f64>,
     }
 
+    type Spoil = fn(&mut Whole);
+
     fn whole() -> Whole {
         let kinds = vec![Kind::Tuple(1.0, 2.0), Kind::Struct { value: None }];
         Whole { name: "inf", parts: vec![(1, f64::MAX), (2, -0.0)], kinds, map: BTreeMap::from([(1, 1.0)]) }
@@ -248,7 +250,7 @@ mod tests {
     #[test]
     fn every_number_is_looked_at_and_the_first_that_is_not_finite_is_named() {
         assert!(finite(whole()).is_ok());
-        let spoilt: [(&str, fn(&mut Whole)); 4] = [
+        let spoilt: [(&str, Spoil); 4] = [
             ("`parts[1][1]`", |whole| whole.parts[1].1 = f64::NAN),
             ("`kinds[0][1]`", |whole| whole.kinds[0] = Kind::Tuple(1.0, f64::NEG_INFINITY)),
             ("`kinds[1].value`", |whole| whole.kinds[1] = Kind::Struct { value: Some(f64::INFINITY) }),
