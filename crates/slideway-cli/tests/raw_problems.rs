@@ -7,6 +7,9 @@ mod command;
 use command::{command, slideway, slideway_reading, top};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/raw").join(name)
@@ -91,12 +94,68 @@ fn json_has_the_fields_that_are_promised() {
     let (code, report) = json(&["modes", RAY, "--format", "json"]);
     assert_eq!(
         (code, &report["schema"], &report["status"]),
-        (0, &"slideway/modes/1".into(), &"continuum".into())
+        (0, &"slideway/modes/2".into(), &"continuum".into())
     );
-    assert_eq!((&report["complete"], &report["count"]), (&"proven".into(), &"1".into()));
+    assert_eq!((&report["complete"], &report["count"]), (&"proven".into(), &"0".into()));
+    let faces = serde_json::json!({"solutions": "1", "gap_states": "0", "continua": "0", "listed": false});
+    assert_eq!(report["faces"], faces);
+    let part = &report["continua"][0]["parts"][0];
+    assert_eq!(part["directions"][0]["z"], serde_json::json!([1.0, 1.0]));
+    assert_eq!((&part["indices"], &part["vertex_count"]), (&serde_json::json!([0, 1]), &1.into()));
+
+    let (_, report) = json(&["modes", RAY, "--all-faces", "--format", "json"]);
     assert_eq!(report["solutions"][0]["z"], serde_json::json!([1.0, 0.0]));
     assert_eq!(report["solutions"][0]["signs"], serde_json::json!([1, 0]));
-    assert_eq!(report["continua"][0]["directions"][0]["z"], serde_json::json!([1.0, 1.0]));
+    assert_eq!(report["solutions"][0]["end_of_continuum"], 0);
+    assert_eq!(report["solutions"][0]["maximal"], false);
+}
+
+/// 2^16 - 1 faces of a simplex, which takes much longer than a second.
+fn simplex(folder: &Path) -> String {
+    let rows = vec![vec![1.0; 16]; 16];
+    let path = folder.join("simplex.json");
+    std::fs::write(&path, serde_json::json!({"M": rows, "q": vec![-1.0; 16]}).to_string()).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_keeps_what_was_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = simplex(folder.path());
+    for signal in ["-INT", "-TERM"] {
+        let child = command(&["modes", &problem, "--format", "json"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        sleep(Duration::from_secs(2));
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{signal}");
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!((&report["status"], &report["partial"]), (&"continuum".into(), &true.into()));
+        assert_eq!(report["continuum_count"], "1");
+        assert!(report["open"][0].as_str().unwrap().contains("on request"), "{report}");
+    }
+}
+
+#[test]
+fn a_time_limit_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = simplex(folder.path());
+    let begun = Instant::now();
+    let (code, report) = json(&["modes", &problem, "--format", "json", "--time-limit", "1s"]);
+    assert_eq!((code, &report["partial"]), (0, &true.into()));
+    // One second more, and as much again for a busy machine.
+    assert!(begun.elapsed() < Duration::from_secs(3), "{:?}", begun.elapsed());
+}
+
+#[test]
+fn a_limit_of_solutions_ends_the_search() {
+    let (code, report) = json(&["modes", EIGHT, "--format", "json", "--max-found", "2"]);
+    assert_eq!((code, &report["count"], &report["partial"]), (0, &"2".into(), &true.into()));
+    assert!(report["open"][0].as_str().unwrap().contains("--max-found"), "{report}");
 }
 
 #[test]

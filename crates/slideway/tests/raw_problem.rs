@@ -3,13 +3,42 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use slideway::modes::SearchOptions;
-use slideway::raw_problem::{RawProblem, RawReport, Unknowns, solve, to_json, to_npz, to_text};
+use slideway::modes::{Limits, SearchOptions};
+use slideway::raw_problem::{
+    Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_json, to_npz, to_text,
+};
 use slideway::report::{Status, Style};
 use std::ops::ControlFlow;
 
 fn solved(problem: &RawProblem) -> RawReport {
     solve(problem, &SearchOptions::default(), 1000, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// The answer with what is part of larger continua.
+fn with_all_faces(problem: &RawProblem) -> RawReport {
+    let listing = Listing { most: 1000, all_faces: true };
+    solve_with(problem, &SearchOptions::default(), listing, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn lcp(m: DMatrix<f64>, q: &[f64]) -> RawProblem {
+    RawProblem::LinearComplementarity { m, q: DVector::from_column_slice(q) }
+}
+
+/// `z - w` of the vertices and directions of a continuum that has one part.
+fn generators(continuum: &RawContinuum) -> Vec<Vec<f64>> {
+    let [part] = continuum.parts.as_slice() else { panic!("one part") };
+    part.vertices.iter().chain(&part.directions).map(signed).collect()
+}
+
+fn signed(unknowns: &Unknowns) -> Vec<f64> {
+    let Unknowns::Complementary { z, w } = unknowns else { panic!("z and w") };
+    z.iter().zip(w).map(|(z, w)| z - w).collect()
+}
+
+/// Whether solutions are all that a pattern admits, or part of it: none has the other sign anywhere.
+fn fits(values: &[f64], pattern: &str) -> bool {
+    let fits = |(value, side): (&f64, char)| if side == '+' { *value >= 0.0 } else { *value <= 0.0 };
+    values.iter().zip(pattern.chars()).all(fits)
 }
 
 /// A size with numbers for two matrices and a vector. Random ones, so that no pattern is degenerate.
@@ -105,13 +134,33 @@ proptest! {
             prop_assert!(solution.residual.unwrap() <= 1e-14);
         }
         for continuum in &report.continua {
-            prop_assert!(!continuum.vertices.is_empty());
-            for direction in &continuum.directions {
+            let [part] = continuum.parts.as_slice() else { panic!("one part") };
+            prop_assert!(!part.vertices.is_empty());
+            for direction in &part.directions {
                 let Unknowns::Complementary { z, w } = direction else { panic!("z and w") };
                 prop_assert!((&m * DVector::from_column_slice(z) - DVector::from_column_slice(w)).amax() <= 1e-12);
             }
         }
-        prop_assert!(to_json(&report).contains("slideway/modes/1"));
+        // What is left out is part of what is listed, and nothing else is: told from the signs that patterns allow.
+        let all = with_all_faces(&problem);
+        let sets: Vec<(&str, Vec<Vec<f64>>)> =
+            all.continua.iter().map(|one| (one.pattern.as_str(), generators(one))).collect();
+        for (at, (continuum, (_, own))) in all.continua.iter().zip(&sets).enumerate() {
+            let within = |(other, (pattern, _)): (usize, &(&str, _))| other != at && own.iter().all(|point| fits(point, pattern));
+            prop_assert_eq!(continuum.maximal, !sets.iter().enumerate().any(within));
+        }
+        for solution in &all.solutions {
+            let point = signed(&solution.unknowns);
+            prop_assert_eq!(solution.maximal, !sets.iter().any(|(pattern, _)| fits(&point, pattern)));
+            prop_assert_eq!(solution.maximal, solution.end_of_continuum.is_none());
+        }
+        let maximal: Vec<&RawContinuum> = all.continua.iter().filter(|one| one.maximal).collect();
+        prop_assert_eq!(&maximal, &report.continua.iter().collect::<Vec<_>>());
+        prop_assert_eq!(all.continua.len() - maximal.len(), report.faces.continua.parse::<usize>().unwrap());
+        let ends = all.solutions.iter().filter(|one| !one.maximal).count();
+        prop_assert_eq!(ends, report.faces.solutions.parse::<usize>().unwrap());
+        prop_assert_eq!(report.solutions.len(), report.count.parse::<usize>().unwrap());
+        prop_assert!(to_json(&report).contains("slideway/modes/2"));
         prop_assert!(to_text(&report, Style::Plain).contains("complete: "));
         prop_assert!(to_npz(&report).starts_with(b"PK"));
     }
@@ -161,9 +210,11 @@ fn continua_among_very_many_solutions_are_listed() {
     q[n / 2] = 0.0;
     let report = solved(&RawProblem::LinearComplementarity { m, q });
     assert_eq!(report.status, Status::Continuum);
-    assert_eq!(report.count, (1_u128 << 70).to_string());
+    // The single solutions are the ends of the rays.
+    assert_eq!((report.count.as_str(), report.solutions.len()), ("0", 0));
+    assert_eq!(report.faces.solutions, (1_u128 << 70).to_string());
     assert_eq!(report.continuum_count, (1_u128 << 70).to_string());
-    assert_eq!((report.solutions.len(), report.continua.len()), (1000, 1000));
+    assert_eq!(report.continua.len(), 1000);
 }
 
 fn solution_of(json: &str) -> RawReport {
@@ -208,7 +259,9 @@ fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
     let report =
         solution_of(r#"{"type": "lcp", "M": [[1e-300, -1e-300], [-1e-300, 1e-300]], "q": [-1e10, 1e10]}"#);
     assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
-    let Unknowns::Complementary { z, .. } = &report.continua[0].vertices[0] else { panic!("z and w") };
+    let Unknowns::Complementary { z, .. } = &report.continua[0].parts[0].vertices[0] else {
+        panic!("z and w")
+    };
     assert!(z[0].is_nan() && z[1] == 0.0, "{z:?}");
     assert!(to_text(&report, Style::Plain).contains("beyond the range of numbers"));
 }
@@ -251,4 +304,125 @@ fn without_proofs_nothing_is_proven() {
     let options = SearchOptions { certify: false, ..SearchOptions::default() };
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!((report.count.as_str(), report.complete), ("1", "not proven"));
+}
+
+/// `w = 0` for every `z >= 0`: one orthant, whose 7 faces are what the other patterns admit.
+#[test]
+fn an_orthant_is_one_continuum() {
+    let problem = lcp(DMatrix::zeros(3, 3), &[0.0; 3]);
+    let report = solved(&problem);
+    assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
+    assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
+    assert_eq!((report.faces.solutions.as_str(), report.faces.continua.as_str()), ("1", "6"));
+    assert!(report.solutions.is_empty());
+    let [orthant] = report.continua.as_slice() else { panic!("one") };
+    assert_eq!((orthant.parts[0].vertex_count, orthant.parts[0].direction_count), (1, 3));
+
+    let all = with_all_faces(&problem);
+    assert_eq!((all.solutions.len(), all.continua.len()), (1, 7));
+    assert_eq!(all.solutions[0].end_of_continuum, Some(0));
+    assert_eq!(all.continua.iter().filter(|continuum| continuum.maximal).count(), 1);
+}
+
+/// Each unknown by itself is a ray; the product of 400 rays is told as such.
+#[test]
+fn an_orthant_of_many_unknowns_is_told_in_few_words() {
+    let report = solved(&lcp(DMatrix::zeros(400, 400), &[0.0; 400]));
+    assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
+    // 2^400 patterns, each with a face; all but the whole one and the end.
+    assert!(report.faces.continua.starts_with("258224987808690858965591917200"));
+    assert_eq!(report.continua[0].parts.len(), 400);
+    assert!(to_json(&report).len() < 500_000 && to_text(&report, Style::Plain).len() < 5000);
+}
+
+/// What is listed of each part is bounded, too.
+#[test]
+fn a_cube_of_many_corners_lists_those_that_were_asked_for() {
+    // z_1 + ... + z_9 = 1: a simplex with 9 ends.
+    let problem = lcp(DMatrix::from_element(9, 9, 1.0), &[-1.0; 9]);
+    let report = solve(&problem, &SearchOptions::default(), 4, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
+    let part = &report.continua[0].parts[0];
+    assert_eq!((part.vertices.len(), part.vertex_count), (4, 9));
+    assert!(to_text(&report, Style::Plain).contains("There are 5 ends and directions more"));
+}
+
+/// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and no
+/// part of it.
+#[test]
+fn a_solution_close_to_a_continuum_is_no_end_of_it() {
+    let json = br#"{"type": "modes", "columns_positive": [[0, 0, 2], [0, 1, 0], [0, 0, 1]],
+        "columns_negative": [[1, 0, 1], [0, -1, 0], [0, 0, 1]], "right_hand_side": [2e-10, 1, 1e-10]}"#;
+    let report = with_all_faces(&RawProblem::from_json(json).unwrap());
+    let ends: Vec<(Vec<i8>, Option<usize>)> =
+        report.solutions.iter().map(|one| (one.signs.clone(), one.end_of_continuum)).collect();
+    assert_eq!(ends, [(vec![0, 1, 1], Some(0)), (vec![-1, 1, -1], None)]);
+}
+
+/// `z_k` is 0 or 1, and the last two rows ask for `sum a_k z_k = b`: with even `a_k` and odd `b` there is no
+/// solution, and a group of the last unknowns finds that out for each of 2^40 combinations. A search that is ended
+/// does not go through all of them.
+#[test]
+fn a_search_among_very_many_combinations_ends_when_it_is_told_to() {
+    let n = 40;
+    let m = DMatrix::from_fn(n + 2, n + 2, |row, column| match (row, column) {
+        (row, column) if column < n && row == n => 2.0 * (column * column + 1) as f64,
+        (row, column) if column < n && row == n + 1 => -2.0 * (column * column + 1) as f64,
+        (row, column) if row == column && row < n => -1.0,
+        _ => 0.0,
+    });
+    let q = DVector::from_fn(n + 2, |row, _| if row < n { 1.0 } else { [-20_001.0, 20_001.0][row - n] });
+    let options = SearchOptions { nodes: 500, ..SearchOptions::default() };
+    let problem = RawProblem::LinearComplementarity { m, q };
+    let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!((report.status, report.partial), (Status::Unknown, true));
+    assert!(report.open[0].starts_with("the limit of 500 nodes was reached"), "{:?}", report.open);
+}
+
+#[test]
+fn a_limit_of_solutions_is_told() {
+    let limits = Limits { solutions: 2, ..Limits::default() };
+    let options = SearchOptions { limits, ..SearchOptions::default() };
+    // z = 0 and w = 1, or z = 1 and w = 0, for each of three unknowns.
+    let problem = lcp(-DMatrix::identity(3, 3), &[1.0; 3]);
+    let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!((report.count.as_str(), report.complete, report.partial), ("2", "not proven", true));
+    assert!(report.open[0].starts_with("the limit of 2 solutions of a group"), "{:?}", report.open);
+}
+
+/// A pile without friction: `M = J J^T` of rank 2 for four contacts, and `q = -M z` for `z = (2, 3, 3, 0)`, so that
+/// this `z` with `w = 0` is a solution. Rounding of `M` and `q` takes all solutions away.
+#[test]
+fn a_pile_without_friction_has_a_solution_within_rounding() {
+    let j = [[-0.8, 0.2], [0.9, -0.9], [-0.2, 0.7], [0.1, 0.6]];
+    let m = DMatrix::from_fn(4, 4, |row, column| j[row][0] * j[column][0] + j[row][1] * j[column][1]);
+    let q = DVector::from_fn(4, |row, _| {
+        [2.0, 3.0, 3.0, 0.0].iter().enumerate().fold(0.0, |sum, (at, z)| sum - m[(row, at)] * z)
+    });
+    let report = solved(&lcp(m.clone(), q.as_slice()));
+    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    let within = report.within_rounding.as_ref().unwrap();
+    assert_eq!(within.answer, "solution");
+    let Some(Unknowns::Complementary { z, w }) = &within.unknowns else { panic!("z and w") };
+    let z = DVector::from_column_slice(z);
+    assert!(z.amax() < 10.0 && z.min() >= 0.0);
+    // The problem is monotone, so that w is the same for all solutions: zero.
+    assert!(w.iter().all(|&w| w == 0.0));
+    let (left, size) = (&m * &z + &q, &m.abs() * &z + q.abs());
+    assert!(left.iter().zip(&size).all(|(left, size)| left.abs() <= 2e-15 * size));
+    // The same in exact numbers: J^T z is that of the z above, (0.5, -0.2).
+    let forces = [0, 1].map(|at| (0..4).map(|row| j[row][at] * z[row]).sum::<f64>());
+    assert!((forces[0] - 0.5).abs() < 1e-14 && (forces[1] + 0.2).abs() < 1e-14, "{forces:?}");
+    assert!(to_text(&report, Style::Plain).contains("Hint: within rounding of the numbers (relative 1e-15)"));
+}
+
+#[test]
+fn what_rounding_does_not_change_gets_no_hint() {
+    let answer =
+        |json: &[u8]| solved(&RawProblem::from_json(json).unwrap()).within_rounding.map(|it| it.answer);
+    // w = z - 1 with z = 0: zeros are exact.
+    assert_eq!(answer(br#"{"M": [[0]], "q": [-1]}"#), Some("none"));
+    // With 0.1 + 1e-16 on the diagonal z_1 = z_2 = 1e16 would do: rounding would carry the load.
+    assert_eq!(answer(br#"{"M": [[0.1, -0.1], [-0.1, 0.1]], "q": [-1, -1]}"#), Some("unknown"));
+    assert_eq!(answer(br#"{"M": [[2]], "q": [-1]}"#), None);
 }

@@ -198,8 +198,8 @@ fn limits_and_cancellation_give_partial_answers() -> Outcome {
         if progress.done < 30 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })?;
     assert_eq!(result.completeness, Completeness::Partial(StopReason::Cancelled));
-    assert_eq!(fractions.len(), 30);
-    assert!(fractions.is_sorted() && fractions[0] == 0.0 && fractions[29] < 1.0);
+    assert!(fractions.len() >= 30);
+    assert!(fractions.is_sorted() && fractions[0] == 0.0 && fractions[fractions.len() - 1] < 1.0);
     assert!(result.completeness.to_string().starts_with("partial"));
     Ok(())
 }

@@ -40,6 +40,10 @@ pub(crate) struct ModesArguments {
     #[arg(long, value_enum)]
     format: Option<ModesFormat>,
 
+    /// List also what is part of a larger continuum: its ends and its faces.
+    #[arg(long)]
+    pub(crate) all_faces: bool,
+
     #[command(flatten)]
     pub(crate) search: SearchArguments,
 

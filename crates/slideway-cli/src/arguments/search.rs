@@ -2,7 +2,7 @@
 
 use super::TimeArguments;
 use clap::Args;
-use slideway::modes::SearchOptions;
+use slideway::modes::{Limits, SearchOptions};
 
 /// What a search for solutions may cost, and how much of it is told.
 #[derive(Debug, Args)]
@@ -15,6 +15,10 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N")]
     max_nodes: Option<u64>,
 
+    /// End the search once a group of contacts or unknowns has so many solutions; the answer is then partial.
+    #[arg(long, value_name = "N", default_value_t = Limits::default().solutions)]
+    max_found: usize,
+
     #[command(flatten)]
     pub(crate) time: TimeArguments,
 }
@@ -23,6 +27,7 @@ impl SearchArguments {
     /// The options of the search.
     pub(crate) fn options(&self) -> SearchOptions {
         let defaults = SearchOptions::default();
-        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), ..defaults }
+        let limits = Limits { solutions: self.max_found, ..defaults.limits };
+        SearchOptions { nodes: self.max_nodes.unwrap_or(defaults.nodes), limits, ..defaults }
     }
 }

@@ -6,7 +6,9 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
-use slideway::raw_problem::{RawFault, RawProblem, SIZE_LIMIT, solve, to_json, to_npz, to_text};
+use slideway::raw_problem::{
+    Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_json, to_npz, to_text,
+};
 use slideway::report::Status;
 
 /// Finds and writes all solutions of a problem given by its matrices.
@@ -16,7 +18,8 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     let SearchArguments { max_solutions, time, .. } = &arguments.search;
     let mut watch = Watch::new(time.time_limit);
     let options = arguments.search.options();
-    let report = solve(&problem, &options, *max_solutions, &mut |progress| watch.look(progress))
+    let listing = Listing { most: *max_solutions, all_faces: arguments.all_faces };
+    let report = solve_with(&problem, &options, listing, &mut |progress| watch.look(progress))
         .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
     let halt = watch.finish();
     match arguments.format() {

@@ -28,6 +28,16 @@ impl ContactSet {
         self.words.iter().all(|&word| word == 0)
     }
 
+    /// The number of contacts in the set.
+    pub(super) fn len(&self) -> usize {
+        self.words.iter().map(|word| word.count_ones() as usize).sum()
+    }
+
+    /// Whether another set, of as many contacts, holds all of this one.
+    pub(super) fn is_within(&self, other: &Self) -> bool {
+        self.words.iter().zip(&other.words).all(|(own, others)| own & !others == 0)
+    }
+
     /// The contacts of the set in increasing order.
     pub(super) fn iter(&self) -> impl Iterator<Item = usize> {
         (0..64 * self.words.len()).filter(|&contact| self.contains(contact))
@@ -48,5 +58,9 @@ mod tests {
         set.remove(64);
         assert_eq!(set.iter().collect::<Vec<_>>(), [0, 129]);
         assert!(set.contains(129) && !set.contains(64));
+        assert_eq!(set.len(), 2);
+        let mut more = set.clone();
+        more.insert(70);
+        assert!(set.is_within(&more) && set.is_within(&set) && !more.is_within(&set));
     }
 }

@@ -8,6 +8,7 @@ use super::enumeration::EnumerationError;
 use super::findings::{Findings, SUSPECT_CONDITION};
 use super::scaling::ScaledProblem;
 use super::solutions::{Certificate, ContactState, SolutionSet, UndecidedPattern};
+use super::support::Support;
 
 /// Whether a decision settled a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,11 +28,12 @@ enum Centre {
 }
 
 impl Findings<'_> {
-    /// Files a pattern by its decision.
+    /// Files a pattern by its decision. What is not decided yet is left open once `proceed` is false.
     pub(super) fn file_decision(
         &mut self,
         pattern: &[ContactState],
         decision: Decision,
+        proceed: &mut dyn FnMut() -> bool,
     ) -> Result<Filed, EnumerationError> {
         match decision {
             Decision::NoSolution { .. } => self.count_no_solution(pattern.contains(&ContactState::Gap)),
@@ -49,14 +51,18 @@ impl Findings<'_> {
                 self.file_admissible(pattern, candidate, certificate)?;
             }
             Decision::Singular { set: ExactSet::NotComputed } => {
-                self.examine_suspect(pattern)?;
+                self.examine_suspect(pattern, proceed)?;
                 return Ok(Filed::NotProven);
             }
             Decision::Singular { set } => {
                 self.examined += 1;
-                self.file_singular(pattern, set.normal_forces(pattern), Certificate::Singular);
+                let support = Support::of_exact_set(pattern, &set, &self.problem.has_jump);
+                self.file_singular(pattern, (set.normal_forces(pattern), support), Certificate::Singular);
             }
-            Decision::Undecided { unknowns, in_doubt } => self.file_undecided(pattern, unknowns, in_doubt)?,
+            Decision::Undecided { unknowns, in_doubt } => {
+                let centre = self.centre(pattern, proceed);
+                self.file_undecided(pattern, unknowns, in_doubt, centre)?;
+            }
         }
         Ok(Filed::Proven)
     }
@@ -68,15 +74,17 @@ impl Findings<'_> {
         pattern: &[ContactState],
         unknowns: Option<Vec<Interval>>,
         in_doubt: Vec<usize>,
+        centre: Centre,
     ) -> Result<(), EnumerationError> {
-        match self.centre(pattern) {
+        match centre {
             Centre::Solution(candidate) => {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
                 self.file_admissible(pattern, candidate, certificate)
             }
             Centre::Set(set) => {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
-                self.file_singular(pattern, set, certificate);
+                let support = Support::of_set(pattern, &set, &self.problem.has_jump);
+                self.file_singular(pattern, (set, support), certificate);
                 Ok(())
             }
             Centre::Nothing if self.undecided.len() >= self.limits.solutions => {
@@ -95,7 +103,7 @@ impl Findings<'_> {
     }
 
     /// What the pattern admits in the middle of the bounds, within tolerances.
-    fn centre(&mut self, pattern: &[ContactState]) -> Centre {
+    fn centre(&mut self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> Centre {
         let judged = |candidate: Candidate| {
             if candidate.admissible { Centre::Solution(candidate) } else { Centre::Nothing }
         };
@@ -107,7 +115,7 @@ impl Findings<'_> {
             return Centre::NotExamined;
         }
         self.examined += 1;
-        match examine(self.problem, pattern, &mut self.bases) {
+        match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => candidate.map_or(Centre::Nothing, judged),
             Examined::Singular(set) if set.vertices().is_empty() => Centre::Nothing,
             Examined::Singular(set) => Centre::Set(set),

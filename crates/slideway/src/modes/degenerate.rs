@@ -23,8 +23,13 @@ pub(super) enum Examined {
 }
 
 /// Whether a pattern is singular, by elimination with complete pivoting, and what it admits.
-/// `bases` is the work that is left and gets less.
-pub(super) fn examine(problem: &ScaledProblem, pattern: &[ContactState], bases: &mut u64) -> Examined {
+/// `bases` is the work that is left and gets less. A set is not computed once `proceed` is false.
+pub(super) fn examine(
+    problem: &ScaledProblem,
+    pattern: &[ContactState],
+    bases: &mut u64,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Examined {
     let contacts = pattern.len();
     let (mut matrix, right_hand_side) = problem.system(pattern);
     let column_sizes = scale_columns(&mut matrix);
@@ -32,7 +37,7 @@ pub(super) fn examine(problem: &ScaledProblem, pattern: &[ContactState], bases: 
         return Examined::Regular;
     }
     let (matrix, right_hand_side) = with_share_limits(&matrix, &right_hand_side, pattern, &column_sizes);
-    let Some(polyhedron) = Polyhedron::new(&matrix, &right_hand_side, bases) else {
+    let Some(polyhedron) = Polyhedron::new(&matrix, &right_hand_side, bases, proceed) else {
         return Examined::Singular(SolutionSet::NotComputed);
     };
     // Signed normal forces from scaled unknowns; shares and their complements are left out.
@@ -143,8 +148,13 @@ struct Polyhedron {
 }
 
 impl Polyhedron {
-    /// None if there are more bases to try than `bases` allows.
-    fn new(matrix: &DMatrix<f64>, right_hand_side: &DVector<f64>, bases: &mut u64) -> Option<Self> {
+    /// None if there are more bases to try than `bases` allows, or once `proceed` is false.
+    fn new(
+        matrix: &DMatrix<f64>,
+        right_hand_side: &DVector<f64>,
+        bases: &mut u64,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Self> {
         let reduced = Reduced::new(augment(matrix, right_hand_side));
         if !reduced.is_consistent() {
             return Some(Self { vertices: Vec::new(), directions: Vec::new() });
@@ -159,27 +169,30 @@ impl Polyhedron {
         homogeneous.column_mut(unknowns).fill(0.0);
         homogeneous[(rank, unknowns)] = 1.0;
         Some(Self {
-            vertices: basic_feasible_points(&equations),
-            directions: basic_feasible_points(&homogeneous),
+            vertices: basic_feasible_points(&equations, proceed)?,
+            directions: basic_feasible_points(&homogeneous, proceed)?,
         })
     }
 }
 
 /// All points `z >= 0` that solve the independent equations with as many non-zero unknowns as there
-/// are equations.
-fn basic_feasible_points(equations: &DMatrix<f64>) -> Vec<DVector<f64>> {
+/// are equations; none once `proceed` is false.
+fn basic_feasible_points(
+    equations: &DMatrix<f64>,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Vec<DVector<f64>>> {
     let rank = equations.nrows();
     let unknowns = equations.ncols() - 1;
     let right_hand_side = equations.column(unknowns).into_owned();
     let mut points = Vec::new();
     if rank > unknowns {
-        return points;
+        return Some(points);
     }
     if rank == 0 {
-        return vec![DVector::zeros(unknowns)];
+        return Some(vec![DVector::zeros(unknowns)]);
     }
     let mut basis: Vec<usize> = (0..rank).collect();
-    loop {
+    while proceed() {
         let factors = equations.select_columns(&basis).lu();
         let regular = factors.lu_internal().diagonal().iter().all(|pivot| pivot.abs() > CONSISTENT);
         if let Some(values) = factors.solve(&right_hand_side).filter(|_| regular) {
@@ -193,9 +206,10 @@ fn basic_feasible_points(equations: &DMatrix<f64>) -> Vec<DVector<f64>> {
             }
         }
         if !next_combination(&mut basis, unknowns) {
-            return points;
+            return Some(points);
         }
     }
+    None
 }
 
 /// Advances an increasing list of indices below `count` to the next one in lexicographic order.

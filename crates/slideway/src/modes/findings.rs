@@ -11,9 +11,10 @@ use super::enumeration::{EnumerationError, Limits};
 use super::found::{Found, oriented, sides};
 use super::scaling::ScaledProblem;
 use super::solutions::{
-    Certificate, ClosestMode, ContactState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
+    Certificate, ClosestMode, ContactState, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
     Solutions, UndecidedPattern,
 };
+use super::support::Support;
 
 /// How many patterns close to locking are reported.
 const CLOSEST: usize = 4;
@@ -135,7 +136,12 @@ impl<'a> Findings<'a> {
     }
 
     /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
-    pub(super) fn examine_leaf(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+    /// What a singular pattern admits is left open once `proceed` is false.
+    pub(super) fn examine_leaf(
+        &mut self,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(), EnumerationError> {
         match solve_pattern(self.problem, pattern) {
             Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
                 self.file_candidate(pattern, candidate)
@@ -144,17 +150,22 @@ impl<'a> Findings<'a> {
                 self.leave_unexamined(pattern, pattern.len());
                 Ok(())
             }
-            _ => self.examine_suspect(pattern),
+            _ => self.examine_suspect(pattern, proceed),
         }
     }
 
     /// A closer look at a pattern that may be singular.
-    pub(super) fn examine_suspect(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
+    pub(super) fn examine_suspect(
+        &mut self,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(), EnumerationError> {
         self.examined += 1;
-        match examine(self.problem, pattern, &mut self.bases) {
+        match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => self.examine_candidate(pattern),
             Examined::Singular(set) => {
-                self.file_singular(pattern, set, Certificate::NotProven);
+                let support = Support::of_set(pattern, &set, &self.problem.has_jump);
+                self.file_singular(pattern, (set, support), Certificate::NotProven);
                 Ok(())
             }
         }
@@ -254,7 +265,7 @@ impl<'a> Findings<'a> {
             }
             return Ok(());
         }
-        self.examine_suspect(pattern)
+        self.examine_suspect(pattern, &mut || true)
     }
 
     pub(super) fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
@@ -270,7 +281,7 @@ impl<'a> Findings<'a> {
     pub(super) fn file_singular(
         &mut self,
         pattern: &[ContactState],
-        set: SolutionSet,
+        (set, support): (SolutionSet, Support),
         certificate: Certificate,
     ) {
         self.counts_of(pattern).count_set(&set);
@@ -294,6 +305,8 @@ impl<'a> Findings<'a> {
             pattern_count: 1,
             set,
             contains: Vec::new(),
+            maximal: true,
+            support,
             certificate,
         });
     }
@@ -310,11 +323,12 @@ impl<'a> Findings<'a> {
             if known {
                 self.undecided.extend(gap.into_undecided());
             } else {
-                new_gaps.push(gap.into_gap_state());
+                new_gaps.push(gap.into_gap_state(&self.problem.has_jump));
             }
         }
-        let gaps = new_gaps;
-        let solutions: Vec<ModeSolution> = ordinary.into_iter().map(Found::into_mode_solution).collect();
+        let mut gaps = new_gaps;
+        let solution = |found: Found| found.into_mode_solution(&self.problem.has_jump);
+        let mut solutions: Vec<ModeSolution> = ordinary.into_iter().map(solution).collect();
         let mut singular = std::mem::take(&mut self.singular);
         for mode in &mut singular {
             let vertices = mode.set.vertices();
@@ -325,6 +339,7 @@ impl<'a> Findings<'a> {
             let contained = contained.map(|(index, _)| index).collect();
             mode.contains = contained;
         }
+        mark_parts(&mut solutions, &mut gaps, &mut singular);
         let closest = if solutions.is_empty() { self.closest_modes() } else { Vec::new() };
         let (counts, gap_counts, undecided) = (self.counts, self.gap_counts, self.undecided);
         Solutions { counts, gap_counts, solutions, gaps, singular, undecided, closest }
@@ -401,6 +416,23 @@ impl<'a> Findings<'a> {
         });
         solved.collect()
     }
+}
+
+/// Marks what is part of a larger set.
+fn mark_parts(solutions: &mut [ModeSolution], gaps: &mut [GapState], singular: &mut [SingularMode]) {
+    let continua = singular.iter().filter(|mode| mode.set.is_continuum());
+    let mut supports: Vec<&Support> = continua.map(|mode| &mode.support).collect();
+    supports.sort_by_key(|support| std::cmp::Reverse(support.len()));
+    let mut largest: Vec<Support> = Vec::new();
+    for support in supports {
+        if !largest.iter().any(|other| support.is_part_of(other)) {
+            largest.push(support.clone());
+        }
+    }
+    let is_maximal = |support: &Support| !largest.iter().any(|other| support.is_part_of(other));
+    solutions.iter_mut().for_each(|solution| solution.maximal = is_maximal(&solution.support));
+    gaps.iter_mut().for_each(|gap| gap.maximal = is_maximal(&gap.support));
+    singular.iter_mut().for_each(|mode| mode.maximal = is_maximal(&mode.support));
 }
 
 /// The contacts whose normal forces are positive, and negative, somewhere in a set.

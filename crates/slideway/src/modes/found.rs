@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::candidate::Candidate;
 use super::problem::Side;
 use super::solutions::{Certificate, ContactState, GapShare, GapState, ModeSolution, UndecidedPattern};
+use super::support::Support;
 
 /// A solution or gap state with the patterns that give it.
 pub(super) struct Found {
@@ -81,8 +82,12 @@ impl Found {
         self.pattern().iter().enumerate().map(sign).collect()
     }
 
-    pub(super) fn into_mode_solution(self) -> ModeSolution {
-        let pattern = sides(self.pattern());
+    fn support(&self, has_jump: &[bool]) -> Support {
+        Support::of_point(self.pattern(), &self.candidate, has_jump)
+    }
+
+    pub(super) fn into_mode_solution(self, has_jump: &[bool]) -> ModeSolution {
+        let (pattern, support) = (sides(self.pattern()), self.support(has_jump));
         ModeSolution {
             signs: self.signs(),
             y: self.normal_force.abs(),
@@ -93,6 +98,8 @@ impl Found {
             patterns: self.patterns.iter().map(|pattern| sides(pattern)).collect(),
             pattern_count: self.pattern_count,
             tolerance: self.candidate.tolerance,
+            maximal: true,
+            support,
             certificate: self.certificate,
             normal_force: self.normal_force,
         }
@@ -107,7 +114,8 @@ impl Found {
         Some(UndecidedPattern { pattern, patterns: self.patterns, unknowns, in_doubt })
     }
 
-    pub(super) fn into_gap_state(self) -> GapState {
+    pub(super) fn into_gap_state(self, has_jump: &[bool]) -> GapState {
+        let support = self.support(has_jump);
         let in_gap =
             (0..self.pattern().len()).filter(|&contact| self.pattern()[contact] == ContactState::Gap);
         let share = |contact| GapShare { contact, lambda: self.candidate.unknowns[contact] };
@@ -121,6 +129,8 @@ impl Found {
             patterns: self.patterns,
             pattern_count: self.pattern_count,
             tolerance: self.candidate.tolerance,
+            maximal: true,
+            support,
             certificate: self.certificate,
             normal_force: self.normal_force,
         }

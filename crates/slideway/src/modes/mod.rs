@@ -54,6 +54,7 @@ mod scaling;
 pub(crate) mod screen;
 mod search;
 mod solutions;
+pub(crate) mod support;
 mod uniqueness;
 
 pub use enumeration::{EnumerationError, Limits, enumerate};

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use super::certificate::Interval;
 use super::problem::Side;
+use super::support::Support;
 
 /// What one contact does in a pattern: pressed on one of its sides, or between its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -157,6 +158,10 @@ pub struct ModeSolution {
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
+    /// Whether it is not part of a continuum that was found, too: exactly, if the data are exact, else within
+    /// tolerances.
+    pub maximal: bool,
+    pub(crate) support: Support,
     /// What is proven of it.
     pub certificate: Certificate,
 }
@@ -186,6 +191,10 @@ pub struct GapState {
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
+    /// Whether it is not part of a continuum that was found, too: exactly, if the data are exact, else within
+    /// tolerances.
+    pub maximal: bool,
+    pub(crate) support: Support,
     /// What is proven of it.
     pub certificate: Certificate,
 }
@@ -285,6 +294,10 @@ pub struct SingularMode {
     /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
     /// reported there as well.
     pub contains: Vec<usize>,
+    /// Whether it is not part of a larger continuum that was found, too: exactly, if the data are exact, else within
+    /// tolerances.
+    pub maximal: bool,
+    pub(crate) support: Support,
     /// What is proven of it.
     pub certificate: Certificate,
 }

@@ -32,9 +32,12 @@
 
 mod answer;
 mod assemble;
+mod continuum;
 mod fault;
 mod json;
 mod kind;
+mod listing;
+mod nearby;
 mod npy;
 mod npz;
 mod range;
@@ -45,11 +48,13 @@ mod tables;
 mod text;
 mod values;
 
-pub use answer::solve;
+pub use answer::{solve, solve_with};
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
+pub use listing::Listing;
 pub use report::{
-    BeyondRange, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA, Unknowns, to_json,
+    BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawSolution, SCHEMA,
+    Unknowns, WithinRounding, to_json,
 };
 pub use shape::Shape;
 pub use tables::to_npz;

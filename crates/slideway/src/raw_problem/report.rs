@@ -7,7 +7,7 @@ use super::range::in_range;
 use crate::report::Status;
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
-pub const SCHEMA: &str = "slideway/modes/1";
+pub const SCHEMA: &str = "slideway/modes/2";
 
 /// All solutions of a raw problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,13 +27,22 @@ pub struct RawReport {
     pub partial: bool,
     /// What remains open, in words; empty if `complete` is "proven".
     pub open: Vec<String>,
-    /// Number of solutions found, as decimal text: it may be beyond any integer type. Continua and
-    /// gap states are not among them.
+    /// Number of solutions found that are part of no continuum, as decimal text: it may be beyond any
+    /// integer type. Gap states are not among them.
     pub count: String,
     /// Number of states with an unknown in its preload gap, likewise.
     pub gap_state_count: String,
-    /// Number of continua, likewise.
+    /// Number of continua that are not part of larger ones, likewise.
     pub continuum_count: String,
+    /// What is part of a larger continuum.
+    pub faces: Faces,
+    /// How many solutions, gap states and continua there are to list.
+    #[serde(skip)]
+    pub(super) totals: [String; 3],
+    /// Whether there is a solution within rounding of the numbers; only if there is none for the numbers
+    /// themselves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within_rounding: Option<WithinRounding>,
     /// The solutions, not more than was asked for.
     pub solutions: Vec<RawSolution>,
     /// States with an unknown in its preload gap, likewise (theory, section 3).
@@ -46,6 +55,20 @@ pub struct RawReport {
     pub nodes: u64,
     /// The groups of unknowns that were searched one by one.
     pub groups: Vec<RawGroup>,
+}
+
+/// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of other
+/// patterns.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Faces {
+    /// Number of solutions, as decimal text.
+    pub solutions: String,
+    /// Number of states in preload gaps, likewise.
+    pub gap_states: String,
+    /// Number of continua, likewise.
+    pub continua: String,
+    /// Whether they are listed with the others.
+    pub listed: bool,
 }
 
 /// The unknowns by the names that the problem's type has for them. NaN (in JSON `null`) is no value: see
@@ -111,6 +134,19 @@ impl Unknowns {
     }
 }
 
+/// What numbers that differ from those given by rounding alone have for solutions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WithinRounding {
+    /// Every number may differ by this part of its size.
+    pub relative: f64,
+    /// "solution": some such numbers have the solution that is told; "none": none have any, which is proven;
+    /// "unknown".
+    pub answer: &'static str,
+    /// The solution.
+    #[serde(flatten)]
+    pub unknowns: Option<Unknowns>,
+}
+
 /// One solution, or one state with an unknown in its gap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RawSolution {
@@ -121,6 +157,8 @@ pub struct RawSolution {
     pub signs: Vec<i8>,
     /// Whether some sign is 0 outside of a gap: the solution is on the boundary between patterns.
     pub on_boundary: bool,
+    /// Whether it is part of no continuum.
+    pub maximal: bool,
     /// No unknown that has a number is farther than this from the exact solution of the numbers given; absent
     /// if that was not established.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -132,7 +170,7 @@ pub struct RawSolution {
     /// Unknowns that exist and have no floating-point number: theirs is `null`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beyond_range: Vec<BeyondRange>,
-    /// The continuum of the list `continua`, from 0, of which this is a vertex; absent if there is none.
+    /// The first continuum of the list `continua`, from 0, of which this is an end; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_of_continuum: Option<usize>,
     /// Unknowns in their gap.
@@ -161,19 +199,33 @@ pub struct GapShare {
     pub lambda: f64,
 }
 
-/// Infinitely many solutions: all convex combinations of the vertices plus all non-negative multiples
-/// of the directions. NaN (in JSON `null`) is a value that is not zero and beyond the range of floating-point numbers,
-/// as of a [`BeyondRange`]; its sign is that of the pattern.
+/// Infinitely many solutions: the unknowns of each part are in its set, whatever those of the other parts. NaN (in
+/// JSON `null`) is a value that is not zero and beyond the range of floating-point numbers, as of a [`BeyondRange`];
+/// its sign is that of the pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RawContinuum {
     /// "+", "-" or "0" (in the gap) for every unknown.
     pub pattern: String,
-    /// The vertices: the ends of a segment, the end of a ray.
+    /// Whether it is not part of a larger continuum.
+    pub maximal: bool,
+    /// Its parts: unknowns that vary together, and last those that are fixed, if any.
+    pub parts: Vec<ContinuumPart>,
+}
+
+/// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of the
+/// directions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContinuumPart {
+    /// The unknowns, from 0; vertices and directions have one entry for each.
+    pub indices: Vec<usize>,
+    /// The vertices, not more than was asked for: the ends of a segment, the end of a ray.
     pub vertices: Vec<Unknowns>,
-    /// Directions in which the set is unbounded.
+    /// Directions in which the set is unbounded, likewise.
     pub directions: Vec<Unknowns>,
-    /// Whether all vertices are listed.
-    pub all_vertices: bool,
+    /// Number of all vertices.
+    pub vertex_count: usize,
+    /// Number of all directions.
+    pub direction_count: usize,
 }
 
 /// A group of unknowns that was searched by itself.

@@ -1,18 +1,22 @@
 //! The report as a NumPy archive.
 
-use super::report::{BeyondRange, RawReport, RawSolution, Unknowns};
+use super::report::{BeyondRange, ContinuumPart, RawReport, RawSolution, Unknowns};
 use super::{npy, npz};
 
 /// The report as a NumPy archive (`.npz`).
 ///
 /// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and
-/// `y`; likewise `signs`, `on_boundary`, `residual` and `enclosure_radius` (NaN where they were not
+/// `y`; likewise `signs`, `on_boundary`, `maximal`, `residual` and `enclosure_radius` (NaN where they were not
 /// established). States in preload gaps are in arrays with the prefix `gap_`, `gap_shares` being NaN
-/// outside of a gap. The rows of `vertex_...` and `direction_...` belong to the continua whose numbers
-/// are in `vertex_continuum` and `direction_continuum`. Unknowns beyond the range of floating-point numbers are NaN;
-/// if there are some, `beyond_range_row` (of the solution), `beyond_range_index`, `beyond_range_name` and
-/// `beyond_range_value` tell of them one by one, of gap states likewise with the prefix. `status`, `complete`, `partial`, `open`, `type`,
-/// `count`, `gap_state_count`, `continuum_count` and `schema` are those of [`RawReport`].
+/// outside of a gap. The rows of `vertex_...` and `direction_...` belong to the continua and their parts whose
+/// numbers are in `vertex_continuum`, `vertex_part`, `direction_continuum` and `direction_part`; they are zero outside
+/// of their part, so that a continuum is the sum of its parts. Unknowns beyond the range of floating-point numbers are
+/// NaN; if there are some, `beyond_range_row` (of the solution), `beyond_range_index`, `beyond_range_name` and
+/// `beyond_range_value` tell of them one by one, of gap states likewise with the prefix. `status`, `complete`,
+/// `partial`, `open`, `type`, `count`, `gap_state_count`, `continuum_count` and `schema` are those of [`RawReport`];
+/// `face_solution_count`, `face_gap_state_count` and `face_continuum_count` those of its `faces`. If there is no
+/// solution, `within_rounding` tells whether there is one within rounding of the numbers, and
+/// `within_rounding_z`, ... have it as their row.
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let mut archive = Archive { size: report.size, arrays: Vec::new() };
     let status = serde_json::to_value(report.status).ok();
@@ -25,6 +29,9 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
         ("count", &report.count),
         ("gap_state_count", &report.gap_state_count),
         ("continuum_count", &report.continuum_count),
+        ("face_solution_count", &report.faces.solutions),
+        ("face_gap_state_count", &report.faces.gap_states),
+        ("face_continuum_count", &report.faces.continua),
         ("strategy", &report.strategy),
     ] {
         archive.push(name, npy::write_texts(&[], &[text]));
@@ -32,6 +39,10 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
     archive.push("partial", npy::write_truths(&[], &[report.partial]));
     let open: Vec<&str> = report.open.iter().map(String::as_str).collect();
     archive.push("open", npy::write_texts(&[open.len()], &open));
+    if let Some(within) = &report.within_rounding {
+        archive.push("within_rounding", npy::write_texts(&[], &[within.answer]));
+        archive.unknowns(report, "within_rounding_", &within.unknowns.iter());
+    }
     archive.solutions(report);
     archive.gap_states(&report.gap_states);
     archive.continua(report);
@@ -72,6 +83,8 @@ impl Archive {
         self.push("signs", self.signs(solutions));
         let on_boundary: Vec<bool> = solutions.iter().map(|solution| solution.on_boundary).collect();
         self.push("on_boundary", npy::write_truths(&[solutions.len()], &on_boundary));
+        let maximal: Vec<bool> = solutions.iter().map(|solution| solution.maximal).collect();
+        self.push("maximal", npy::write_truths(&[solutions.len()], &maximal));
         let column = |value: fn(&RawSolution) -> f64| {
             npy::write_numbers(&[solutions.len()], &solutions.iter().map(value).collect::<Vec<_>>())
         };
@@ -136,20 +149,33 @@ impl Archive {
         if continua.is_empty() {
             return;
         }
-        self.unknowns(report, "vertex_", &continua.iter().flat_map(|continuum| &continuum.vertices));
-        self.unknowns(report, "direction_", &continua.iter().flat_map(|continuum| &continuum.directions));
-        let numbers = |length: fn(&super::RawContinuum) -> usize| {
-            let numbers: Vec<i64> = (0_i64..)
-                .zip(continua)
-                .flat_map(|(at, continuum)| std::iter::repeat_n(at, length(continuum)))
-                .collect();
-            npy::write_integers(&[numbers.len()], &numbers)
-        };
-        let (vertices, directions) = (numbers(|c| c.vertices.len()), numbers(|c| c.directions.len()));
-        self.push("vertex_continuum", vertices);
-        self.push("direction_continuum", directions);
+        self.corners(report, "vertex", |part| &part.vertices);
+        self.corners(report, "direction", |part| &part.directions);
+        let maximal: Vec<bool> = continua.iter().map(|continuum| continuum.maximal).collect();
+        self.push("continuum_maximal", npy::write_truths(&[maximal.len()], &maximal));
         let patterns: Vec<&str> = continua.iter().map(|continuum| continuum.pattern.as_str()).collect();
         self.push("continuum_pattern", npy::write_texts(&[patterns.len()], &patterns));
+    }
+
+    /// Rows for the vertices or the directions of all parts, zero outside of the part, and what they belong to.
+    fn corners(&mut self, report: &RawReport, name: &str, of: fn(&ContinuumPart) -> &[Unknowns]) {
+        let mut rows: Vec<(i64, i64, &ContinuumPart, &Unknowns)> = Vec::new();
+        for (number, continuum) in (0_i64..).zip(&report.continua) {
+            for (part_number, part) in (0_i64..).zip(&continuum.parts) {
+                rows.extend(of(part).iter().map(|row| (number, part_number, part, row)));
+            }
+        }
+        let names = Unknowns::new(report.kind, &[]);
+        for (at, (unknown, _)) in names.named().into_iter().enumerate() {
+            let mut values = vec![0.0; rows.len() * self.size];
+            for ((_, _, part, row), values) in rows.iter().zip(values.chunks_exact_mut(self.size.max(1))) {
+                part.indices.iter().zip(row.named()[at].1).for_each(|(&index, &value)| values[index] = value);
+            }
+            self.push(&format!("{name}_{unknown}"), npy::write_numbers(&[rows.len(), self.size], &values));
+        }
+        let (continua, parts): (Vec<i64>, Vec<i64>) = rows.iter().map(|row| (row.0, row.1)).unzip();
+        self.push(&format!("{name}_continuum"), npy::write_integers(&[rows.len()], &continua));
+        self.push(&format!("{name}_part"), npy::write_integers(&[rows.len()], &parts));
     }
 }
 

@@ -1,7 +1,9 @@
 //! The report of a raw problem as text for people.
 
 use super::RawKind;
-use super::report::{BeyondRange, RawReport, RawShares, RawSolution, Unknowns};
+use super::report::{
+    BeyondRange, ContinuumPart, RawReport, RawShares, RawSolution, Unknowns, WithinRounding,
+};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -9,6 +11,8 @@ use crate::report::{Status, Style, count};
 
 /// Groups that are told one by one.
 const GROUPS: usize = 8;
+/// Parts of a continuum that are told one by one.
+const PARTS: usize = 8;
 /// Signs that are told in one line.
 const SIGNS: usize = 64;
 
@@ -17,8 +21,9 @@ pub fn to_text(report: &RawReport, style: Style) -> String {
     let mut text = Page::new(report, style);
     text.heading();
     text.verdict();
-    text.solutions("Solution", &report.count, &report.solutions);
-    text.solutions("Preload gap", &report.gap_state_count, &report.gap_states);
+    text.within_rounding();
+    text.solutions("Solution", &report.totals[0], &report.solutions);
+    text.solutions("Preload gap", &report.totals[1], &report.gap_states);
     text.continua();
     text.strategy();
     text.text()
@@ -64,11 +69,53 @@ impl Text<'_> {
         };
         self.status(report.status, &verdict);
         if report.status == Status::Continuum {
-            self.line(&format!("{single} by a regular pattern; ends of continua may be among such."));
+            self.faces(&single);
         }
         self.line(&format!("complete: {}", report.complete));
         for open in &report.open {
             self.line(&format!("  open: {open}"));
+        }
+    }
+
+    /// What there is for numbers that differ by rounding alone.
+    fn within_rounding(&mut self) {
+        let Some(WithinRounding { relative, answer, unknowns }) = &self.report.within_rounding else {
+            return;
+        };
+        let rounding = format!("rounding of the numbers (relative {relative:e})");
+        let Some(unknowns) = unknowns else {
+            self.line(&if *answer == "none" {
+                format!("Within {rounding} there is none, either: proven.")
+            } else {
+                format!("Whether there is one within {rounding} is open.")
+            });
+            return;
+        };
+        self.line(&format!("Hint: within {rounding} there is one:"));
+        self.line("");
+        self.lines(&rows(self.report.kind, unknowns, &[]));
+    }
+
+    /// What there is besides continua, and what is part of them.
+    fn faces(&mut self, single: &str) {
+        let report = self.report;
+        if report.count != "0" {
+            self.line(&format!("{single} besides."));
+        }
+        let faces = &report.faces;
+        let kinds = [
+            (&faces.solutions, "single solution", "single solutions"),
+            (&faces.gap_states, "gap state", "gap states"),
+            (&faces.continua, "smaller continuum", "smaller continua"),
+        ];
+        let words: Vec<String> = kinds
+            .iter()
+            .filter(|(count, ..)| count.as_str() != "0")
+            .map(|(count, one, more)| format!("{count} {}", if *count == "1" { one } else { more }))
+            .collect();
+        if !words.is_empty() {
+            let listed = if faces.listed { "which are listed, too" } else { "which --all-faces lists" };
+            self.line(&format!("Part of this: {}, {listed}.", words.join(", ")));
         }
     }
 
@@ -81,7 +128,7 @@ impl Text<'_> {
             if let Some(continuum) = solution.end_of_continuum {
                 self.line(&format!("  An end of continuum {}", continuum + 1));
             }
-            self.lines(&rows(self.report.kind, solution));
+            self.lines(&rows(self.report.kind, &solution.unknowns, &solution.beyond_range));
             for gap in &solution.gaps {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
                 self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
@@ -126,36 +173,52 @@ impl Text<'_> {
 
     fn continua(&mut self) {
         let report = self.report;
+        let all = &report.totals[2];
         for (at, continuum) in report.continua.iter().enumerate() {
             self.line("");
-            let title = format!("Continuum {} of {}", at + 1, report.continuum_count);
-            let (points, rays) = (continuum.vertices.len(), continuum.directions.len());
-            let shape = match (points, rays) {
-                (2, 0) => "a segment between two ends".to_owned(),
-                (1, 1) => "a ray: its end, and its direction".to_owned(),
-                _ => format!(
-                    "{} and {}: all mixtures of the ends, plus any positive multiples of the directions",
-                    count(points, "end", "ends"),
-                    count(rays, "direction", "directions")
-                ),
+            let title = format!("Continuum {} of {all}", at + 1);
+            let part_of = if continuum.maximal { "" } else { ", part of a larger one" };
+            if let [only] = continuum.parts.as_slice() {
+                self.headed(&title, &format!("{part_of}   {}", shape(only)));
+                self.part(only);
+                continue;
+            }
+            let parts = count(continuum.parts.len(), "part", "parts");
+            self.headed(&title, &format!("{part_of}   {parts} that do not depend on each other"));
+            for part in continuum.parts.iter().take(PARTS) {
+                self.line(&format!("  Of unknowns {}: {}", ranges(&part.indices), shape(part)));
+                self.part(part);
+            }
+            if continuum.parts.len() > PARTS {
+                let more = continuum.parts.len() - PARTS;
+                self.line(&format!("  ... and {more} more parts, which --format json lists"));
+            }
+        }
+        if !report.continua.is_empty() && report.continua.len().to_string() != *all {
+            self.line("");
+            let listed = report.continua.len();
+            self.line(&format!("Listed: the first {listed} of {all} continua; --max-solutions lists more."));
+        }
+    }
+
+    /// The vertices and directions of a part of a continuum.
+    fn part(&mut self, part: &ContinuumPart) {
+        let points = part.vertices.len();
+        let is_fixed = (part.vertex_count, part.direction_count) == (1, 0);
+        let columns: Vec<&Unknowns> = part.vertices.iter().chain(&part.directions).collect();
+        for (at, chunk) in columns.chunks(4).enumerate() {
+            let label = |offset: usize| match at * 4 + offset {
+                _ if is_fixed => String::new(),
+                number if number < points => format!("end {}", number + 1),
+                number => format!("direction {}", number - points + 1),
             };
-            self.headed(&title, &format!("   {shape}"));
-            let columns: Vec<&Unknowns> = continuum.vertices.iter().chain(&continuum.directions).collect();
-            for (at, chunk) in columns.chunks(4).enumerate() {
-                let label = |offset: usize| {
-                    let number = at * 4 + offset;
-                    if number < points {
-                        format!("end {}", number + 1)
-                    } else {
-                        format!("direction {}", number - points + 1)
-                    }
-                };
-                let labels: Vec<String> = (0..chunk.len()).map(label).collect();
-                self.lines(&labelled_rows(report.kind, chunk, &labels, &[]));
-            }
-            if !continuum.all_vertices {
-                self.line("  There are more ends.");
-            }
+            let labels: Vec<String> = (0..chunk.len()).map(label).collect();
+            self.lines(&labelled_rows(self.report.kind, (&part.indices, chunk), &labels, &[]));
+        }
+        let more = part.vertex_count - points + part.direction_count - part.directions.len();
+        if more > 0 {
+            let more = count(more, "end or direction", "ends and directions");
+            self.line(&format!("  There are {more} more; --max-solutions lists more."));
         }
     }
 
@@ -188,8 +251,25 @@ fn signs(solution: &RawSolution) -> String {
     format!("signs{}", signs.collect::<String>())
 }
 
-fn rows(kind: RawKind, solution: &RawSolution) -> String {
-    labelled_rows(kind, &[&solution.unknowns], &[String::new()], &solution.beyond_range)
+/// What a part of a continuum looks like.
+fn shape(part: &ContinuumPart) -> String {
+    match (part.vertex_count, part.direction_count) {
+        (1, 0) => "fixed".to_owned(),
+        (2, 0) => "a segment between two ends".to_owned(),
+        (1, 1) => "a ray: its end, and its direction".to_owned(),
+        (points, rays) => format!(
+            "{} and {}: all mixtures of the ends, plus any positive multiples of the directions",
+            count(points, "end", "ends"),
+            count(rays, "direction", "directions")
+        ),
+    }
+}
+
+/// The unknowns of one solution.
+fn rows(kind: RawKind, unknowns: &Unknowns, beyond_range: &[BeyondRange]) -> String {
+    let size = unknowns.named().first().map_or(0, |(_, values)| values.len());
+    let indices: Vec<usize> = (0..size).collect();
+    labelled_rows(kind, (&indices, &[unknowns]), &[String::new()], beyond_range)
 }
 
 /// A value as text; of an unknown, by name and number, that has none as it is told beside.
@@ -205,7 +285,7 @@ fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange])
 /// One row for each index, with the unknowns of each column.
 fn labelled_rows(
     kind: RawKind,
-    columns: &[&Unknowns],
+    (indices, columns): (&[usize], &[&Unknowns]),
     labels: &[String],
     beyond_range: &[BeyondRange],
 ) -> String {
@@ -216,16 +296,15 @@ fn labelled_rows(
             column.iter().map(|(name, _)| format!("{} {label}", shown_as(name)).trim_end().to_owned()),
         );
     }
-    let size = named.first().map_or(0, |column| column[0].1.len());
-    let row = |at: usize| {
-        let mut row = vec![(at + 1).to_string()];
+    let row = |(at, index): (usize, &usize)| {
+        let mut row = vec![(index + 1).to_string()];
         for column in &named {
             row.extend(column.iter().map(|(name, values)| value(values[at], (name, at), beyond_range)));
         }
         row
     };
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    table(&header, &(0..size).map(row).collect::<Vec<_>>(), 0)
+    table(&header, &indices.iter().enumerate().map(row).collect::<Vec<_>>(), 0)
 }
 
 /// What a person wants to see: of a mode problem the normal forces alone, whose sizes are the `y`.

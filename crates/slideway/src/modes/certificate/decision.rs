@@ -139,7 +139,18 @@ impl DecisionCounts {
 /// # Ok::<(), slideway::modes::ModeProblemError>(())
 /// ```
 pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState]) -> Verdict {
-    let problem = problem.into();
+    let Some(verdict) = decide_while(problem.into(), pattern, &mut || true) else {
+        unreachable!("nothing stops it")
+    };
+    verdict
+}
+
+/// [`decide`], none once `proceed` is false, which is asked now and then: rational numbers may take long.
+pub(in crate::modes) fn decide_while(
+    problem: ProblemView<'_>,
+    pattern: &[ContactState],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Verdict> {
     assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
     let mut enclosure = None;
     if let Some(system) = PatternSystem::new(problem, pattern)
@@ -149,19 +160,20 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
             enclosure = approximation.improve(precision).or(enclosure);
             match enclosure.as_ref().and_then(|found| found.decide(pattern)) {
                 Some(decision @ Decision::Solution { .. }) if precision == Precision::Double => {
-                    return Verdict { decision: approximation.sharpened(decision), precision };
+                    return Some(Verdict { decision: approximation.sharpened(decision), precision });
                 }
-                Some(decision) => return Verdict { decision, precision },
+                Some(decision) => return Some(Verdict { decision, precision }),
                 None => {}
             }
         }
     }
     if problem.exact {
-        return Verdict { decision: decide_exactly(problem, pattern), precision: Precision::Rational };
+        let decision = decide_exactly(problem, pattern, proceed)?;
+        return Some(Verdict { decision, precision: Precision::Rational });
     }
     let in_doubt = enclosure.as_ref().map_or_else(Vec::new, |found| found.in_doubt(pattern));
     let unknowns = enclosure.map(|found| found.unknowns);
-    Verdict { decision: Decision::Undecided { unknowns, in_doubt }, precision: Precision::DoubleDouble }
+    Some(Verdict { decision: Decision::Undecided { unknowns, in_doubt }, precision: Precision::DoubleDouble })
 }
 
 /// A solution that gets better step by step.
@@ -244,11 +256,16 @@ impl Enclosure {
     }
 }
 
-fn decide_exactly(problem: ProblemView<'_>, pattern: &[ContactState]) -> Decision {
+fn decide_exactly(
+    problem: ProblemView<'_>,
+    pattern: &[ContactState],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Decision> {
     let contacts = pattern.len();
-    let echelon = IntegerSystem::new(problem.centre, pattern).eliminate();
+    let echelon = IntegerSystem::new(problem.centre, pattern).eliminate_while(proceed)?;
     if !echelon.is_regular() {
-        return Decision::Singular { set: ExactSet::new(&echelon, pattern, BASES) };
+        let set = ExactSet::new(&echelon, pattern, BASES, proceed);
+        return proceed().then_some(Decision::Singular { set });
     }
     let solution = ExactSolution::new(&echelon, contacts);
     let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;
@@ -257,14 +274,14 @@ fn decide_exactly(problem: ProblemView<'_>, pattern: &[ContactState]) -> Decisio
             || in_gap(contact) && solution.sign_above(contact, true) == Sign::Positive
     };
     if let Some(contact) = (0..contacts).find(outside) {
-        return Decision::NoSolution { contact };
+        return Some(Decision::NoSolution { contact });
     }
     let is_at = |contact: usize, one: bool| solution.sign_above(contact, one) == Sign::Zero;
     let zero: Vec<usize> = (0..contacts).filter(|&k| is_at(k, false)).collect();
     let full_share: Vec<usize> = (0..contacts).filter(|&k| in_gap(k) && is_at(k, true)).collect();
     let (unknowns, determinant) = (solution.enclosures(), echelon.determinant_sign());
     if zero.is_empty() && full_share.is_empty() {
-        return Decision::Solution { unknowns, determinant };
+        return Some(Decision::Solution { unknowns, determinant });
     }
-    Decision::Boundary { unknowns, zero, full_share, determinant }
+    Some(Decision::Boundary { unknowns, zero, full_share, determinant })
 }

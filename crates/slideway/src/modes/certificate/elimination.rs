@@ -28,9 +28,15 @@ impl IntegerSystem {
         Self { rows }
     }
 
-    /// Bareiss's elimination: after each step all entries are minors of the original matrix, so that
-    /// the division by the previous pivot leaves no remainder.
+    /// [`eliminate_while`](Self::eliminate_while) nothing stops it.
     pub(super) fn eliminate(self) -> Echelon {
+        let Some(echelon) = self.eliminate_while(&mut || true) else { unreachable!("nothing stops it") };
+        echelon
+    }
+
+    /// Bareiss's elimination: after each step all entries are minors of the original matrix, so that
+    /// the division by the previous pivot leaves no remainder. None once `proceed` is false.
+    pub(super) fn eliminate_while(self, proceed: &mut dyn FnMut() -> bool) -> Option<Echelon> {
         let mut rows = self.rows;
         let unknowns = rows.len();
         let mut pivots = Vec::new();
@@ -51,12 +57,15 @@ impl IntegerSystem {
             let (above, below) = rows.split_at_mut(rank + 1);
             let pivot_row = &above[rank];
             for row in below {
+                if !proceed() {
+                    return None;
+                }
                 eliminate_row(row, pivot_row, column, &previous);
             }
             previous.clone_from(&pivot_row[column]);
             pivots.push(column);
         }
-        Echelon { rows, pivots, swaps_are_odd }
+        Some(Echelon { rows, pivots, swaps_are_odd })
     }
 }
 

@@ -38,6 +38,7 @@ mod system;
 pub use crate::interval::{Interval, Sign};
 pub(super) use data::{Column, Radii};
 pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
+pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
 pub(super) use exact::determinant_sign;

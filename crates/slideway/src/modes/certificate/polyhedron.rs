@@ -1,5 +1,7 @@
 //! What a singular pattern admits, exactly.
 
+use std::collections::HashSet;
+
 use dashu_ratio::RBig;
 use nalgebra::DVector;
 
@@ -94,13 +96,20 @@ impl ExactSet {
         }
     }
 
-    pub(super) fn new(echelon: &Echelon, pattern: &[ContactState], bases: u64) -> Self {
+    /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once `proceed`
+    /// is false.
+    pub(super) fn new(
+        echelon: &Echelon,
+        pattern: &[ContactState],
+        bases: u64,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Self {
         if !echelon.is_consistent() {
             return Self::Empty;
         }
         let limits = Limits::new(echelon, pattern);
         // The set holds no line, so it is empty exactly if it has no vertex.
-        let Some(Corners { mut vertices, mut directions }) = limits.corners(bases) else {
+        let Some(Corners { mut vertices, mut directions }) = limits.corners(bases, proceed) else {
             return Self::NotComputed;
         };
         match (vertices.len(), directions.len()) {
@@ -152,16 +161,24 @@ impl Limits {
         Self { parameters: free.len(), unknowns, rows }
     }
 
-    /// Vertices and extreme directions; none if that takes more than `bases` trials.
-    fn corners(&self, bases: u64) -> Option<Corners> {
+    /// Vertices and extreme directions; none if that takes more than `bases` trials, or once `proceed` is false.
+    fn corners(&self, bases: u64, proceed: &mut dyn FnMut() -> bool) -> Option<Corners> {
         let (rows, parameters) = (self.rows.len(), self.parameters);
         let work = binomial(rows, parameters).saturating_add(binomial(rows, parameters - 1));
         if work > bases {
             return None;
         }
-        let vertices = combinations(rows, parameters).filter_map(|tight| self.vertex(&tight));
-        let directions = combinations(rows, parameters - 1).filter_map(|tight| self.direction(&tight));
-        Some(Corners { vertices: distinct(vertices), directions: distinct(directions) })
+        let (mut vertices, mut directions) = (Vec::new(), Vec::new());
+        for tight in combinations(rows, parameters) {
+            vertices.extend(proceed().then(|| self.vertex(&tight))?);
+        }
+        for tight in combinations(rows, parameters - 1) {
+            directions.extend(proceed().then(|| self.direction(&tight))?);
+        }
+        Some(Corners {
+            vertices: distinct(vertices.into_iter()),
+            directions: distinct(directions.into_iter()),
+        })
     }
 
     /// The point at which the given limits are reached, if it is one point and within all others.
@@ -263,13 +280,8 @@ fn nearest(value: &RBig) -> f64 {
 }
 
 fn distinct(points: impl Iterator<Item = Vec<RBig>>) -> Vec<Vec<RBig>> {
-    let mut kept: Vec<Vec<RBig>> = Vec::new();
-    for point in points {
-        if !kept.contains(&point) {
-            kept.push(point);
-        }
-    }
-    kept
+    let mut known = HashSet::new();
+    points.filter(|point| known.insert(point.clone())).collect()
 }
 
 /// All increasing lists of `chosen` indices below `count`.

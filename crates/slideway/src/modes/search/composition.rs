@@ -1,7 +1,7 @@
 //! Solves groups of contacts one after the other and puts their solutions together.
 
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::group::{GroupAnswer, search_group};
 use super::groups::Groups;
@@ -19,6 +19,9 @@ use crate::modes::solutions::{
 /// A problem of so few patterns is not split into groups, so that the outcome of each is known.
 const WHOLE_UP_TO: u64 = 64;
 
+/// Answers of groups that are kept for the same right-hand side, at most.
+const MOST_KEPT: usize = 10_000;
+
 /// A group's contacts and the right-hand side of its equations, bit by bit.
 type GroupKey = (Vec<usize>, Vec<u64>);
 
@@ -27,7 +30,7 @@ pub(super) struct Composer<'p, 'm, 'c> {
     options: &'p SearchOptions,
     groups: Groups,
     monitor: &'m mut Monitor<'c>,
-    solved: HashMap<GroupKey, Rc<GroupAnswer>>,
+    solved: HashMap<GroupKey, Arc<SolvedGroup>>,
     /// Reports of all groups, those of one group with several right-hand sides added up.
     pub(super) reports: Vec<GroupReport>,
     /// Whether every solution that other groups depend on is enclosed by proof.
@@ -59,9 +62,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     /// All solutions of the problem.
     pub(super) fn solve(&mut self) -> Result<SolutionProduct, ModeProblemError> {
         let all: Vec<usize> = (0..self.groups.members.len()).collect();
-        let mut product = self.solve_groups(&all, &Load::of(self.problem), (0.0, 1.0))?;
-        product.prune();
-        Ok(product)
+        self.solve_groups(&all, &Load::of(self.problem), (0.0, 1.0))
     }
 
     /// The solutions of some groups, given in increasing order, where `load` is the right-hand side
@@ -107,23 +108,30 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         self.monitor.start_group(work.0, own);
         let answer = self.solve_group(&first, load)?;
         if rest.is_empty() {
-            return Ok(Factor { alternatives: alternatives(&answer.solutions), contacts: first });
+            return Ok(Factor { alternatives: answer.alternatives(), contacts: first });
         }
         let left = (work.0 + own, work.1 - own);
-        if admits_sets(&answer.solutions) {
+        if answer.admits_sets {
             // The others would have to be solved for a whole set of loads.
             return self.solve_together(part, load, left);
         }
-        let mut alternatives = alternatives(&answer.solutions);
-        let share = (work.1 - own) / alternatives.len().max(1) as f64;
+        let share = (work.1 - own) / answer.states.len().max(1) as f64;
         let mut done = work.0 + own;
-        for alternative in &mut alternatives {
-            let acting = self.load_with(&first, &alternative.state, load);
+        let mut alternatives = Vec::new();
+        for state in &answer.states {
+            let acting = self.load_with(&first, state, load);
             if !acting.is_finite() {
                 // No floating-point number tells the others what acts on them.
                 return self.solve_together(part, load, left);
             }
-            alternative.dependents = self.solve_groups(rest, &acting, (done, share))?;
+            let dependents = self.solve_groups(rest, &acting, (done, share))?;
+            // What has no solution of the others is none, and there may be very many of such.
+            if !dependents.is_empty() {
+                alternatives.push(Alternative { state: Arc::clone(state), dependents });
+            }
+            if self.monitor.stopped().is_some() {
+                break;
+            }
             done += share;
         }
         Ok(Factor { contacts: first, alternatives })
@@ -141,27 +149,27 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         contacts.sort_unstable();
         self.monitor.start_group(work.0, work.1);
         let answer = self.solve_group(&contacts, load)?;
-        Ok(Factor { alternatives: alternatives(&answer.solutions), contacts })
+        Ok(Factor { alternatives: answer.alternatives(), contacts })
     }
 
     /// The solutions of one group's equations, each right-hand side solved once.
-    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Result<Rc<GroupAnswer>, ModeProblemError> {
+    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Result<Arc<SolvedGroup>, ModeProblemError> {
         let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
         let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
         if let Some(answer) = self.solved.get(&key) {
-            return Ok(Rc::clone(answer));
+            return Ok(Arc::clone(answer));
         }
         let restricted = LoadedProblem::restricted(self.problem, contacts, load)?;
-        let mut answer = search_group(&restricted, self.options, self.monitor);
-        let solutions = &answer.solutions;
+        let GroupAnswer { solutions, mut report, depends_on_ancestors } =
+            search_group(&restricted, self.options, self.monitor);
         self.monitor.count_found(solutions.solutions.len() + solutions.gaps.len());
-        answer.report.contacts = contacts.to_vec();
+        report.contacts = contacts.to_vec();
         self.all_examined &= solutions.is_complete();
-        self.file_report(&answer.report);
-        let answer = Rc::new(answer);
+        self.file_report(&report);
+        let answer = Arc::new(SolvedGroup::of(solutions));
         // What was decided together with other contacts holds for their states only.
-        if !answer.depends_on_ancestors {
-            self.solved.insert(key, Rc::clone(&answer));
+        if !depends_on_ancestors && self.solved.len() < MOST_KEPT {
+            self.solved.insert(key, Arc::clone(&answer));
         }
         Ok(answer)
     }
@@ -226,13 +234,30 @@ fn distance(bounds: Interval, y: f64) -> f64 {
     if largest > 0.0 { largest.next_up() } else { 0.0 }
 }
 
-/// What a group admits, as alternatives without dependents.
-fn alternatives(solutions: &Solutions) -> Vec<Alternative> {
-    let states = solutions.solutions.iter().cloned().map(GroupState::Solution);
-    let states = states.chain(solutions.gaps.iter().cloned().map(GroupState::Gap));
-    let states = states.chain(solutions.singular.iter().filter_map(singular_state));
-    let states = states.chain(solutions.undecided.iter().cloned().map(GroupState::Undecided));
-    states.map(|state| Alternative { state, dependents: SolutionProduct::default() }).collect()
+/// What a group admits.
+struct SolvedGroup {
+    states: Vec<Arc<GroupState>>,
+    /// Whether there is something besides states whose unknowns are known, up to errors.
+    admits_sets: bool,
+}
+
+impl SolvedGroup {
+    fn of(solutions: Solutions) -> Self {
+        let admits_sets = admits_sets(&solutions);
+        let singular: Vec<GroupState> = solutions.singular.iter().filter_map(singular_state).collect();
+        let states = solutions.solutions.into_iter().map(GroupState::Solution);
+        let states = states.chain(solutions.gaps.into_iter().map(GroupState::Gap));
+        let states = states.chain(singular);
+        let states = states.chain(solutions.undecided.into_iter().map(GroupState::Undecided));
+        Self { states: states.map(Arc::new).collect(), admits_sets }
+    }
+
+    /// The states as alternatives without dependents.
+    fn alternatives(&self) -> Vec<Alternative> {
+        let alternative =
+            |state| Alternative { state: Arc::clone(state), dependents: SolutionProduct::default() };
+        self.states.iter().map(alternative).collect()
+    }
 }
 
 /// What a singular pattern admits, unless that is nothing or a solution of its own already.

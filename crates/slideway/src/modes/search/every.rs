@@ -26,7 +26,7 @@ pub(super) fn try_all(
         report.nodes += 1;
         if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&pattern)) {
             leaves.exclude(&pattern);
-        } else if let Err(reason) = leaves.examine(&pattern) {
+        } else if let Err(reason) = leaves.examine(&pattern, monitor) {
             monitor.stop(reason);
         }
         more = advance(&mut pattern, |contact| scaled.states(contact));

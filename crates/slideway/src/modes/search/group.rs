@@ -77,11 +77,21 @@ fn search_large_group(
 ) -> (Method, TreeReport) {
     let load_radius = scaled.scaled_load_radius(&loaded.right_hand_side_radius());
     let arguments = options.arguments;
+    let unexplored = || {
+        let shares = PatternShares { unexplored: 1.0, ..PatternShares::default() };
+        (Method::BranchAndBound, TreeReport { shares, ..TreeReport::default() })
+    };
+    if !monitor.goes_on() {
+        return unexplored();
+    }
     let solved = if arguments.propagation || arguments.uniqueness {
         Propagation::new(scaled, &load_radius)
     } else {
         None
     };
+    if !monitor.goes_on() {
+        return unexplored();
+    }
     let continuous = scaled.has_jump.iter().all(|jump| !jump);
     let proof = solved.as_ref().filter(|_| arguments.uniqueness && continuous);
     let unique = proof.and_then(|solved| by_uniqueness(scaled, solved, leaves, monitor));
@@ -90,6 +100,9 @@ fn search_large_group(
         if arguments.low_rank && large { by_cells(scaled, &load_radius, leaves, monitor) } else { None }
     });
     answered.unwrap_or_else(|| {
+        if !monitor.goes_on() {
+            return unexplored();
+        }
         let propagation = solved.as_ref().filter(|_| arguments.propagation);
         let tree = Tree::new(scaled, propagation, &load_radius, options).run(leaves, monitor);
         (Method::BranchAndBound, tree)
@@ -106,7 +119,7 @@ fn by_uniqueness(
     let method = uniqueness::proof(problem, solved)?;
     let pattern = uniqueness::only_pattern(problem, solved)?;
     let shares = if monitor.visit(0.0, 0) {
-        match leaves.examine_only(&pattern) {
+        match leaves.examine_only(&pattern, monitor) {
             Ok(true) => {}
             Ok(false) => return None,
             Err(reason) => monitor.stop(reason),
@@ -132,7 +145,7 @@ fn by_cells(
     for sides in candidates {
         let pattern: Vec<ContactState> =
             sides.iter().map(|&side| ContactState::PRESSED[usize::from(side)]).collect();
-        if let Err(reason) = leaves.examine(&pattern) {
+        if let Err(reason) = leaves.examine(&pattern, monitor) {
             monitor.stop(reason);
             break;
         }

@@ -56,6 +56,8 @@ impl Joint<'_> {
             patterns: patterns.iter().map(|pattern| sides(pattern)).collect(),
             pattern_count,
             tolerance: self.tolerance(),
+            maximal: self.state.is_maximal(),
+            support: self.state.support(self.contacts),
             certificate: self.certificate(),
             pattern,
         }
@@ -83,6 +85,8 @@ impl Joint<'_> {
             patterns,
             pattern_count,
             tolerance: self.tolerance(),
+            maximal: self.state.is_maximal(),
+            support: self.state.support(self.contacts),
             certificate: self.certificate(),
         }
     }
@@ -95,6 +99,8 @@ impl Joint<'_> {
             pattern_count,
             set: self.set(),
             contains: Vec::new(),
+            maximal: self.state.is_maximal(),
+            support: self.state.support(self.contacts),
             certificate: self.certificate(),
         }
     }

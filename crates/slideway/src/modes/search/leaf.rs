@@ -1,10 +1,11 @@
 //! The outcome of single patterns, and whether it is proven.
 
 use super::load::LoadedProblem;
+use super::monitor::Monitor;
 use super::relaxation::Relaxation;
 use super::report::StopReason;
 use super::states::StateSet;
-use crate::modes::certificate::{Decision, decide, proves_empty};
+use crate::modes::certificate::{Decision, decide_while, proves_empty};
 use crate::modes::decided::Filed;
 use crate::modes::findings::Findings;
 use crate::modes::solutions::ContactState;
@@ -28,21 +29,25 @@ impl<'a> Leaves<'a> {
     }
 
     /// Files what a pattern admits.
-    pub(super) fn examine(&mut self, pattern: &[ContactState]) -> Result<(), StopReason> {
+    pub(super) fn examine(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         if !self.certify {
-            return self.examine_within_tolerances(pattern);
+            return self.examine_within_tolerances(pattern, monitor);
         }
         // Rational arithmetic on very many patterns takes too long.
         if self.findings.has_examined_enough() && self.findings.is_suspect(pattern) {
             self.findings.leave_unexamined(pattern, pattern.len());
             return Ok(());
         }
-        let decision = self.decide(pattern);
+        let decision = self.decide(pattern, monitor)?;
         if matches!(decision, Decision::Undecided { .. }) && self.is_infeasible(pattern) {
             self.exclude(pattern);
             return Ok(());
         }
-        self.file(pattern, decision)
+        self.file(pattern, decision, monitor)
     }
 
     /// Whether the linear program of a pattern has no solution for any value within bounds, proven by a Farkas vector.
@@ -63,40 +68,65 @@ impl<'a> Leaves<'a> {
 
     /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
     /// together with the contacts that the right-hand side comes from.
-    fn decide(&mut self, pattern: &[ContactState]) -> Decision {
-        let decision = decide(self.problem.view(), pattern).decision;
-        if !matches!(decision, Decision::Undecided { .. }) || !self.problem.is_part_of_exact_problem() {
-            return decision;
+    fn decide(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Decision, StopReason> {
+        let mut proceed = || monitor.goes_on();
+        let verdict = decide_while(self.problem.view(), pattern, &mut proceed);
+        let mut decision = verdict.map(|verdict| verdict.decision);
+        let open = matches!(decision, Some(Decision::Undecided { .. }));
+        if open && self.problem.is_part_of_exact_problem() {
+            self.decided_jointly = true;
+            decision = self.problem.decide_jointly(pattern, &mut proceed).or(decision);
         }
-        self.decided_jointly = true;
-        self.problem.decide_jointly(pattern).unwrap_or(decision)
+        match monitor.stopped() {
+            Some(reason) => Err(reason),
+            None => decision.ok_or(StopReason::Cancelled),
+        }
     }
 
     /// Files a pattern by its decision.
-    fn file(&mut self, pattern: &[ContactState], decision: Decision) -> Result<(), StopReason> {
+    fn file(
+        &mut self,
+        pattern: &[ContactState],
+        decision: Decision,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         let undecided = matches!(decision, Decision::Undecided { .. });
         if undecided && self.problem.is_part_of_exact_problem() {
-            return self.examine_within_tolerances(pattern);
+            return self.examine_within_tolerances(pattern, monitor);
         }
-        let filed = self.findings.file_decision(pattern, decision).map_err(|_| StopReason::SolutionLimit)?;
+        let filed = self.findings.file_decision(pattern, decision, &mut || monitor.goes_on());
+        let filed = filed.map_err(|_| StopReason::SolutionLimit)?;
         self.unproven += u64::from(filed == Filed::NotProven);
         Ok(())
     }
 
-    fn examine_within_tolerances(&mut self, pattern: &[ContactState]) -> Result<(), StopReason> {
+    fn examine_within_tolerances(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         self.unproven += 1;
-        self.findings.examine_leaf(pattern).map_err(|_| StopReason::SolutionLimit)
+        let examined = self.findings.examine_leaf(pattern, &mut || monitor.goes_on());
+        examined.map_err(|_| StopReason::SolutionLimit)
     }
 
     /// Files the only pattern that can have a solution. False, with nothing filed, if it is not certain to
     /// have it for all values within bounds.
-    pub(super) fn examine_only(&mut self, pattern: &[ContactState]) -> Result<bool, StopReason> {
+    pub(super) fn examine_only(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<bool, StopReason> {
         if !self.certify {
-            return self.examine_within_tolerances(pattern).map(|()| true);
+            return self.examine_within_tolerances(pattern, monitor).map(|()| true);
         }
-        let decision = self.decide(pattern);
+        let decision = self.decide(pattern, monitor)?;
         let certain = matches!(decision, Decision::Solution { .. } | Decision::Boundary { .. });
-        if certain { self.file(pattern, decision).map(|()| true) } else { Ok(false) }
+        if certain { self.file(pattern, decision, monitor).map(|()| true) } else { Ok(false) }
     }
 
     /// Counts a pattern that is proven to have no solution.

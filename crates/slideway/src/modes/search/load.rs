@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::modes::certificate::{
-    Column, Decision, ExactOutcome, ExactSet, Interval, ProblemView, Radii, Sign, decide, solve_exactly,
+    Column, Decision, ExactOutcome, ExactSet, Interval, ProblemView, Radii, Sign, decide_while, solve_exactly,
 };
 use crate::modes::problem::{BySide, ModeProblem, ModeProblemError, Side};
 use crate::modes::solutions::ContactState;
@@ -143,8 +143,12 @@ impl<'p> LoadedProblem<'p> {
     }
 
     /// Decides a pattern in exact numbers, together with the contacts that the right-hand side comes from.
-    /// None if there are too many contacts.
-    pub(super) fn decide_jointly(&self, pattern: &[ContactState]) -> Option<Decision> {
+    /// None if there are too many contacts, or once `proceed` is false.
+    pub(super) fn decide_jointly(
+        &self,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Decision> {
         let upstream = self.ancestors.len();
         if upstream + pattern.len() > JOINT_CONTACTS {
             return None;
@@ -158,7 +162,8 @@ impl<'p> LoadedProblem<'p> {
             ExactOutcome::Regular { determinant, .. } => determinant,
             ExactOutcome::Singular(_) => Sign::Zero,
         };
-        Some(match without_first(decide(&problem, &joint_pattern).decision, upstream) {
+        let decision = decide_while((&problem).into(), &joint_pattern, proceed)?.decision;
+        Some(match without_first(decision, upstream) {
             Decision::Solution { unknowns, .. } => Decision::Solution { unknowns, determinant: own_sign() },
             Decision::Boundary { unknowns, zero, full_share, .. } => {
                 Decision::Boundary { unknowns, zero, full_share, determinant: own_sign() }

@@ -94,8 +94,8 @@ use monitor::Monitor;
 /// [`enumerate`](super::enumerate) does, but without trying every pattern, and proves it. `problem` is a reference
 /// to a [`ModeProblem`](super::ModeProblem), or to an
 /// [`IntervalModeProblem`](super::certificate::IntervalModeProblem) whose numbers lie within bounds. The work depends on the
-/// problem and can grow like `2^r`: `progress` is called at every node and ends the search when it
-/// breaks (the library has no clock; compare times there). The answer is then labelled as partial.
+/// problem and can grow like `2^r`: `progress` is called at every node, and in the midst of long work, and ends the
+/// search when it breaks (the library has no clock; compare times there). The answer is then labelled as partial.
 ///
 /// # Errors
 /// [`ModeProblemError`] if a part of the problem were no mode problem, which no problem of finite numbers has: groups of

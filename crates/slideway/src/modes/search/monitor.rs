@@ -12,12 +12,15 @@ pub(super) struct Monitor<'a> {
     /// The part of the work that is done, and the part that the group at hand makes up.
     done: f64,
     share: f64,
+    /// What was told last.
+    told: Progress,
     stopped: Option<StopReason>,
 }
 
 impl<'a> Monitor<'a> {
     pub(super) fn new(node_limit: u64, progress: &'a mut Callback<'a>) -> Self {
-        Self { progress, node_limit, nodes: 0, states_found: 0, done: 0.0, share: 1.0, stopped: None }
+        let told = Progress { counted: "nodes", done: 0, fraction: Some(0.0), found: Some(0) };
+        Self { progress, node_limit, nodes: 0, states_found: 0, done: 0.0, share: 1.0, told, stopped: None }
     }
 
     pub(super) fn stopped(&self) -> Option<StopReason> {
@@ -49,17 +52,21 @@ impl<'a> Monitor<'a> {
             return false;
         }
         self.nodes += 1;
-        let progress = Progress {
+        self.told = Progress {
             counted: "nodes",
             done: self.nodes,
             // Of the pattern space within a group of contacts, and of the contacts over all groups.
             fraction: Some((self.done + self.share * fraction).min(1.0)),
             found: Some(self.states_found + found_in_group as u64),
         };
-        if (self.progress)(&progress).is_break() {
+        self.goes_on()
+    }
+
+    /// False if the search must end. Asked in the midst of long work, too.
+    pub(super) fn goes_on(&mut self) -> bool {
+        if self.stopped.is_none() && (self.progress)(&self.told).is_break() {
             self.stop(StopReason::Cancelled);
-            return false;
         }
-        true
+        self.stopped.is_none()
     }
 }

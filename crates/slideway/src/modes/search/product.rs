@@ -1,5 +1,7 @@
 //! Solutions in product form: what independent groups of contacts find multiplies.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use super::count::BigCount;
@@ -7,6 +9,7 @@ use crate::modes::certificate::Interval;
 use crate::modes::solutions::{
     Certificate, ContactState, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
 };
+use crate::modes::support::Support;
 
 /// All solutions of a set of contacts: one alternative of every factor, in any combination.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -27,8 +30,8 @@ pub struct Factor {
 /// One solution of a group, with the solutions of the groups that depend on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alternative {
-    /// The state of the group's own contacts.
-    pub state: GroupState,
+    /// The state of the group's own contacts; shared where the group has it beside several states of others.
+    pub state: Arc<GroupState>,
     /// The solutions of the contacts that this group acts on.
     pub dependents: SolutionProduct,
 }
@@ -102,6 +105,25 @@ impl GroupState {
         match self {
             Self::Undecided(undecided) => undecided.unknowns.as_deref(),
             state => state.certificate().and_then(Certificate::unknowns),
+        }
+    }
+
+    /// Whether it is not part of a larger continuum that the group admits.
+    pub fn is_maximal(&self) -> bool {
+        match self {
+            Self::Solution(solution) => solution.maximal,
+            Self::Gap(gap) => gap.maximal,
+            Self::Singular(mode) => mode.maximal,
+            Self::Undecided(_) => true,
+        }
+    }
+
+    fn support(&self) -> Option<&Support> {
+        match self {
+            Self::Solution(solution) => Some(&solution.support),
+            Self::Gap(gap) => Some(&gap.support),
+            Self::Singular(mode) => Some(&mode.support),
+            Self::Undecided(_) => None,
         }
     }
 
@@ -195,12 +217,9 @@ impl SolutionProduct {
         product
     }
 
-    /// Drops alternatives whose dependents have no solution. False if nothing is left.
-    pub(super) fn prune(&mut self) -> bool {
-        self.factors.iter_mut().all(|factor| {
-            factor.alternatives.retain_mut(|alternative| alternative.dependents.prune());
-            !factor.alternatives.is_empty()
-        })
+    /// Whether some factor has no alternatives.
+    pub(super) fn is_empty(&self) -> bool {
+        self.factors.iter().any(|factor| factor.alternatives.is_empty())
     }
 }
 
@@ -208,6 +227,22 @@ impl CombinedState<'_> {
     /// The kind of the combination: that of the part of which most has to be said.
     pub fn kind(&self) -> StateKind {
         self.parts.iter().map(|(_, state)| state.kind()).max().unwrap_or(StateKind::Solution)
+    }
+
+    /// Whether it is not part of a larger continuum: none of its parts is.
+    pub fn is_maximal(&self) -> bool {
+        self.parts.iter().all(|(_, state)| state.is_maximal())
+    }
+
+    /// The unknowns of all contacts, given their number, that are positive; of undecided patterns none.
+    pub(crate) fn support(&self, contacts: usize) -> Support {
+        let mut support = Support::none_of(contacts);
+        for (members, state) in &self.parts {
+            if let Some(part) = state.support() {
+                support.add_part(members, part);
+            }
+        }
+        support
     }
 
     /// The state of every contact, given their number.
@@ -293,7 +328,7 @@ impl<'a> Iterator for Combinations<'a> {
         }
         self.state = Walk::Under;
         let part = |&(factor, taken): &(&'a Factor, usize)| {
-            (factor.contacts.as_slice(), &factor.alternatives[taken].state)
+            (factor.contacts.as_slice(), factor.alternatives[taken].state.as_ref())
         };
         Some(CombinedState { parts: self.choices.iter().map(part).collect() })
     }

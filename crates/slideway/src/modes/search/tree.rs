@@ -70,12 +70,12 @@ impl<'a> Tree<'a> {
                 break;
             }
             self.report.nodes += 1;
-            if let Err(reason) = self.visit(node, &mut open, leaves) {
+            if let Err(reason) = self.visit(node, &mut open, leaves, monitor) {
                 monitor.stop(reason);
             }
         }
-        self.report.shares.unexplored =
-            open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum();
+        self.report.shares.unexplored +=
+            open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum::<f64>();
         self.report
     }
 
@@ -85,6 +85,7 @@ impl<'a> Tree<'a> {
         mut node: Node,
         open: &mut Vec<Node>,
         leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
         if !self.propagate(&mut node.states) {
             return Ok(());
@@ -102,7 +103,7 @@ impl<'a> Tree<'a> {
         };
         let pattern: Vec<ContactState> = node.states.iter().filter_map(|states| states.decided()).collect();
         if pattern.len() == node.states.len() {
-            return self.examine(&pattern, leaves);
+            return self.examine(&pattern, leaves, monitor);
         }
         let (contact, preferred) = branching(&node.states, relaxed.as_deref());
         let basis = if relaxed.is_some() { Rc::new(basis) } else { node.basis };
@@ -131,10 +132,22 @@ impl<'a> Tree<'a> {
         true
     }
 
-    fn examine(&mut self, pattern: &[ContactState], leaves: &mut Leaves<'_>) -> Result<(), StopReason> {
+    fn examine(
+        &mut self,
+        pattern: &[ContactState],
+        leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-        self.report.shares.examined += fraction_of_patterns(self.problem, &states);
-        leaves.examine(pattern)
+        let examined = leaves.examine(pattern, monitor);
+        let shares = &mut self.report.shares;
+        let share = if examined == Err(StopReason::Cancelled) {
+            &mut shares.unexplored
+        } else {
+            &mut shares.examined
+        };
+        *share += fraction_of_patterns(self.problem, &states);
+        examined
     }
 
     fn keep(&mut self, states: &[StateSet], argument: impl FnOnce() -> ExclusionArgument) {

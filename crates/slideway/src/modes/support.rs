@@ -1,0 +1,111 @@
+//! Which unknowns of a solution, or of a set of them, are positive: what decides which set is part of which.
+//!
+//! Give each contact an unknown `y_k^+, y_k^- >= 0` for either side, and the shares `lambda_k` and
+//! `1 - lambda_k >= 0` where the right-hand side jumps. Then what a pattern admits is a face of one
+//! polyhedron, that of the relaxation (theory, section 4 (b)): the face in which all unknowns of other
+//! states vanish. So it is part of what another pattern admits exactly if every unknown that is positive
+//! somewhere in it is so somewhere in the other.
+
+use dashu_ratio::RBig;
+
+use super::candidate::Candidate;
+use super::certificate::ExactSet;
+use super::contact_set::ContactSet;
+use super::solutions::{ContactState, SolutionSet};
+
+/// Unknowns of one contact.
+const UNKNOWNS: usize = 4;
+
+/// The unknowns that are positive somewhere in a set: of each contact `y^+`, `y^-`, and where the right-hand
+/// side jumps `lambda` and `1 - lambda`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Support {
+    unknowns: ContactSet,
+}
+
+impl Support {
+    pub(super) fn none_of(contacts: usize) -> Self {
+        Self { unknowns: ContactSet::none_of(UNKNOWNS * contacts) }
+    }
+
+    /// Of one solution or gap state.
+    pub(super) fn of_point(pattern: &[ContactState], candidate: &Candidate, has_jump: &[bool]) -> Self {
+        let mut support = Self::none_of(pattern.len());
+        for (contact, &state) in pattern.iter().enumerate() {
+            let (value, at_end) = (candidate.unknowns[contact], candidate.at_end.contains(contact));
+            let vanishes = candidate.zero.contains(contact) || at_end && value == 0.0;
+            support.add(contact, state, has_jump[contact], (vanishes, at_end && value == 1.0));
+        }
+        support
+    }
+
+    /// Of what a singular pattern admits, exactly.
+    pub(super) fn of_exact_set(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
+        let mut support = Self::none_of(pattern.len());
+        for point in set.vertices() {
+            for (contact, value) in point.iter().enumerate() {
+                let ends = (value.is_zero(), *value == RBig::ONE);
+                support.add(contact, pattern[contact], has_jump[contact], ends);
+            }
+        }
+        for direction in set.directions() {
+            support.add_direction(pattern, |contact| !direction[contact].is_zero());
+        }
+        support
+    }
+
+    /// Of what a singular pattern admits, from normal forces that vanish within tolerances; shares are taken as
+    /// neither 0 nor 1.
+    pub(super) fn of_set(pattern: &[ContactState], set: &SolutionSet, has_jump: &[bool]) -> Self {
+        let mut support = Self::none_of(pattern.len());
+        for point in set.vertices() {
+            for (contact, &state) in pattern.iter().enumerate() {
+                let vanishes = state != ContactState::Gap && point[contact] == 0.0;
+                support.add(contact, state, has_jump[contact], (vanishes, false));
+            }
+        }
+        for direction in set.directions() {
+            support.add_direction(pattern, |contact| direction[contact] != 0.0);
+        }
+        support
+    }
+
+    /// Adds one contact of a point, given whether its unknown is 0, and whether it is 1.
+    fn add(&mut self, contact: usize, state: ContactState, jumps: bool, (zero, one): (bool, bool)) {
+        let [positive, negative, share, rest] = std::array::from_fn(|at| UNKNOWNS * contact + at);
+        let is_positive = match state {
+            ContactState::Positive => [(positive, !zero), (share, jumps)],
+            ContactState::Negative => [(negative, !zero), (rest, jumps)],
+            ContactState::Gap => [(share, !zero), (rest, !one)],
+        };
+        is_positive.iter().filter(|(_, is)| *is).for_each(|&(unknown, _)| self.unknowns.insert(unknown));
+    }
+
+    /// Adds a direction, in which shares do not change.
+    fn add_direction(&mut self, pattern: &[ContactState], grows: impl Fn(usize) -> bool) {
+        for (contact, &state) in pattern.iter().enumerate().filter(|(contact, _)| grows(*contact)) {
+            if state != ContactState::Gap {
+                self.add(contact, state, false, (false, false));
+            }
+        }
+    }
+
+    /// Adds the support of some of the contacts, which have these numbers.
+    pub(super) fn add_part(&mut self, contacts: &[usize], part: &Self) {
+        for (at, &contact) in contacts.iter().enumerate() {
+            for unknown in (0..UNKNOWNS).filter(|unknown| part.unknowns.contains(UNKNOWNS * at + unknown)) {
+                self.unknowns.insert(UNKNOWNS * contact + unknown);
+            }
+        }
+    }
+
+    /// The number of unknowns.
+    pub(super) fn len(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// Whether a set with this support is part of a larger one with the other.
+    pub(crate) fn is_part_of(&self, other: &Self) -> bool {
+        self != other && self.unknowns.is_within(&other.unknowns)
+    }
+}
