@@ -257,6 +257,9 @@ fn two_writers_of_one_table_do_not_meet() {
     }
 }
 
+#[cfg(unix)]
+type Alteration = fn(&mut Vec<u8>);
+
 /// Bytes that were altered in the rows or in the state are noticed, and nothing gets the final name.
 #[cfg(unix)]
 #[test]
@@ -271,7 +274,7 @@ fn an_unfinished_table_that_was_changed_is_not_continued() {
         assert_eq!(first.wait().unwrap().code(), Some(130));
         let rows = folder.path().join(format!("{table}.partial"));
         let state = folder.path().join(format!("{table}.partial.state"));
-        let alterations: [(&Path, fn(&mut Vec<u8>)); 4] = [
+        let alterations: [(&Path, Alteration); 4] = [
             (&rows, |bytes| *bytes.last_mut().unwrap() ^= 1),
             (&rows, |bytes| bytes.truncate(bytes.len() - 1)),
             (&state, |bytes| *bytes.iter_mut().rfind(|byte| byte.is_ascii_digit()).unwrap() ^= 1),
