@@ -417,8 +417,9 @@ fn numbers(drawing: &Drawing, report: &Report) -> Numbers {
 fn by_brute_force(numbers: &Numbers) -> Option<BTreeSet<String>> {
     let r = numbers.jumps.len();
     let mut found = BTreeSet::new();
-    for number in 0..3_usize.pow(r as u32) {
-        let digits: Vec<usize> = (0..r).map(|k| number / 3_usize.pow(k as u32) % 3).collect();
+    for number in 0..(0..r).fold(1, |count, _| 3 * count) {
+        let digits: Vec<usize> =
+            (0..r).scan(number, |rest, _| Some(std::mem::replace(rest, *rest / 3) % 3)).collect();
         if (0..r).any(|k| digits[k] == 2 && !numbers.jumps[k]) {
             continue;
         }

@@ -150,6 +150,7 @@ fn inline(value: &Value) -> String {
 }
 
 /// A mechanism, what is varied in it, and over which range: any number of the file, the value of a coordinate, or all friction.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn varied(drawing: &Drawing, choice: f64) -> Option<(Model, String)> {
     let mut file: Value = toml::from_str(&drawing.text()).expect("TOML");
     let mut places = Vec::new();

@@ -262,6 +262,9 @@ fn a_grid_of_two_coordinates_is_what_each_way_gives() {
     }
 }
 
+/// Steps of the finer way.
+const STEPS: u32 = 100;
+
 proptest! {
     #![proptest_config(cases(60))]
 
@@ -286,7 +289,6 @@ proptest! {
         let direct = Configuration::new(&at(1.0));
         prop_assume!(direct.is_ok());
         let direct = direct.unwrap();
-        const STEPS: u32 = 100;
         let mut follower = Follower::default();
         let mut last: Option<Configuration> = None;
         for step in (0..=STEPS).chain((0..STEPS).rev()) {
