@@ -1,6 +1,6 @@
 //! What is told of a raw problem: plain data, which are the JSON output.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
 use super::range::in_range;
@@ -79,22 +79,38 @@ pub enum Unknowns {
     /// Of a linear or horizontal complementarity problem.
     Complementary {
         /// `z`.
+        #[serde(serialize_with = "known_values")]
         z: Vec<f64>,
         /// `w`.
+        #[serde(serialize_with = "known_values")]
         w: Vec<f64>,
     },
     /// Of an absolute value equation.
     AbsoluteValue {
         /// `x`.
+        #[serde(serialize_with = "known_values")]
         x: Vec<f64>,
     },
     /// Of a mode problem.
     Modes {
         /// Signed normal forces `N_k = sigma_k y_k`.
+        #[serde(serialize_with = "known_values")]
         normal_forces: Vec<f64>,
         /// `y_k = |N_k|`.
+        #[serde(serialize_with = "known_values")]
         y: Vec<f64>,
     },
+}
+
+/// Numbers; nothing in place of those beyond the range of floating-point numbers, which are NaN here.
+fn known_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(values.iter().map(|value| (!value.is_nan()).then_some(*value)))
+}
+
+/// The same of one number.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    (!value.is_nan()).then_some(*value).serialize(serializer)
 }
 
 impl Unknowns {
@@ -196,6 +212,7 @@ pub struct GapShare {
     /// Which unknown, from 0.
     pub index: usize,
     /// The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if that is beyond the range.
+    #[serde(serialize_with = "known_value")]
     pub lambda: f64,
 }
 
