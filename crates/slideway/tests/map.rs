@@ -162,7 +162,13 @@ fn nonsense_is_refused() {
     assert!(matches!(kind("mu_1=0.5..0.5", "mu_2=0..1"), FaultKind::EmptyRange { .. }));
     assert!(matches!(kind("mu_1=0..1", "mu_2=1..0"), FaultKind::ReversedRange { .. }));
     assert!(matches!(kind("mu_1", "mu_2=0..1"), FaultKind::RangeNeeded { .. }));
-    assert!(matches!(kind("mu_1=0..1", "k=0..1"), FaultKind::NothingVaries { .. }));
+    let text = gallery::find("klepp-2002")
+        .expect("in the gallery")
+        .text
+        .replace("[parameters]", "[parameters]\nidle = 1");
+    let idle = map(&Model::parse(&text).expect("sound"), &MapOptions::of("mu_1=0..1", "idle=0..1"));
+    let refused = idle.expect_err("refused").sorted()[0].kind.clone();
+    assert!(matches!(refused, FaultKind::NothingVaries { .. }), "{refused:?}");
     let unknown = kind("mu_9=0..1", "mu_2=0..1");
     assert!(matches!(unknown, FaultKind::UnknownName { nearest: Some(_), .. }), "{unknown:?}");
     // Both axes are judged at once.

@@ -67,7 +67,7 @@ pub(super) fn first_fall<E>(
                 }
                 let value = function(Interval::point(time + cell))?;
                 if value.upper() < 0.0 {
-                    return Ok(Some(time + cell));
+                    return falling_point([time, time + cell], function).map(Some);
                 }
                 if value.lower() > 0.0 {
                     time += cell;
@@ -78,6 +78,24 @@ pub(super) fn first_fall<E>(
         }
     }
     Ok(None)
+}
+
+/// A value counts as below zero if it is by more than this part of the width of its bounds: bounds of rounding are wide.
+const CLEARLY: f64 = 0.005;
+
+/// The first number at which a function whose sign can be told at the right end is below zero, as far as rounding lets it.
+fn falling_point<E>(
+    [mut left, mut right]: [f64; 2],
+    mut function: impl FnMut(Interval) -> Result<Interval, E>,
+) -> Result<f64, E> {
+    loop {
+        let middle = f64::midpoint(left, right);
+        if middle <= left || middle >= right {
+            return Ok(right);
+        }
+        let value = function(Interval::point(middle))?;
+        if value.middle() < -CLEARLY * value.width() { right = middle } else { left = middle }
+    }
 }
 
 /// A dip to less than this part of the range of the values is looked at.

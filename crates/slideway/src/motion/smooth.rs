@@ -363,7 +363,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Why no step is short enough: the mode locks, or the loads grow beyond all bounds.
     fn without_bounds(&self, phase: &Phase) -> Failure {
         let determinant = self.watch.value(Watched::Determinant, phase, &self.equations);
-        if determinant.is_ok_and(|determinant| determinant > 0.0) {
+        if self.watch.magnitudes.force > 0.0 && determinant.is_ok_and(|determinant| determinant > 0.0) {
             return Failure::Loads(Fault::general(FaultKind::LoadsWithoutBounds).into());
         }
         Failure::Singular

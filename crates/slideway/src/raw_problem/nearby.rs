@@ -114,6 +114,9 @@ impl<'a> Bounds<'a> {
     /// The least-squares solution of least size with the same signs; none if there is no such.
     fn refined(&self, signed: &DVector<f64>) -> Option<DVector<f64>> {
         let (matrix, present, _) = self.columns(signed);
+        if present.is_empty() {
+            return None;
+        }
         let factors = matrix.clone().svd(true, true);
         let smallest = factors.singular_values.amax() * RELATIVE * signed.len() as f64;
         let load = self.problem.right_hand_side();

@@ -13,6 +13,8 @@ use crate::mechanism::Mechanism;
 use crate::motion::Phase;
 use crate::motion::root::first_fall;
 
+/// Linear programs miss their optimum by no more than this.
+const MISSED: f64 = 1e-10;
 /// The most formulas of loads that are varied one by one; of more only the ends of a span are seen.
 const MOST_CORNERS: usize = 8;
 
@@ -97,17 +99,17 @@ impl<'m> Holding<'m> {
             let mut there = configuration.clone();
             there.time = time.lower();
             self.loaded.fix_loads(&mechanism.loads, &[]);
-            return Ok(Interval::around(self.margin_of(&there, false)?, BOUNDARY));
+            return Ok(Interval::around(self.margin_of(&there, false)?, MISSED));
         };
         let mut least = f64::INFINITY;
         for (number, corner) in corners(&ranges, time.width() == 0.0).into_iter().enumerate() {
             self.loaded.fix_loads(&mechanism.loads, &corner);
             least = least.min(self.margin_of(configuration, number > 0)?);
-            if least < BOUNDARY {
+            if least < MISSED {
                 break;
             }
         }
-        Ok(Interval::around(least, BOUNDARY))
+        Ok(Interval::around(least, MISSED))
     }
 
     /// The margin with the loads that are set, with the sides of the last margin alone or with those that leave most.
