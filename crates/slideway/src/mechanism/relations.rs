@@ -1,9 +1,8 @@
 //! The relations in the formulas of loads and drives: where these jump or have a kink.
 
-use super::{Load, LoadKind, Mechanism, Quantity};
-use crate::expression::{Piece, RelationKind, Values};
+use super::{LoadKind, Mechanism, Quantity};
+use crate::expression::{Piece, RelationKind};
 use crate::ids::FormulaId;
-use crate::interval::Interval;
 use std::sync::Arc;
 
 /// A relation in the formula of a load or of a drive.
@@ -52,49 +51,10 @@ impl Pieces {
 }
 
 impl Mechanism {
-    /// The formulas of the loads that vary.
-    pub(crate) fn varying_loads(&self) -> Vec<FormulaId> {
-        let mut loads = self.loads.clone();
-        let quantities = loads.iter_mut().flat_map(|load| quantities(&mut load.kind));
-        let mut ids: Vec<FormulaId> = quantities
-            .filter_map(|quantity| match quantity {
-                Quantity::Varying(id) => Some(*id),
-                Quantity::Constant(_) => None,
-            })
-            .collect();
-        ids.sort_by_key(|id| id.index());
-        ids.dedup();
-        ids
-    }
-
-    /// Gives formulas of loads these values, whatever the motion; `loads` are those with the formulas.
-    pub(crate) fn fix_loads(&mut self, loads: &[Load], values: &[(FormulaId, f64)]) {
-        self.loads.clone_from_slice(loads);
-        for quantity in self.loads.iter_mut().flat_map(|load| quantities(&mut load.kind)) {
-            if let Quantity::Varying(id) = quantity
-                && let Some((_, value)) = values.iter().find(|(other, _)| other == id)
-            {
-                *quantity = Quantity::Constant(*value);
-            }
-        }
-    }
-
-    /// The values of a formula in a state at these times; nothing where it has none for some of them.
-    pub(crate) fn formula_over(
-        &self,
-        id: FormulaId,
-        values: &Values<'_, Interval>,
-        pieces: Option<&Pieces>,
-    ) -> Option<Interval> {
-        let pieces = pieces.map_or(&[][..], |pieces| pieces.of(id));
-        self.formulas[id.index()].expression.evaluate_on(values, pieces).ok()
-    }
-
     /// The relations in the formulas of loads and drives, in the order of these formulas.
     pub(crate) fn relations(&self) -> Vec<Relation> {
         let loads = self.loads.iter().flat_map(|load| {
-            let mut kind = load.kind.clone();
-            quantities(&mut kind).into_iter().map(|quantity| (&load.name, *quantity)).collect::<Vec<_>>()
+            quantities(&load.kind).into_iter().map(|quantity| (&load.name, quantity)).collect::<Vec<_>>()
         });
         let drives = self.drives.iter().map(|drive| (&drive.name, drive.acceleration));
         let mut formulas: Vec<(FormulaId, &Arc<str>)> = loads
@@ -116,12 +76,12 @@ impl Mechanism {
 }
 
 /// The numbers of a load that may vary.
-fn quantities(kind: &mut LoadKind) -> Vec<&mut Quantity> {
+fn quantities(kind: &LoadKind) -> Vec<Quantity> {
     match kind {
-        LoadKind::Force { components, .. } => components.iter_mut().collect(),
-        LoadKind::Torque { moment, .. } => vec![moment],
-        LoadKind::Spring { stiffness, free_length, .. } => vec![stiffness, free_length],
-        LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => vec![damping],
-        LoadKind::TorsionalSpring { stiffness, free_angle, .. } => vec![stiffness, free_angle],
+        LoadKind::Force { components, .. } => components.to_vec(),
+        LoadKind::Torque { moment, .. } => vec![*moment],
+        LoadKind::Spring { stiffness, free_length, .. } => vec![*stiffness, *free_length],
+        LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => vec![*damping],
+        LoadKind::TorsionalSpring { stiffness, free_angle, .. } => vec![*stiffness, *free_angle],
     }
 }

@@ -93,16 +93,16 @@ pub trait Decisions {
 
 /// A mechanism that stands still while its loads change.
 pub trait Hold {
-    /// The first time in a span from the configuration's time on at which the joints cannot stick any longer.
+    /// What [`Decisions::sticking_margin`] is at the time of a configuration.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
-    fn slips(&mut self, configuration: &Configuration, until: f64) -> Result<Option<f64>, Faults>;
+    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults>;
 }
 
 impl Hold for decision::Holding<'_> {
-    fn slips(&mut self, configuration: &Configuration, until: f64) -> Result<Option<f64>, Faults> {
-        self.slips(configuration, until)
+    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
+        self.margin(configuration)
     }
 }
 

@@ -11,7 +11,7 @@ use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::{Fault, FaultKind};
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -68,10 +68,8 @@ pub(super) struct Smooth<'o, 'm> {
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
-    /// What knows when sticking ends while the whole mechanism stands still, ...
+    /// What computes the margin of sticking while the whole mechanism stands still.
     hold: Option<Box<dyn Hold + 'm>>,
-    /// ... until when it has been asked, and when something slips.
-    held: (f64, Option<f64>),
     /// No step goes beyond this time.
     stop: f64,
 }
@@ -102,7 +100,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
             values: Default::default(),
             inside: vec![0.0; size],
             hold: None,
-            held: (f64::NEG_INFINITY, None),
             stop: time,
             state,
             equations,
@@ -132,7 +129,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
         self.hold = None;
-        self.held = (f64::NEG_INFINITY, None);
         if self.equations.stands_still(REST * self.greatest_velocity()) {
             let configuration = &self.equations.configuration;
             let hold = decisions.hold(self.equations.mechanism, configuration, phase);
@@ -221,13 +217,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if !due.is_empty() {
             return Some(self.switch(&due, Vec::new()));
         }
-        match self.slips() {
-            Ok(slips) if slips - self.time <= self.least_step() => {
-                return Some(Ended::Event(vec![Cause::Slips]));
-            }
-            Ok(slips) => self.stop = self.known_time().min(slips),
-            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
-        }
+        self.stop = self.known_time();
         let (step, error) = match self.accepted_step(phase, decisions, history) {
             Ok(accepted) => accepted,
             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -300,19 +290,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
     fn known_time(&mut self) -> f64 {
         let horizon = self.horizon();
         self.end.min(self.switching.next(self.time, horizon))
-    }
-
-    /// When something slips that stands still with all else; infinite if nothing does before the next step ends.
-    fn slips(&mut self) -> Result<f64, Faults> {
-        let until = self.known_time().min(self.horizon());
-        let Some(hold) = &mut self.hold else { return Ok(f64::INFINITY) };
-        let (asked, slips) = self.held;
-        if slips.is_none() && asked < until {
-            let mut configuration = self.equations.configuration.clone();
-            configuration.time = self.time.max(asked);
-            self.held = (until, hold.slips(&configuration, until)?);
-        }
-        Ok(self.held.1.unwrap_or(f64::INFINITY))
     }
 
     /// No step goes beyond it.
@@ -464,11 +441,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
-            if self.hold.is_some() {
-                // It is known when it ends.
-                return Ok(1.0);
-            }
-            let margin = decisions.sticking_margin(equations.mechanism, configuration, phase);
+            let margin = match &mut self.hold {
+                Some(hold) => hold.margin(configuration),
+                None => decisions.sticking_margin(equations.mechanism, configuration, phase),
+            };
             return margin.map_err(Failure::Loads);
         }
         self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))

@@ -119,12 +119,8 @@ impl<'m> Instant<'m> {
     ///
     /// # Errors
     /// Loads without a value.
-    pub(super) fn change_loads(
-        &mut self,
-        mechanism: &Mechanism,
-        configuration: &Configuration,
-    ) -> Result<(), Faults> {
-        self.equations.change_loads(mechanism, configuration)?;
+    pub(super) fn change_loads(&mut self, configuration: &Configuration) -> Result<(), Faults> {
+        self.equations.change_loads(self.mechanism, configuration)?;
         self.influence.frictionless = self.equations.without_noise(&self.equations.frictionless());
         self.units = set_units(self.mechanism, &self.influence, &self.equations, &mut self.joints);
         self.outputs = outputs(self.mechanism, &self.influence, &self.joints);
