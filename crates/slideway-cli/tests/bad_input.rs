@@ -63,7 +63,6 @@ refused! {
     size_unknown_parameter: ["size", DRAWER, "--vary", "l", "--margin", "2"];
     size_reversed_range: ["size", DRAWER, "--vary", "L=1 m..0.1 m", "--margin", "2"];
     size_empty_range: ["size", DRAWER, "--vary", "L=1 m..1 m", "--margin", "2"];
-    size_on_which_nothing_depends: ["size", DRAWER, "--vary", "m", "--margin", "2"];
     size_coordinate_without_range: ["size", DRAWER, "--vary", "x", "--margin", "2"];
     size_without_load: ["size", DRAWER, "--vary", "L", "--margin", "2", "--against", "hold"];
     size_with_idle_load: ["size", DRAWER, "--vary", "L", "--margin", "2", "--load", "push"];
@@ -78,7 +77,6 @@ refused! {
     drive_unknown_parameter: ["drive", DRAWER, "--vary", "nu=0..1"];
     drive_rows_without_vary: ["drive", DRAWER, "--rows", "5"];
     drive_one_row: ["drive", DRAWER, "--vary", "mu", "--rows", "1"];
-    limits_on_which_nothing_depends: ["limits", DRAWER, "--vary", "m=1 kg..2 kg"];
     limits_unknown_parameter: ["limits", DRAWER, "--vary", "lenght=0..1"];
     malformed_settings: ["solve", DRAWER, "--set", "mu", "--set", "=1", "--at", "x="];
     unknown_setting: ["solve", KLEPP, "--set", "mu1=0.2"];

@@ -28,7 +28,6 @@ refused! {
     map_of_unknown_and_reversed: ["map", KLEPP, "--x", "mu_9=0..0.8", "--y", "mu_2=1..0", "-o", "never.svg"];
     map_of_empty_and_no_range: ["map", KLEPP, "--x", "mu_1=0.5..0.5", "--y", "mu_2", "-o", "never.svg"];
     map_of_the_same_twice: ["map", KLEPP, "--x", "mu_1=0..0.8", "--y", "mu_1=0..1", "-o", "never.svg"];
-    map_of_what_changes_nothing: ["map", KLEPP, "--x", "mu_1=0..0.8", "--y", "k=0..1", "-o", "never.svg"];
     map_of_wrong_unit: ["map", KLEPP, "--x", "mu_1=0..0.8", "--y", "F_20=0 m..15 m", "-o", "never.svg"];
     map_without_size: [
         "map", KLEPP, "--x", "mu_1=0..0.8", "--y", "mu_2=0..1", "--size", "0x5", "-o", "never.svg"
