@@ -2,7 +2,7 @@
 //!
 //! A title or a name may hold characters that are not seen but do something: escape sequences that move the cursor of a
 //! terminal or change its title, marks that reverse the order of what follows, letters without width. Wherever text from a
-//! model, a file name or an argument is told to a person it goes through [`line`] or [`lines`].
+//! model, a file name or an argument is told to a person it goes through [`line()`] or [`lines`].
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -29,7 +29,7 @@ pub fn line(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// A text of several lines, each as [`line`] shows it.
+/// A text of several lines, each as [`line()`] shows it.
 ///
 /// ```
 /// assert_eq!(slideway::printable::lines("first\r\nsecond\u{9b}2J\n"), "first\nsecond\\u009b2J\n");
