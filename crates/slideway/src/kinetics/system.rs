@@ -104,18 +104,34 @@ pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64
     let mut rows = DVector::from_element(matrix.nrows(), 1.0);
     let mut columns = DVector::from_element(matrix.ncols(), 1.0);
     for _ in 0..6 {
-        let current = scaled(matrix, &rows, &columns);
-        for i in 0..matrix.nrows() {
-            rows[i] *= inverse_root(current.row(i).amax());
+        let mut greatest = [vec![0.0_f64; matrix.nrows()], vec![0.0_f64; matrix.ncols()]];
+        for (j, column) in matrix.column_iter().enumerate() {
+            for (i, entry) in column.iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
+                let scaled = (rows[i] * entry * columns[j]).abs();
+                greatest[0][i] = greatest[0][i].max(scaled);
+                greatest[1][j] = greatest[1][j].max(scaled);
+            }
         }
-        for j in 0..matrix.ncols() {
-            columns[j] *= inverse_root(current.column(j).amax());
+        let [of_rows, of_columns] = greatest.map(|list| list.into_iter().map(inverse_root));
+        let mut changed = false;
+        for (scale, factor) in rows.iter_mut().zip(of_rows).chain(columns.iter_mut().zip(of_columns)) {
+            *scale *= factor;
+            changed |= factor != 1.0;
+        }
+        if !changed {
+            break;
         }
     }
     (rows, columns)
 }
 
-/// The power of two nearest to 1/sqrt(x); 1 for an empty row.
+/// The power of two nearest to 1/sqrt(x), from the exponent of x; 1 for an empty row. Between two the one farther from 1.
 fn inverse_root(x: f64) -> f64 {
-    if x > 0.0 && x.is_finite() { (-x.log2() / 2.0).round().exp2() } else { 1.0 }
+    if x <= 0.0 || !x.is_finite() {
+        return 1.0;
+    }
+    let exponent = libm::ilogb(x);
+    let is_between = exponent % 2 != 0 && x == libm::ldexp(1.0, exponent);
+    let nearest = if is_between { exponent + exponent.signum() } else { exponent + 1 };
+    libm::ldexp(1.0, -nearest.div_euclid(2))
 }

@@ -29,7 +29,8 @@ struct Accelerations {
 /// little later.
 ///
 /// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
-/// differences over two steps of Heun's method.
+/// differences over two steps: with constant accelerations, which tells rates as well as any, and by Heun's method where a rate
+/// is zero and the curvature is asked for.
 pub(super) fn standing(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -45,25 +46,34 @@ pub(super) fn standing(
     };
     let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
     let scale = time_scale(instant, configuration);
-    let later = match flow.slacks(configuration, (instant, assessment), STEP * scale) {
-        Ok(Later::Lasts(later)) => later,
-        Ok(Later::Ends) => return Err(Vec::new()),
-        Ok(Later::Unsolved) | Err(_) => return Ok(Standing::Undecided(limits(&bounds))),
-    };
+    let start = (configuration, accelerations(instant, assessment));
     let (mut constant, mut violated) = (Vec::new(), Vec::new());
-    for &index in &bounds {
-        let first = assessment.slacks[index];
-        let at = |step: usize| later[step].get(index).filter(|slack| slack.subject == first.subject);
-        let (Some(second), Some(third)) = (at(0), at(1)) else {
-            constant.push(index);
-            continue;
+    for method in [Method::ConstantAccelerations, Method::Heun] {
+        let later = match flow.slacks((start.0, &start.1), STEP * scale, method) {
+            Ok(Later::Lasts(later)) => later,
+            Ok(Later::Ends) => return Err(Vec::new()),
+            Ok(Later::Unsolved) | Err(_) => return Ok(Standing::Undecided(limits(&bounds))),
         };
-        let rate = (-3.0 * first.value + 4.0 * second.value - third.value) / (2.0 * STEP);
-        let curvature = (first.value - 2.0 * second.value + third.value) / (STEP * STEP);
-        if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
-            violated.push(first.subject);
-        } else if rate <= NO_RATE && curvature <= NO_CURVATURE {
-            constant.push(index);
+        (constant, violated) = (Vec::new(), Vec::new());
+        let mut wants_curvature = false;
+        for &index in &bounds {
+            let first = assessment.slacks[index];
+            let at = |step: usize| later[step].get(index).filter(|slack| slack.subject == first.subject);
+            let (Some(second), Some(third)) = (at(0), at(1)) else {
+                constant.push(index);
+                continue;
+            };
+            let rate = (-3.0 * first.value + 4.0 * second.value - third.value) / (2.0 * STEP);
+            let curvature = (first.value - 2.0 * second.value + third.value) / (STEP * STEP);
+            wants_curvature |= rate.abs() <= NO_RATE;
+            if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
+                violated.push(first.subject);
+            } else if rate <= NO_RATE && curvature <= NO_CURVATURE {
+                constant.push(index);
+            }
+        }
+        if !wants_curvature {
+            break;
         }
     }
     if !violated.is_empty() {
@@ -108,6 +118,15 @@ struct Flow<'f> {
 
 type Slacks = Vec<super::assessment::Slack>;
 
+/// How the motion of a phase is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Method {
+    /// Errors of slacks are of second order in the step, as the differences for rates take them out.
+    ConstantAccelerations,
+    /// Errors of slacks are of third order.
+    Heun,
+}
+
 /// What becomes of a phase along its own motion.
 enum Later<T> {
     Lasts(T),
@@ -131,14 +150,21 @@ impl Flow<'_> {
     /// The slacks after one step and after two.
     fn slacks(
         &self,
-        configuration: &Configuration,
-        (instant, assessment): (&Instant<'_>, &Assessment),
+        (from, start): (&Configuration, &Accelerations),
         step: f64,
+        method: Method,
     ) -> Result<Later<[Slacks; 2]>, Faults> {
-        let start = accelerations(instant, assessment);
-        self.step(configuration, &start, step)?.and_then(|(next, start, first)| {
-            self.step(&next, &start, step)?.and_then(|(_, _, second)| Ok(Later::Lasts([first, second])))
-        })
+        match method {
+            Method::ConstantAccelerations => {
+                let after = |time: f64| self.at(&advanced(from, start, start, time));
+                after(step)?.and_then(|(_, first)| {
+                    after(2.0 * step)?.and_then(|(_, second)| Ok(Later::Lasts([first, second])))
+                })
+            }
+            Method::Heun => self.step(from, start, step)?.and_then(|(next, start, first)| {
+                self.step(&next, &start, step)?.and_then(|(_, _, second)| Ok(Later::Lasts([first, second])))
+            }),
+        }
     }
 
     /// A step of Heun's method: the configuration after it, its accelerations and slacks.
