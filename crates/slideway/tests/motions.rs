@@ -479,3 +479,21 @@ fn elastic_guides_slide_back_where_the_bar_could_wedge_itself() {
         assert_orders(&format!("place at {time} s"), &place[1..], 0.4, 1.0);
     }
 }
+
+/// A brake written as a load, against none, and against one that follows the time or the place: only the first is friction.
+#[test]
+fn a_load_that_jumps_with_a_rate_gets_a_hint() {
+    let hints = |force: &str| {
+        let text = gallery::find("frictional-oscillator").unwrap().text;
+        let load =
+            format!("[loads.brake]\ntype = \"force\"\nat = \"block.S\"\ncomponents = [\"{force}\", 0]\n");
+        let model = Model::parse(&format!("{text}\n{load}")).unwrap();
+        let options = SimulateOptions::new(0.01);
+        slideway::motion::report(&simulate(&model, &options).unwrap(), &options).hints
+    };
+    let [hint] = hints("-2 N * sign(rate(x))").try_into().unwrap();
+    assert!(hint.starts_with("brake jumps where a rate passes zero"), "{hint}");
+    for other in ["-2 N * abs(rate(x)) / (1 m/s)", "-2 N * sign(x)", "-2 N * sign(t - 0.5 s)"] {
+        assert_eq!(hints(other), Vec::<String>::new(), "{other}");
+    }
+}

@@ -41,6 +41,8 @@ impl End {
 pub(crate) struct RelationKind {
     /// Whether its arguments depend on time and parameters alone.
     pub(crate) of_time: bool,
+    /// Whether its arguments depend on rates.
+    pub(crate) of_rates: bool,
     /// Whether its value jumps somewhere; otherwise it has kinks only.
     pub(crate) jumps: bool,
 }
@@ -125,24 +127,30 @@ impl Operation {
 impl Expression {
     /// Its relations, in the order in which they are evaluated.
     pub(crate) fn relations(&self) -> Vec<RelationKind> {
-        // What is on the stack during evaluation: whether it depends on the motion.
-        let mut stack: Vec<bool> = Vec::new();
+        // What is on the stack during evaluation: whether it depends on coordinates, and on rates.
+        let mut stack: Vec<[bool; 2]> = Vec::new();
         let mut relations = Vec::new();
         for step in self.steps() {
-            let moves = match &step.operation {
-                Operation::Number { .. } => false,
-                Operation::Symbol(symbol) => matches!(symbol, Symbol::Coordinate(_) | Symbol::Rate(_)),
-                Operation::Unary(_) | Operation::Table(_) => stack.pop().unwrap_or(false),
-                Operation::Binary(_) => stack.pop().unwrap_or(false) | stack.pop().unwrap_or(false),
+            let mut operand = || stack.pop().unwrap_or_default();
+            let [of_coordinates, of_rates] = match &step.operation {
+                Operation::Number { .. } => [false; 2],
+                Operation::Symbol(symbol) => {
+                    [matches!(symbol, Symbol::Coordinate(_)), matches!(symbol, Symbol::Rate(_))]
+                }
+                Operation::Unary(_) | Operation::Table(_) => operand(),
+                Operation::Binary(_) => {
+                    let (one, other) = (operand(), operand());
+                    [one[0] | other[0], one[1] | other[1]]
+                }
             };
-            stack.push(moves);
+            stack.push([of_coordinates, of_rates]);
             if step.operation.is_relation() {
                 let jumps = match &step.operation {
                     Operation::Unary(function) => *function != Unary::Abs,
                     Operation::Table(table) => table.jumps(),
                     _ => false,
                 };
-                relations.push(RelationKind { of_time: !moves, jumps });
+                relations.push(RelationKind { of_time: !(of_coordinates || of_rates), of_rates, jumps });
             }
         }
         relations

@@ -7,6 +7,7 @@ use super::options::SimulateOptions;
 use super::phase::JointPhase;
 use super::series::Series;
 use crate::configuration::{Configuration, unit};
+use crate::mechanism::Mechanism;
 use crate::report::number::number;
 use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
 use serde::Serialize;
@@ -41,6 +42,8 @@ pub struct SimulateReport {
     pub phases: Vec<PhaseReport>,
     /// How it ends.
     pub end: EndReport,
+    /// What could be modelled better, in words.
+    pub hints: Vec<String>,
     /// Where the energy went.
     pub energy: EnergyReport,
     /// How far the joints were violated before each projection: of positions, in sizes of the mechanism or rad.
@@ -197,6 +200,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             .collect(),
         phases: phases(history),
         end: end_report(history, options),
+        hints: hints(mechanism),
         energy: energy(history),
         position_drift: history.drift.position,
         velocity_drift: history.drift.velocity,
@@ -208,6 +212,22 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         },
         samples: None,
     }
+}
+
+/// A load that jumps with a rate is friction without a state of rest.
+fn hints(mechanism: &Mechanism) -> Vec<String> {
+    let relations = mechanism.relations().into_iter();
+    let mut loads: Vec<String> = relations
+        .filter(|relation| relation.kind.jumps && relation.kind.of_rates)
+        .map(|relation| relation.owner.to_string())
+        .collect();
+    loads.dedup();
+    let hint = |load: String| {
+        format!(
+            "{load} jumps where a rate passes zero, as friction does, but has no state of rest: where the motion stops it takes ever shorter steps. Give the joint its own friction (`mu`, `mu_static`, preload) instead."
+        )
+    };
+    loads.into_iter().map(hint).collect()
 }
 
 fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateState> {

@@ -26,6 +26,7 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
     text.events(all_events);
     text.line("");
     text.headline(&report.end.words);
+    report.hints.iter().for_each(|hint| text.line(&format!("Hint: {hint}")));
     text.last_state();
     text.energy();
     text.quality();
