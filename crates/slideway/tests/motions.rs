@@ -497,3 +497,52 @@ fn a_load_that_jumps_with_a_rate_gets_a_hint() {
         assert_eq!(hints(other), Vec::<String>::new(), "{other}");
     }
 }
+
+/// A block of 1 kg, 0.2 m long, that 1 N does not move. Flat on its guide, with friction at the face h/2 below the line of the pull,
+/// which turns it forwards: N = W/2 +- F h/(2 L). Held by a weight beyond its end it is tipped; there the friction is shared between a
+/// lower and an upper face, and with a height the normal forces hang on how.
+#[test]
+fn what_statics_leaves_open_is_empty_in_tables() {
+    let forces = |height: &str, arm: &str, weight: &str| {
+        let text = format!(
+            r#"
+[points]
+A = [0, 0]
+H = ["{arm}", 0]
+[bodies.block]
+points = ["A", "H"]
+mass = 1
+moment_of_inertia = 0.01
+centre_of_mass = "A"
+[joints.guide]
+type = "block_slider"
+block = "block"
+at = "A"
+along = 0
+length = 0.2
+height = "{height}"
+mu = 0.4
+[loads.weight]
+type = "force"
+at = "block.H"
+components = [0, "-{weight}"]
+[loads.pull]
+type = "force"
+at = "block.A"
+components = ["1 N", 0]
+[coordinates.x]
+slide = "guide"
+"#
+        );
+        let history = simulate(&Model::parse(&text).unwrap(), &SimulateOptions::new(0.1)).unwrap();
+        let series = history.series(&[0.05]);
+        assert_eq!(series.modes, ["=="], "{text}");
+        ["front", "rear"].map(|end| series.column(&format!("guide.{end}.normal_force")).unwrap().values[0])
+    };
+    let [front, rear] = forces("0.1 m", "0 m", "10 N").map(Option::unwrap);
+    assert!((front - 5.25).abs() < 1e-12 && (rear - 4.75).abs() < 1e-12, "{front} {rear}");
+    // With the weight 0.3 m before the middle: N_front (0.1 m) - N_rear (0.1 m) = 0.3 m W, N_front + N_rear = W.
+    let [front, rear] = forces("0 m", "0.3 m", "30 N").map(Option::unwrap);
+    assert!((front - 60.0).abs() < 1e-10 && (rear + 30.0).abs() < 1e-10, "{front} {rear}");
+    assert_eq!(forces("0.1 m", "0.3 m", "30 N"), [None; 2]);
+}

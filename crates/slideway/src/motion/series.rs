@@ -1,6 +1,8 @@
 //! A motion as a table: one row for each time.
 
+use super::decision::determined_normal_forces;
 use super::history::{History, Sample};
+use super::phase::JointPhase;
 use crate::configuration::unit;
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
@@ -27,7 +29,8 @@ pub struct Column {
     pub name: String,
     /// Its unit; empty for pure numbers.
     pub unit: &'static str,
-    /// One for each row; nothing where the quantity is not defined: friction forces of joints that stick.
+    /// One for each row; nothing where the quantity is not defined: friction forces of joints that stick, and normal forces that
+    /// statics leaves open there, as they hang on how the contacts share the friction.
     pub values: Vec<Option<f64>>,
 }
 
@@ -78,11 +81,22 @@ impl History {
         let mut row = Vec::with_capacity(columns.len());
         for sample in times.iter().filter_map(|time| reader.at(*time)) {
             row.clear();
-            values(mechanism, &sample, &mut row);
+            values(mechanism, &sample, &self.normal_forces(&sample), &mut row);
             columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
             modes.push(patterns.get(sample.phase).cloned().unwrap_or_default());
         }
         Series { columns, modes }
+    }
+
+    /// The normal forces at a sample, as far as they are determined.
+    fn normal_forces(&self, sample: &Sample) -> Vec<Option<f64>> {
+        let all = || sample.contacts.iter().map(|contact| Some(contact.normal_force)).collect();
+        let phase = self.phases.get(sample.phase).map(|interval| &interval.phase);
+        let Some(phase) = phase.filter(|phase| phase.joints.contains(&JointPhase::Sticking)) else {
+            return all();
+        };
+        let found = determined_normal_forces(&self.mechanism, &sample.configuration, phase);
+        found.unwrap_or_else(|_| vec![None; sample.contacts.len()])
     }
 }
 
@@ -117,7 +131,7 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
 }
 
 /// The numbers of a row, in the order of the columns.
-fn values(mechanism: &Mechanism, sample: &Sample, row: &mut Vec<Option<f64>>) {
+fn values(mechanism: &Mechanism, sample: &Sample, normal_forces: &[Option<f64>], row: &mut Vec<Option<f64>>) {
     let configuration = &sample.configuration;
     row.push(Some(configuration.time));
     let mut equation = ConstraintRow::empty();
@@ -129,8 +143,8 @@ fn values(mechanism: &Mechanism, sample: &Sample, row: &mut Vec<Option<f64>>) {
         let acceleration = terms.sum::<f64>() - equation.right_hand_side;
         row.extend([Some(*value), Some(*rate), Some(acceleration)]);
     }
-    for contact in &sample.contacts {
-        row.extend([Some(contact.normal_force), contact.friction_force, Some(contact.sliding_velocity)]);
+    for (contact, normal_force) in sample.contacts.iter().zip(normal_forces) {
+        row.extend([*normal_force, contact.friction_force, Some(contact.sliding_velocity)]);
     }
     row.extend(sample.efforts.iter().map(|effort| Some(*effort)));
     let energy = &sample.energy;

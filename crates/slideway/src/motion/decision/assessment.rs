@@ -11,7 +11,7 @@ use crate::motion::{ContactPhase, JointPhase, Phase};
 /// Slacks below this are rounding.
 const ROUNDING: f64 = 1e-11;
 /// More combinations of sides of the contacts that stick in a group are not tried.
-const MOST_SIDES: usize = 4096;
+pub(super) const MOST_SIDES: usize = 4096;
 
 /// An inequality that decides, with its slack.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -158,8 +158,13 @@ fn assess_sides(
     question: &Question<'_>,
     (phase, group): (Phase, &Group),
 ) -> Result<Option<Assessment>, Unsolved> {
-    let mut found = Assessment::nothing(&phase);
-    let Some(system) = System::new(instant, question, &phase, group) else { return Ok(None) };
+    System::new(instant, question, &phase, group).map(|system| assess_system(&system)).transpose()
+}
+
+/// The slacks of a pattern and the reactions that leave most.
+pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved> {
+    let System { instant, phase, group, .. } = *system;
+    let mut found = Assessment::nothing(phase);
     let inequalities = system.inequalities();
     let depends = |inequality: &&Inequality| inequality.slack.coefficients.iter().any(|a| *a != 0.0);
     let together: Vec<Affine> =
@@ -187,7 +192,7 @@ fn assess_sides(
     let margins = found.slacks.iter().filter(|slack| sticks(&slack.subject)).map(|slack| slack.value);
     found.margin = margins.fold(f64::INFINITY, f64::min);
     system.write_forces(&open, &mut found.forces);
-    Ok(Some(found))
+    Ok(found)
 }
 
 fn without_rounding(slack: f64) -> f64 {
@@ -207,7 +212,7 @@ pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [Contact
 }
 
 /// The contacts of a group that stick, with their possible sides, the phase's own one first.
-fn sticking_sides(
+pub(super) fn sticking_sides(
     question: &Question<'_>,
     phase: &Phase,
     (instant, group): (&Instant<'_>, &Group),

@@ -34,6 +34,7 @@
 
 mod assessment;
 mod bounds;
+mod determined;
 mod elastic;
 mod growth;
 mod holding;
@@ -47,6 +48,7 @@ mod sticking;
 mod successors;
 mod system;
 
+pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;

@@ -80,10 +80,10 @@ pub(super) struct Question<'q> {
 
 /// A pattern with its equations solved as far as they go.
 pub(super) struct System<'s> {
-    instant: &'s Instant<'s>,
+    pub(super) instant: &'s Instant<'s>,
     question: &'s Question<'s>,
-    phase: &'s Phase,
-    group: &'s Group,
+    pub(super) phase: &'s Phase,
+    pub(super) group: &'s Group,
     /// Friction of each contact at both faces.
     friction: Vec<[Expression; 2]>,
     /// |N_k|, nothing in a preload gap.
@@ -302,6 +302,12 @@ impl<'s> System<'s> {
             }
         }
         Affine { coefficients, constant }
+    }
+
+    /// The normal force of a contact, in units; nothing where the equations leave it open.
+    pub(super) fn determined_normal_force(&self, k: usize) -> Option<f64> {
+        let normal = self.function(&self.normal_force(k));
+        normal.coefficients.iter().all(|coefficient| *coefficient == 0.0).then_some(normal.constant)
     }
 
     /// Every inequality of the pattern.

@@ -1,0 +1,62 @@
+//! Which normal forces statics determines while joints stick.
+
+use super::BOUNDARY;
+use super::assessment::{MOST_SIDES, assess_system, sticking_sides, with_sides};
+use super::instant::{Group, Instant};
+use super::system::{Question, System};
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::mechanism::Mechanism;
+use crate::motion::Phase;
+
+/// The normal force of each contact in a phase (N); nothing where it hangs on how the joints that stick share their friction:
+/// where the equations leave it open for some admissible sides of the contacts that stick, or it differs from one choice of sides to
+/// another by more than what counts as zero in decisions.
+///
+/// # Errors
+/// As [`sticking_margin`](super::sticking_margin).
+pub(in crate::motion) fn determined_normal_forces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<Vec<Option<f64>>, Faults> {
+    let instant = Instant::new(mechanism, configuration)?;
+    instant.check(phase)?;
+    let stopped = vec![false; instant.joints.len()];
+    let question = instant.question(&stopped);
+    let mut normal = vec![None; phase.contacts.len()];
+    for group in &instant.groups {
+        let found = of_group(&instant, &question, (phase, group)).unwrap_or_default();
+        for (&k, value) in group.contacts.iter().zip(found) {
+            normal[k] = value.map(|value| value * instant.units_of(k).force);
+        }
+    }
+    Ok(normal)
+}
+
+/// Those of a group, in units; nothing at all if no state was found, or not all sides could be tried.
+fn of_group(
+    instant: &Instant<'_>,
+    question: &Question<'_>,
+    (phase, group): (&Phase, &Group),
+) -> Option<Vec<Option<f64>>> {
+    let sticking = sticking_sides(question, phase, (instant, group));
+    let mut common: Option<Vec<Option<f64>>> = None;
+    for number in 0..=MOST_SIDES {
+        let Some(phase) = with_sides(phase, &sticking, number) else { return common };
+        let Some(system) = System::new(instant, question, &phase, group) else { continue };
+        if assess_system(&system).ok()?.least() < -BOUNDARY {
+            continue;
+        }
+        let found = group.contacts.iter().map(|&k| system.determined_normal_force(k));
+        common = Some(match common {
+            None => found.collect(),
+            Some(before) => before.into_iter().zip(found).map(|(one, other)| same(one, other)).collect(),
+        });
+    }
+    None
+}
+
+fn same(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    one.zip(other).and_then(|(one, other)| ((one - other).abs() <= BOUNDARY).then_some(one))
+}
