@@ -382,8 +382,8 @@ class Simulator:
         values += [state[j][0] * rates[j] for j in rest if state[j][0]]
         return min(values) > 0
 
-    def decide(self, t, y, group_index, states, signs, before, rtol):
-        """The state that follows in a group: `signs` has 0 for sliders at rest, `before` those that stuck."""
+    def decide(self, t, y, group_index, states, signs, before, at_limit, rtol):
+        """The state that follows in a group: `signs` has 0 for sliders at rest, `before` those that stuck, `at_limit` what slips."""
         sliders = self.groups[group_index][1]
         rest = [j for j in sliders if signs[j] == 0]
         found = []
@@ -400,6 +400,8 @@ class Simulator:
         most = max(len(s & before) for s in sticking)
         kept = [i for i, s in enumerate(sticking) if len(s & before) == most]
         kept = [i for i in kept if not any(sticking[i] < sticking[k] for k in kept)]
+        # of two that could let go, the one at its limit does
+        kept = [i for i in kept if before - sticking[i] <= at_limit] or kept
         if len(kept) > 1:
             raise SeveralStates(f"{t}: {[found[i] for i in kept]}")
         return found[kept[0]], len(found)
@@ -430,7 +432,7 @@ class Simulator:
         states = [{j: (signs[j], 1, 1) for j in group[1]} for group in self.groups]
         self.piece, choices = 0, 0
         for g in range(len(self.groups)):
-            states[g], count = self.decide(t, y, g, states, signs, frozenset(), rtol)
+            states[g], count = self.decide(t, y, g, states, signs, frozenset(), frozenset(), rtol)
             choices += count > 1
         log = [[] for _ in sliders]
         self.note(log, t, states)
@@ -440,6 +442,7 @@ class Simulator:
             if happened is None and t >= until:
                 break
             q, v = y.reshape(2, self.n, 3)
+            at_limit = {j for kind, j in happened or [] if kind == "slips"}
             stopped = {j for kind, j in happened or [] if kind == "stops"}
             before = frozenset(j for state in states for j, (s, *_) in state.items() if s == 0)
             signs = [0 if j in stopped or j in before else self.state_of(states, j)[0] for j in sliders]
@@ -452,7 +455,7 @@ class Simulator:
             else:
                 concerned = [g for g, group in enumerate(self.groups) if any(j in group[1] for _, j in happened)]
             for g in concerned:
-                states[g], count = self.decide(t, y, g, states, signs, before, rtol)
+                states[g], count = self.decide(t, y, g, states, signs, before, at_limit, rtol)
                 choices += count > 1
             self.note(log, t, states)
         return log, t, y, choices
@@ -479,11 +482,13 @@ class Simulator:
             dense = solver.dense_output()
             begin, stop = solver.t_old, solver.t
             last = begin
-            known = [math.inf] * len(self.events(begin, before, states)) if first else [value for _, _, value in self.events(begin, before, states)]
-            first = False
+            known = [math.inf if first else value for _, _, value in self.events(begin, before, states)]
+            first, directions = False, self.directions(before)
             for part in range(1, 8):
                 here = begin + (stop - begin) * part / 7
                 values = self.events(here, dense(here), states)
+                if any(old @ new < 0 for old, new in zip(directions, self.directions(dense(here)))):
+                    raise Singular(f"{here}: a spring passes through zero length")
                 if any(kind == "side" and abs(value) > UNBOUNDED * self.m.force_scale for kind, _, value in values):
                     raise Singular(f"{here}: normal forces grow without bound")
                 crossed = [i for i, (_, _, value) in enumerate(values) if value <= 0 and known[i] > 0]
@@ -491,6 +496,11 @@ class Simulator:
                     return self.locate(begin, before, last, here, states, crossed, rtol)
                 known, last = [value for _, _, value in values], here
         return solver.t, solver.y, None
+
+    def directions(self, y):
+        q, v = y.reshape(2, self.n, 3)
+        ends = [(self.point(q, v, s.first, s.first_at)[1], self.point(q, v, s.second, s.second_at)[1]) for s in self.m.springs]
+        return [second - first for first, second in ends]
 
     def locate(self, begin, y, last, here, states, crossed, rtol):
         """The first of these zeros, from the step's beginning."""
