@@ -2,6 +2,7 @@
 
 use super::assembly::{check_position, closed_drawing, singular_state, way_fault};
 use super::following::{Arrival, Leg, Settled, drawn, follow, scale, settle};
+use super::joint_equations::JointEquations;
 use super::{Configuration, Pose, Velocity};
 use crate::fault::Faults;
 use crate::ids::Frame;
@@ -79,7 +80,7 @@ impl Follower {
         }
         let coordinates: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
         let (settled, steps) = self.reach(mechanism, &coordinates)?;
-        let Some(velocities) = velocities(mechanism, &settled) else {
+        let Some(velocities) = velocities(mechanism, &settled, &coordinates) else {
             return Err(singular_state(mechanism, &settled.poses).into());
         };
         let configuration = Configuration {
@@ -224,16 +225,20 @@ fn extrapolated(coordinates: &[f64], earlier: &[Configuration]) -> Option<Vec<Po
 }
 
 /// Velocities of all bodies: J v = 0 in the rows of the joints, and the rates in those of the coordinates.
-fn velocities(mechanism: &Mechanism, settled: &Settled) -> Option<Vec<Velocity>> {
+///
+/// The factors may be those before a last Newton step of `|J^-1| 1e-12`, which near a dead centre is felt in velocities. One step
+/// of refinement with J at the positions themselves squares that error, `(|J^-1|^2 1e-12)^2`: less than what rounded positions
+/// do (`|J^-1|^2 1e-16`) wherever such factors are taken.
+fn velocities(mechanism: &Mechanism, settled: &Settled, values: &[f64]) -> Option<Vec<Velocity>> {
     let rows = 3 * mechanism.bodies.len();
     let first = rows - mechanism.coordinates.len();
-    let mut rates = DVector::zeros(rows);
+    let mut wanted = DVector::zeros(rows);
     for (index, coordinate) in mechanism.coordinates.iter().enumerate() {
-        rates[first + index] = coordinate.rate / scale(mechanism, index);
+        wanted[first + index] = coordinate.rate / scale(mechanism, index);
     }
-    if !settled.factors.solve_mut(&mut rates) {
-        return None;
-    }
+    let jacobian = JointEquations::with_coordinates(mechanism, &settled.poses, values).jacobian;
+    let mut rates = settled.factors.solve(&wanted)?;
+    rates += settled.factors.solve(&(&wanted - jacobian * &rates))?;
     let of = |body: usize| Velocity {
         linear: Vector2::new(rates[3 * body], rates[3 * body + 1]) * mechanism.size,
         angular: rates[3 * body + 2],
