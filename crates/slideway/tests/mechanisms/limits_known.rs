@@ -131,7 +131,7 @@ fn intervals_between_ends_are_examined_inside() {
 fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let drawer = model("drawer");
     let sampled = of(&drawer, "L=0.2 m..0.5 m");
-    assert!(sampled.counts.iter().all(|count| count.known == Known::Sampled && count.proven.is_none()));
+    assert!(sampled.counts.iter().all(|count| count.known == Known::Sampled && count.proven.is_empty()));
     assert!(
         sampled.counts.iter().all(|count| count.spacing.is_some_and(|spacing| spacing <= 0.0006 + 1e-12))
     );
@@ -141,13 +141,23 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let [moves, locked] = &proven.counts[..] else { panic!("{:?}", proven.counts) };
     // mu = L / (2 a), and no nearer to it than a ten-thousandth of both intervals.
     let locking: f64 = 2.0 / 3.0;
-    let [stretch, beyond] = [moves, locked].map(|count| count.proven.expect("proven"));
+    let [stretch, beyond] = [moves, locked].map(|count| {
+        let [stretch] = count.proven[..] else { panic!("{count:?}") };
+        stretch
+    });
     assert!(stretch[0] == 0.0 && beyond[1] == 1.0);
     assert!(
         stretch[1] < locking
             && locking - stretch[1] < 1e-4
             && beyond[0] > locking
             && beyond[0] - locking < 1e-4
+    );
+    // What is told of the part that is left out is true.
+    assert_eq!(moves.left_out(), moves.to - stretch[1]);
+    assert!(
+        proven.guarantee.contains("are proven, except within 6.7e-5 of ends of modes"),
+        "{}",
+        proven.guarantee
     );
     assert_eq!(of(&drawer, "mu=0..1").counts[0].known, Known::ClosedForm);
 }
