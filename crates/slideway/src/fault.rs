@@ -459,9 +459,9 @@ impl FaultKind {
             Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
-            Self::SingularPosition { .. } => {
-                Some("draw it in a neighbouring position, or move it a little with --at")
-            }
+            Self::SingularPosition { .. } => Some(
+                "draw it in a neighbouring position; from a drawing that is not singular --at can lead past this one",
+            ),
             Self::TooFar { .. } => Some("draw the mechanism nearer to this state"),
             Self::NotFollowed { .. } => Some(
                 "that is a dead centre of the coordinates or a place where branches meet: draw the mechanism beyond it, or choose coordinates that go on there",

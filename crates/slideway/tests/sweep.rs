@@ -189,6 +189,7 @@ fn rows_are_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
 #[case("elliptic-trammel", &["theta=100 deg..170 deg:71"])]
 #[case("sleeve-on-arm", &["phi=-60 deg..60 deg:61"])]
 #[case("klepp-2002", &["alpha=40 deg..85 deg:91"])]
+#[case("slider-crank", &["phi=20 deg..170 deg:16", "l=90 mm,80 mm,70 mm,60 mm,55 mm,52 mm,49 mm,47 mm,45 mm"])]
 fn a_grid_is_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     let model = model(name);
     let sweep = Sweep::new(&model, &SweepOptions { all_columns: true, ..options(vary) }).unwrap();

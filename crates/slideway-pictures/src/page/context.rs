@@ -5,7 +5,7 @@ use crate::drawing::svg::{self, Colour, Colours, Frame};
 use crate::theme::{DARK, LIGHT, Theme};
 use serde::Serialize;
 use slideway::limits::LimitsReport;
-use slideway::report::{Report, Solution};
+use slideway::report::{Report, Solution, followed};
 use std::fmt::Write;
 
 /// The values of the template.
@@ -25,6 +25,8 @@ pub(super) struct Context<'a> {
     report: Option<&'a Report>,
     /// Why there is no report.
     refused: &'a [String],
+    /// How the positions were reached.
+    followed: Option<String>,
     answer: String,
     states: Vec<StateView<'a>>,
     limits: &'a [LimitsReport],
@@ -63,6 +65,7 @@ impl<'a> Context<'a> {
             drawing: drawing(page),
             report,
             refused: page.report.err().unwrap_or_default(),
+            followed: report.and_then(|report| report.steps_from_drawing).map(followed),
             answer: report.map(crate::drawing::answer).unwrap_or_default(),
             states: report.map(states).unwrap_or_default(),
             limits: page.limits,

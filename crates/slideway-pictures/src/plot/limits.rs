@@ -237,9 +237,10 @@ fn zones(
 
 /// What of an interval was only sampled, or is not decided.
 fn unproven(count: &CountLimits) -> Vec<[f64; 2]> {
-    match (count.known, count.proven) {
-        (Known::Proven | Known::ClosedForm, _) => Vec::new(),
-        (_, Some([from, to])) => vec![[count.from, from], [to, count.to]],
-        (_, None) => vec![[count.from, count.to]],
+    if matches!(count.known, Known::Proven | Known::ClosedForm) {
+        return Vec::new();
     }
+    let ends = count.proven.iter().flatten().copied();
+    let ends: Vec<f64> = std::iter::once(count.from).chain(ends).chain([count.to]).collect();
+    ends.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
 }

@@ -54,6 +54,10 @@ pub struct CheckReport {
     pub condition: Option<f64>,
     /// Whether the state could be assembled; if not, what depends on it is told of the drawing.
     pub assembled: bool,
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
+    /// where they are those of the drawing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_from_drawing: Option<usize>,
     /// The bodies.
     pub bodies: Vec<BodySummary>,
     /// The joints.
@@ -214,6 +218,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         inertia,
         condition,
         assembled,
+        steps_from_drawing: configuration.steps_from_drawing(),
         bodies: bodies(&mechanism),
         joints: joints(&mechanism, &configuration),
         contacts: contacts(&mechanism, &configuration, assembled),

@@ -4,7 +4,7 @@ use super::{CheckReport, ContactSummary};
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, count};
+use crate::report::{Style, count, followed};
 use anstyle::AnsiColor;
 
 /// The report as text: the verdict first, then what the model consists of.
@@ -34,6 +34,9 @@ impl Text<'_> {
             count(report.drives.len(), "drive", "drives"),
         ];
         self.line(&parts.join(", "));
+        if let Some(steps) = report.steps_from_drawing {
+            self.line(&followed(steps));
+        }
         self.line("");
     }
 

@@ -1,7 +1,8 @@
 //! States of one mechanism after another, each on the branch of the drawing.
 
 use super::assembly::{check_position, closed_drawing, singular_state, way_fault};
-use super::following::{Arrival, Leg, Settled, drawn, follow, scale, settle};
+use super::following::{Arrival, Halt, Leg, Settled, drawn, follow, scale, settle};
+use super::joint_equations::JointEquations;
 use super::{Configuration, Pose, Velocity};
 use crate::fault::Faults;
 use crate::ids::Frame;
@@ -49,6 +50,8 @@ pub struct Follower {
     line: Option<Line>,
     /// The last configurations, the last one first.
     reached: Vec<Configuration>,
+    /// Where ways along one coordinate have ended, with that coordinate.
+    ended: Vec<(usize, Halt)>,
 }
 
 /// A leg with its last step.
@@ -79,7 +82,7 @@ impl Follower {
         }
         let coordinates: Vec<f64> = mechanism.coordinates.iter().map(|coordinate| coordinate.value).collect();
         let (settled, steps) = self.reach(mechanism, &coordinates)?;
-        let Some(velocities) = velocities(mechanism, &settled) else {
+        let Some(velocities) = velocities(mechanism, &settled, &coordinates) else {
             return Err(singular_state(mechanism, &settled.poses).into());
         };
         let configuration = Configuration {
@@ -124,9 +127,17 @@ impl Follower {
     }
 
     /// Follows the only coordinate that leaves the drawing, from the nearest state.
-    fn along(&self, mechanism: &Mechanism, coordinate: usize, values: &[f64]) -> Result<Line, Faults> {
+    fn along(&mut self, mechanism: &Mechanism, coordinate: usize, values: &[f64]) -> Result<Line, Faults> {
         let leg = Leg::along(mechanism, coordinate);
         let Some(end) = leg.place(mechanism, coordinate, values) else { return Err(Faults::default()) };
+        // Whatever is beyond such a place is not reached either.
+        let is_beyond = |(other, halt): &&(usize, Halt)| {
+            *other == coordinate && end.abs() >= halt.place.abs() && end.signum() == halt.end.signum()
+        };
+        if let Some((_, halt)) = self.ended.iter().find(is_beyond) {
+            let halt = Halt { end, ..halt.clone() };
+            return Err(way_fault(mechanism, &leg, &halt, values).into());
+        }
         let mut start = (0.0, &self.drawing, 0);
         for state in &self.reached {
             let place = leg.place(mechanism, coordinate, &state.coordinates);
@@ -134,8 +145,15 @@ impl Follower {
                 start = (place, &state.poses, state.steps);
             }
         }
-        let (place, poses, before) = start;
-        match follow(mechanism, &leg, (place, poses.clone()), (end, values)) {
+        let (place, poses, mut before) = start;
+        let way =
+            |place: f64, poses: &[Pose]| follow(mechanism, &leg, (place, poses.to_vec()), (end, values));
+        let mut found = way(place, poses);
+        // How near a fold is approached depends on the steps: the way from the drawing decides, for all values alike.
+        if place != 0.0 && found.as_ref().is_err_and(|halt| !halt.is_effort()) {
+            (found, before) = (way(0.0, &self.drawing), 0);
+        }
+        match found {
             Ok(last) => Ok(Line {
                 steps: before + last.steps,
                 values: values.to_vec(),
@@ -144,7 +162,13 @@ impl Follower {
                 end,
                 last,
             }),
-            Err(halt) => Err(way_fault(mechanism, &leg, &halt, values).into()),
+            Err(halt) => {
+                let fault = way_fault(mechanism, &leg, &halt, values);
+                if !halt.is_effort() {
+                    self.ended.push((coordinate, halt));
+                }
+                Err(fault.into())
+            }
         }
     }
 
@@ -224,16 +248,20 @@ fn extrapolated(coordinates: &[f64], earlier: &[Configuration]) -> Option<Vec<Po
 }
 
 /// Velocities of all bodies: J v = 0 in the rows of the joints, and the rates in those of the coordinates.
-fn velocities(mechanism: &Mechanism, settled: &Settled) -> Option<Vec<Velocity>> {
+///
+/// The factors may be those before a last Newton step of `|J^-1| 1e-12`, which near a dead centre is felt in velocities. One step
+/// of refinement with J at the positions themselves squares that error, `(|J^-1|^2 1e-12)^2`: less than what rounded positions
+/// do (`|J^-1|^2 1e-16`) wherever such factors are taken.
+fn velocities(mechanism: &Mechanism, settled: &Settled, values: &[f64]) -> Option<Vec<Velocity>> {
     let rows = 3 * mechanism.bodies.len();
     let first = rows - mechanism.coordinates.len();
-    let mut rates = DVector::zeros(rows);
+    let mut wanted = DVector::zeros(rows);
     for (index, coordinate) in mechanism.coordinates.iter().enumerate() {
-        rates[first + index] = coordinate.rate / scale(mechanism, index);
+        wanted[first + index] = coordinate.rate / scale(mechanism, index);
     }
-    if !settled.factors.solve_mut(&mut rates) {
-        return None;
-    }
+    let jacobian = JointEquations::with_coordinates(mechanism, &settled.poses, values).jacobian;
+    let mut rates = settled.factors.solve(&wanted)?;
+    rates += settled.factors.solve(&(&wanted - jacobian * &rates))?;
     let of = |body: usize| Velocity {
         linear: Vector2::new(rates[3 * body], rates[3 * body + 1]) * mechanism.size,
         angular: rates[3 * body + 2],

@@ -112,7 +112,7 @@ impl Leg {
 #[derive(Debug, Clone)]
 pub(super) struct Settled {
     pub(super) poses: Vec<Pose>,
-    /// Factors of the Jacobian there.
+    /// Factors of the Jacobian there, or where a last Newton step of a residual below [`CLOSED`] began.
     pub(super) factors: LU<f64, Dyn, Dyn>,
 }
 
@@ -228,7 +228,7 @@ pub(super) fn settle(
             return None;
         }
         advance(mechanism, &mut poses, &step);
-        // This last step has brought the residual to rounding, and has changed the matrix by no more than that.
+        // This last step has brought the residual to rounding.
         if size < CLOSED && regular {
             return Some(Settled { poses, factors });
         }

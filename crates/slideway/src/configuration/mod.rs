@@ -99,6 +99,11 @@ impl Configuration {
         Follower::default().configuration(mechanism)
     }
 
+    /// In how many steps the positions were followed from the drawing; none if they are those of the drawing.
+    pub(crate) fn steps_from_drawing(&self) -> Option<usize> {
+        Some(self.steps).filter(|steps| *steps > 0)
+    }
+
     /// The reference drawing itself, at rest; its joints need not be closed.
     pub fn drawing(mechanism: &Mechanism) -> Self {
         Self {

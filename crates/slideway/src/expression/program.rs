@@ -116,6 +116,14 @@ impl Expression {
         self
     }
 
+    /// The symbol, if it is nothing else.
+    pub(crate) fn only_symbol(&self) -> Option<Symbol> {
+        match self.steps() {
+            [Step { operation: Operation::Symbol(symbol), .. }] => Some(*symbol),
+            _ => None,
+        }
+    }
+
     pub(super) fn steps(&self) -> &[Step] {
         &self.steps
     }

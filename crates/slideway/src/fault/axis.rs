@@ -25,6 +25,10 @@ pub enum AxisProblem {
     Value { message: String, hint: Option<String> },
     #[error("the factor of friction cannot be negative, but it is {value}")]
     NegativeFriction { value: f64 },
+    #[error("coefficients of friction cannot be negative, but from {from} to {to} they are")]
+    NegativeCoefficients { from: f64, to: f64 },
+    #[error("coefficients of friction cannot be negative, but {value} is")]
+    NegativeCoefficient { value: f64 },
     #[error("it is a distribution, but there are no samples")]
     WithoutSamples,
     #[error("samples are drawn from a distribution or from a plain range")]

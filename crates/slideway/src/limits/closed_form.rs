@@ -53,7 +53,7 @@ pub(super) fn closed_form(
     }
     join(&mut all, [from, to]);
     let method = if changes { Method::ClosedForm } else { Method::Same { at_rest: dependence.at_rest } };
-    let known = Knowledge { proven: None, elsewhere: Elsewhere::ClosedForm };
+    let known = Knowledge::unproven(Elsewhere::ClosedForm);
     Ok(Some(Found {
         existence: all,
         known: vec![known; numbers.len()],
@@ -61,6 +61,7 @@ pub(super) fn closed_form(
         gaps: outside(varied, options.range, [from, to]),
         method,
         tried: pieces.into_iter().flatten().collect(),
+        same_end: 0.0,
     }))
 }
 

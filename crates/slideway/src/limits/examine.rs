@@ -75,7 +75,7 @@ impl<'v> Examiner<'v> {
             } else {
                 Elsewhere::ClosedForm
             };
-            let proven = longest(own());
+            let proven = stretches(own());
             found.known[index] = Knowledge { proven, elsewhere };
         }
         cells.iter().filter_map(|cell| cell.contradicted).collect()
@@ -168,23 +168,18 @@ impl<'v> Examiner<'v> {
     }
 }
 
-/// The longest proven stretch of some cells in their order; what is next to an end between two of them does not interrupt it.
-fn longest<'c>(cells: impl Iterator<Item = &'c Cell>) -> Option<[f64; 2]> {
+/// The proven stretches of some cells in their order; parts that touch are one.
+fn stretches<'c>(cells: impl Iterator<Item = &'c Cell>) -> Vec<[f64; 2]> {
+    let mut parts: Vec<[f64; 2]> = cells.flat_map(|cell| cell.proven.iter().copied()).collect();
+    parts.sort_by(|one, other| one[0].total_cmp(&other[0]));
     let mut stretches: Vec<[f64; 2]> = Vec::new();
-    let mut is_to_its_end = false;
-    for cell in cells {
-        let mut proven = cell.proven.clone();
-        proven.sort_by(|one, other| one[0].total_cmp(&other[0]));
-        for part in proven {
-            let goes_on = is_to_its_end && part[0] == cell.part[0];
-            match stretches.last_mut() {
-                Some(last) if goes_on || last[1] == part[0] => last[1] = part[1],
-                _ => stretches.push(part),
-            }
+    for part in parts {
+        match stretches.last_mut() {
+            Some(last) if last[1] == part[0] => last[1] = part[1],
+            _ => stretches.push(part),
         }
-        is_to_its_end = stretches.last().is_some_and(|last| last[1] == cell.part[1]);
     }
-    stretches.into_iter().max_by(|one, other| (one[1] - one[0]).total_cmp(&(other[1] - other[0])))
+    stretches
 }
 
 /// How near to an end of an interval nothing is proven.

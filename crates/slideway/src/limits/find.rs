@@ -25,6 +25,8 @@ pub(crate) struct Found {
     pub(crate) method: Method,
     /// Every value at which the mode problem was made.
     pub(crate) tried: Vec<f64>,
+    /// Ends of modes nearer to each other than this were taken for one.
+    pub(crate) same_end: f64,
 }
 
 /// How the ends of modes were found.
@@ -41,15 +43,15 @@ pub(crate) enum Method {
 /// What is known of the number of solutions in an interval.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Knowledge {
-    /// The longest stretch for all values of which the number is proven.
-    pub(crate) proven: Option<[f64; 2]>,
+    /// The stretches for all values of which the number is proven, both ends included; no two of them touch.
+    pub(crate) proven: Vec<[f64; 2]>,
     pub(crate) elsewhere: Elsewhere,
 }
 
 /// What is known outside the proven stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Elsewhere {
-    /// All of the interval is proven, but for what is nearer to its ends than [`super::examine::MARGIN`].
+    /// All of the interval is proven, but for what is next to ends of modes, as [`super::examine::MARGIN`] says.
     Nothing,
     /// The number follows from zeros of determinants.
     ClosedForm,
@@ -65,6 +67,19 @@ pub(crate) struct Gap {
     pub(crate) from: f64,
     pub(crate) to: f64,
     pub(crate) faults: Faults,
+}
+
+/// The widest part of an interval that is not proven; all of it if nothing is.
+pub(super) fn left_out([from, to]: [f64; 2], proven: &[[f64; 2]]) -> f64 {
+    let ends: Vec<f64> = std::iter::once(from).chain(proven.iter().flatten().copied()).chain([to]).collect();
+    ends.chunks_exact(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+}
+
+impl Knowledge {
+    /// Before anything is proven.
+    pub(crate) fn unproven(elsewhere: Elsewhere) -> Self {
+        Self { proven: Vec::new(), elsewhere }
+    }
 }
 
 impl Gap {

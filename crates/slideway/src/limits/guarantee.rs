@@ -1,6 +1,7 @@
 //! What a search for limits can miss, in words.
 
-use super::find::{Elsewhere, Found, Method};
+use super::find::{Elsewhere, Found, Method, left_out};
+use super::text::at_most;
 use crate::report::precise;
 
 /// How the ends were found, and how the numbers of solutions between them are known.
@@ -15,8 +16,9 @@ pub(crate) fn guarantee(found: &Found) -> String {
                 .to_owned()
         }
         Method::Bracketing => format!(
-            "{} values were tried, and what changes between them was bisected to machine precision.",
-            found.tried.len()
+            "{} values were tried, and what changes between them was bisected to machine precision; ends nearer to each other than {} are one.",
+            found.tried.len(),
+            at_most(found.same_end)
         ),
     }];
     sentences.extend(knowledge(found));
@@ -36,15 +38,24 @@ fn knowledge(found: &Found) -> Option<String> {
         known.clone().filter_map(|one| if let Elsewhere::Sampled(by) = one { Some(by) } else { None });
     let spacing = sampled.fold(0.0, f64::max);
     let is_any = |wanted: Elsewhere| found.known.iter().any(|known| known.elsewhere == wanted);
-    let is_proven = found.known.iter().any(|known| known.proven.is_some());
+    let is_proven = found.known.iter().any(|known| !known.proven.is_empty());
     if found.known.is_empty() {
         return None;
     }
     if found.known.iter().all(|known| known.elsewhere == Elsewhere::Nothing) {
-        return Some(format!(
-            "The numbers of solutions are proven, but for a ten-thousandth of what lies between two ends of modes, next to these{}.",
-            if matches!(found.method, Method::Bracketing) { ", which come from rounded numbers" } else { "" }
-        ));
+        let intervals = found.counts.iter().zip(&found.known);
+        let widths = intervals.map(|(interval, known)| left_out([interval.from, interval.to], &known.proven));
+        let left_out = widths.fold(0.0, f64::max);
+        let rounded =
+            if found.method == Method::Bracketing { ", which come from rounded numbers" } else { "" };
+        return Some(if left_out > 0.0 {
+            format!(
+                "The numbers of solutions are proven, except within {} of ends of modes{rounded}.",
+                at_most(left_out)
+            )
+        } else {
+            "The numbers of solutions are proven for all values.".to_owned()
+        });
     }
     let mut parts = Vec::new();
     if is_proven {

@@ -40,7 +40,7 @@ pub use text::to_text;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
 
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
@@ -83,7 +83,7 @@ impl LimitsOptions {
 /// [`LimitsOptions::effort`] allows: each of them says how it is known, [`Known`].
 ///
 /// # Errors
-/// Whatever `solve` refuses; an unknown name, an empty, reversed or infinite range, negative factors of friction.
+/// Whatever `solve` refuses; an unknown name, an empty, reversed or infinite range, negative coefficients or factors of friction.
 pub fn limits(model: &Model, options: &LimitsOptions) -> Result<LimitsReport, Faults> {
     undisturbed(|work| limits_of(model, options, work))
 }
@@ -147,7 +147,8 @@ impl Analysis {
 /// The range that is written as FROM..TO.
 ///
 /// # Errors
-/// A text that is no range, or a range that is reversed, empty, or too great to compute with.
+/// A text that is no range, or a range that is reversed, empty, too great to compute with, or one of coefficients of friction
+/// that begins below zero.
 pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
     let what = varied.in_words();
     let Some((from, to)) = text.split_once("..") else {
@@ -162,6 +163,10 @@ pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Fault
     }
     if from == to {
         return Err(fault(FaultKind::EmptyRange { what, from }));
+    }
+    if from < 0.0 && varied.is_itself_friction() {
+        let problem = AxisProblem::NegativeCoefficients { from, to: to.min(0.0) };
+        return Err(fault(FaultKind::Axis { text: format!("{}={}", varied.name, text.trim()), problem }));
     }
     Ok([from, to])
 }

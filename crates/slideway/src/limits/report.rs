@@ -1,7 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::conclusion::conclusion;
-use super::find::{Elsewhere, Found, Knowledge, Method};
+use super::find::{Elsewhere, Found, Knowledge, Method, left_out};
 use super::guarantee::guarantee;
 use super::varied::Varied;
 use crate::configuration::Configuration;
@@ -27,6 +27,10 @@ pub struct LimitsReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
+    /// where they are those of the drawing, and where a coordinate is varied: then `guarantee` tells of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_from_drawing: Option<usize>,
     /// "closed form", "bracketing", or "independent".
     pub method: &'static str,
     /// What the method can miss, in words.
@@ -132,9 +136,9 @@ pub struct CountLimits {
     pub preload_gap_states: usize,
     /// How these numbers are known.
     pub known: Known,
-    /// The longest stretch for all values of which they are proven; null where there is none. If `known` is `proven` that is all
-    /// of the interval, but for a ten-thousandth of what lies between two ends of modes, next to these.
-    pub proven: Option<[f64; 2]>,
+    /// The stretches for all values of which they are proven, both ends included. If `known` is `proven` nothing of the interval lies
+    /// between them but what is next to ends of modes: [`CountLimits::left_out`].
+    pub proven: Vec<[f64; 2]>,
     /// Where they were sampled: the greatest distance between neighbouring values; else null.
     pub spacing: Option<f64>,
 }
@@ -143,7 +147,7 @@ pub struct CountLimits {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
-    /// By the certified search for all values, but for a ten-thousandth of what lies between two ends of modes, next to these.
+    /// By the certified search for all values but those next to ends of modes: for all of [`CountLimits::proven`].
     Proven,
     /// Outside [`CountLimits::proven`] by zeros of determinants, which were computed in rounded numbers.
     ClosedForm,
@@ -151,6 +155,13 @@ pub enum Known {
     Sampled,
     /// Not at all: at some value there is another number.
     Undecided,
+}
+
+impl CountLimits {
+    /// The widest part of the interval that is not proven; all of it if nothing is.
+    pub fn left_out(&self) -> f64 {
+        left_out([self.from, self.to], &self.proven)
+    }
 }
 
 /// A range in which there is no mode problem.
@@ -278,7 +289,7 @@ impl Naming {
                 Elsewhere::Sampled(_) => Known::Sampled,
                 Elsewhere::Contradicted => Known::Undecided,
             },
-            proven: known.proven,
+            proven: known.proven.clone(),
             spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
         };
         Direction {
@@ -300,11 +311,15 @@ pub(super) fn report(
     let reversed = reversed.map(|found| naming.direction(found));
     let conclusion = conclusion(&varied.name, found.method, &forwards, reversed.as_ref());
     let value = varied.present().unwrap_or_default();
-    let guarantee = guarantee(found);
+    let mut guarantee = guarantee(found);
+    if varied.is_coordinate() {
+        guarantee += " Each position was followed from the drawing by steps that are proven to stay on its assembly branch.";
+    }
     LimitsReport {
         schema: SCHEMA,
         title: naming.mechanism.title.clone(),
         vary: VariedQuantity::new(varied, range, value),
+        steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
         method: match found.method {
             Method::ClosedForm => "closed form",
             Method::Same { .. } => "independent",

@@ -81,7 +81,7 @@ impl Scanner<'_> {
         let counts = counts_in(&existence, &cells, &|modes, at| {
             self.line(at).map_or(modes.len(), |line| line.distinct(modes, 0.0))
         });
-        let known = Knowledge { proven: None, elsewhere: Elsewhere::Sampled(0.0) };
+        let known = Knowledge::unproven(Elsewhere::Sampled(0.0));
         Ok(Found {
             existence,
             known: vec![known; counts.len()],
@@ -89,6 +89,7 @@ impl Scanner<'_> {
             gaps,
             method: Method::Bracketing,
             tried: places.iter().map(|place| place.at).collect(),
+            same_end: SAME * (to - from),
         })
     }
 
@@ -216,6 +217,12 @@ impl Scanner<'_> {
         let (Some(line), Some(next)) = (self.line(near), self.line(beyond)) else {
             return ModeEnd { at: near, cause: EndCause::NoProblem, normal_force: None };
         };
+        // Ends so close are one, and where the position is lost nothing else ends a mode.
+        let [from, to] = self.options.range;
+        let further = near + (SAME * (to - from)).copysign(outside - inside);
+        if self.line(further.clamp(from, to)).is_none() {
+            return ModeEnd { at: near, cause: EndCause::NoProblem, normal_force: None };
+        }
         let cause = line.cause(&next, pattern, &self.options).unwrap_or(EndCause::Locking);
         // Rounding counts for the mode: what vanishes is followed without tolerance.
         let slack = |at: f64| self.line(at).and_then(|line| line.slack(pattern, &cause, &self.options));

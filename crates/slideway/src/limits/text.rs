@@ -4,7 +4,7 @@ use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutPr
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, precise, spaced};
+use crate::report::{Style, followed, precise, spaced};
 
 /// The report as text: what it comes to, the modes, the numbers of solutions.
 pub fn to_text(report: &LimitsReport, style: Style) -> String {
@@ -27,6 +27,9 @@ impl Page<'_, LimitsReport> {
         let vary = &report.vary;
         let [from, to, value] = [vary.from, vary.to, vary.value].map(precise);
         self.line(&format!("{} from {from} to {to} (in the model {value})", vary.name));
+        if let Some(steps) = report.steps_from_drawing {
+            self.line(&followed(steps));
+        }
         self.line("");
         for sentence in &report.conclusion {
             self.headline(sentence);
@@ -107,13 +110,32 @@ fn count_row(count: &CountLimits) -> Vec<String> {
 /// How numbers of solutions are known, in words.
 fn known(count: &CountLimits) -> String {
     let rest = match (count.known, count.spacing) {
-        (Known::Proven, _) => return "proven".to_owned(),
+        (Known::Proven, _) => {
+            let left_out = count.left_out();
+            let except = format!("proven but within {} of ends of modes", at_most(left_out));
+            return if left_out > 0.0 { except } else { "proven".to_owned() };
+        }
         (Known::Undecided, _) => return "not decided".to_owned(),
         (Known::Sampled, Some(spacing)) => format!("sampled every {}", number(spacing)),
         _ => "closed form".to_owned(),
     };
-    match count.proven {
-        Some([from, to]) => format!("proven from {} to {}, else {rest}", precise(from), precise(to)),
+    let length = |[from, to]: &[f64; 2]| to - from;
+    match count.proven.iter().max_by(|one, other| length(one).total_cmp(&length(other))) {
+        Some([from, to]) => {
+            let further = match count.proven.len() {
+                1 => String::new(),
+                many => format!(" and in {} shorter stretches", many - 1),
+            };
+            format!("proven from {} to {}{further}, else {rest}", precise(*from), precise(*to))
+        }
         None => rest,
     }
+}
+
+/// A number with two digits, not less than it.
+pub(super) fn at_most(value: f64) -> String {
+    let exponent = value.log10().floor();
+    let unit = 10_f64.powf(exponent - 1.0);
+    let rounded = (value / unit).ceil() * unit;
+    if (-4.0..6.0).contains(&exponent) { number(rounded) } else { format!("{rounded:.1e}") }
 }

@@ -1,6 +1,6 @@
 //! What is varied: a parameter, a coordinate, or all coefficients of friction together.
 
-use crate::configuration::Configuration;
+use crate::configuration::Follower;
 use crate::enclosure::{UncertainParameters, enclosure};
 use crate::expression::Degree;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
@@ -11,6 +11,7 @@ use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::solve::{Parts, SolveOptions, Stages, certain_counts};
 use std::ops::ControlFlow;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The name under which all coefficients of friction are scaled together.
 pub const FRICTION: &str = "friction";
@@ -33,6 +34,8 @@ pub(crate) struct Varied {
     kind: Kind,
     /// The stages that a factor of friction leaves as they are.
     stages: Option<Stages>,
+    /// The positions at the last values.
+    follower: Mutex<Follower>,
 }
 
 impl Varied {
@@ -48,12 +51,17 @@ impl Varied {
             _ => return Err(unknown(model, name)),
         };
         let stages = if kind == Kind::Friction { Some(Stages::new(model)?) } else { None };
-        Ok(Self { model: model.clone(), name: name.to_owned(), kind, stages })
+        Ok(Self { model: model.clone(), name: name.to_owned(), kind, stages, follower: Mutex::default() })
     }
 
     /// Whether all coefficients of friction are scaled together.
     pub(crate) fn is_friction_factor(&self) -> bool {
         self.kind == Kind::Friction
+    }
+
+    /// Whether it is a coefficient of friction itself, not something from which one is computed.
+    pub(crate) fn is_itself_friction(&self) -> bool {
+        self.kind == Kind::Parameter && self.model.is_itself_friction(&self.name)
     }
 
     /// What it is, in words.
@@ -155,7 +163,7 @@ impl Varied {
                 _ => uncertain.with(&self.name, bounds),
             };
             let mechanism = Mechanism::new(&model).ok()?;
-            let configuration = Configuration::new(&mechanism).ok()?;
+            let configuration = self.follower().configuration(&mechanism).ok()?;
             enclosure(&model, &uncertain, &mechanism, &configuration).ok()
         };
         let Some(enclosed) = enclosed() else { return (None, 1) };
@@ -163,6 +171,10 @@ impl Varied {
             Ok(result) => (certain_counts(&enclosed, &result, options, greatest), result.nodes()),
             Err(_) => (None, 1),
         }
+    }
+
+    fn follower(&self) -> MutexGuard<'_, Follower> {
+        self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.
@@ -236,7 +248,11 @@ impl Varied {
     ) -> Result<R, Faults> {
         match &self.stages {
             Some(stages) => question(stages, value),
-            None => question(&Stages::new(&self.model_at(value)?.0)?, 1.0),
+            None => {
+                let mechanism = Mechanism::new(&self.model_at(value)?.0)?;
+                let stages = Stages::following(&mut self.follower(), mechanism)?;
+                question(&stages, 1.0)
+            }
         }
     }
 

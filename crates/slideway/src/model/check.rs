@@ -108,6 +108,17 @@ impl Model {
         self.contacts().flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
     }
 
+    /// Whether some coefficient of friction is this parameter itself, so that its negative values make no sense.
+    pub(crate) fn is_itself_friction(&self, parameter: &str) -> bool {
+        let wanted = self.parameters.iter().position(|other| &*other.name == parameter);
+        let mut coefficients =
+            self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
+        let is_it = |index: usize| Some(Symbol::Parameter(index));
+        wanted.is_some_and(|index| {
+            coefficients.any(|id| self.formula(id).expression.only_symbol() == is_it(index))
+        })
+    }
+
     /// Whether a parameter changes nothing but coefficients of friction and preloads.
     pub(crate) fn changes_friction_alone(&self, parameter: usize) -> bool {
         let own = self.parameters.iter().map(|parameter| parameter.value);

@@ -34,6 +34,10 @@ pub struct SimulateReport {
     pub stop: f64,
     /// Coordinates and rates at the start.
     pub initial: Vec<CoordinateState>,
+    /// In how many steps the positions at the start were followed from the drawing, each proven to stay on its assembly branch; absent
+    /// where they are those of the drawing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_from_drawing: Option<usize>,
     /// Coordinates and rates at the end.
     pub last: Vec<CoordinateState>,
     /// What happened, in its order.
@@ -191,6 +195,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         until: history.start() + options.duration,
         stop: history.stop(),
         initial: state(history, &history.initial),
+        steps_from_drawing: history.initial.steps_from_drawing(),
         last: state(history, history.reader().configuration(history.stop()).unwrap_or(&history.initial)),
         events: history
             .events

@@ -5,7 +5,7 @@ use super::tree::TreeReport;
 use crate::report::number::{against, number, precise};
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, Verdict, count, spaced};
+use crate::report::{Style, Verdict, count, followed, spaced};
 
 /// Energies below this part of the greatest are rounding.
 const LITTLE: f64 = 1e-13;
@@ -81,6 +81,9 @@ impl Page<'_, SimulateReport> {
         self.line(&format!("{}; from {start} s to {until} s", parts.join(", ")));
         self.line("");
         self.state("At the start", &report.initial);
+        if let Some(steps) = report.steps_from_drawing {
+            self.line(&followed(steps));
+        }
     }
 
     fn state(&mut self, when: &str, state: &[crate::report::CoordinateState]) {

@@ -18,7 +18,7 @@ pub use finite::finite;
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
 pub use number::precise;
-pub use text::{Style, to_text};
+pub use text::{Style, followed, to_text};
 pub(crate) use text::{count, spaced};
 
 use serde::Serialize;

@@ -72,10 +72,7 @@ impl Text<'_> {
             self.line(&format!("t = {} s", number(self.report.time)));
         }
         if let Some(steps) = self.report.steps_from_drawing {
-            let steps = count(steps, "step", "steps");
-            self.line(&format!(
-                "followed from the drawing in {steps}, proven to stay on its assembly branch"
-            ));
+            self.line(&followed(steps));
         }
         self.line("");
     }
@@ -480,6 +477,12 @@ fn are<'c>(contacts: impl Iterator<Item = &'c Contact>) -> Option<String> {
         [name] => Some(format!("{name} is")),
         names => Some(format!("{} are", names.join(", "))),
     }
+}
+
+/// How positions were reached from the drawing.
+pub fn followed(steps: usize) -> String {
+    let steps = count(steps, "step", "steps");
+    format!("followed from the drawing in {steps}, proven to stay on its assembly branch")
 }
 
 pub(crate) fn count(number: usize, one: &str, several: &str) -> String {

@@ -95,7 +95,7 @@ impl<'a> Answer<'a> {
             model: self.model(),
             state: self.state(),
             time: self.configuration.time,
-            steps_from_drawing: Some(self.configuration.steps).filter(|steps| *steps > 0),
+            steps_from_drawing: self.configuration.steps_from_drawing(),
             patterns: outcomes.map(|outcomes| pattern_summary(outcomes, tipping.count)),
             solutions,
             preload_gap_states: gaps,

@@ -2,7 +2,7 @@
 
 use super::mode_problem::{check_size, mode_problem, velocity_signs};
 use super::trail::Trail;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
 use crate::ids::{DriveId, JointId};
 use crate::influence::Influence;
@@ -40,16 +40,23 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
-        let mechanism = Mechanism::new(model)?;
+        Self::following(&mut Follower::default(), Mechanism::new(model)?)
+    }
+
+    /// Those of a mechanism, its positions from those of the last ones if these are near.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
         check_size(&mechanism)?;
-        let configuration = Configuration::new(&mechanism)?;
+        let configuration = follower.configuration(&mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
         let influence = Influence::new(&equations);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
         Ok(Self { mechanism, configuration, influence, velocity_signs })
     }
 
-    /// Those of a mechanism, from the states of the last ones if these are near.
+    /// The same with the equations, too, from the states of the last ones if these are near.
     ///
     /// # Errors
     /// Whatever `solve` refuses.

@@ -126,6 +126,7 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
         verdict,
         holds: verdict.holds(),
         state: state(&setup),
+        steps_from_drawing: setup.configuration.steps_from_drawing(),
         rates_ignored: original.coordinates.iter().any(|coordinate| coordinate.rate != 0.0),
         released_drives: drives(&original, options, false),
         holding_drives: drives(&original, options, true),

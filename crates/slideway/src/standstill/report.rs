@@ -54,6 +54,10 @@ pub struct HoldReport {
     pub holds: bool,
     /// Values of the chosen coordinates.
     pub state: Vec<CoordinateValue>,
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
+    /// where they are those of the drawing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_from_drawing: Option<usize>,
     /// Whether the model gives rates that were taken as zero.
     pub rates_ignored: bool,
     /// Drives that are taken as absent.

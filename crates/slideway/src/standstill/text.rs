@@ -4,7 +4,7 @@ use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold
 use crate::report::number::{against, number};
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, count, spaced};
+use crate::report::{Style, count, followed, spaced};
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
@@ -33,6 +33,9 @@ impl Text<'_> {
         let values = report.state.iter().map(|c| format!("{} = {} {}", c.name, number(c.value), c.unit));
         let rates = if report.rates_ignored { "; the rates of the model are taken as zero" } else { "" };
         self.line(&format!("At rest at {}{rates}", values.collect::<Vec<_>>().join(", ")));
+        if let Some(steps) = report.steps_from_drawing {
+            self.line(&followed(steps));
+        }
         if !report.released_drives.is_empty() {
             self.line(&format!("Without the drives: {}", report.released_drives.join(", ")));
         }

@@ -112,6 +112,8 @@ impl Reader<'_> {
             Err(AxisProblem::Reversed { from, to })
         } else if from == to {
             Err(AxisProblem::Empty { from })
+        } else if from < 0.0 && self.quantity.is_itself_friction(self.model) {
+            Err(AxisProblem::NegativeCoefficients { from, to: to.min(0.0) })
         } else {
             Ok(Some([from, to]))
         }
@@ -122,8 +124,14 @@ impl Reader<'_> {
             return Err(AxisProblem::WithoutSamples);
         }
         if !text.contains("..") {
-            let values: Result<Vec<f64>, _> = parts(text).into_iter().map(|part| self.value(part)).collect();
-            return Ok(Values::Listed(values?));
+            let values =
+                parts(text).into_iter().map(|part| self.value(part)).collect::<Result<Vec<f64>, _>>()?;
+            return match values.iter().find(|value| **value < 0.0) {
+                Some(&value) if self.quantity.is_itself_friction(self.model) => {
+                    Err(AxisProblem::NegativeCoefficient { value })
+                }
+                _ => Ok(Values::Listed(values)),
+            };
         }
         let mut fields = text.split(':').map(str::trim);
         let range = fields.next().unwrap_or_default();

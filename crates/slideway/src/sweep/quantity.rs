@@ -83,6 +83,11 @@ impl Quantity {
         self.kind == Kind::Friction || model.is_friction_coefficient(&self.name)
     }
 
+    /// Whether it is a coefficient of friction itself, not something from which one is computed.
+    pub(super) fn is_itself_friction(&self, model: &Model) -> bool {
+        matches!(self.kind, Kind::Parameter(_)) && model.is_itself_friction(&self.name)
+    }
+
     /// Its unit, "SI" where that depends on the parameter.
     pub(super) fn unit(&self, model: &Model) -> &'static str {
         let is_angle = |index: usize| model.coordinates[index].kind.is_angle();

@@ -45,6 +45,13 @@ fn three_values_do_not_make_a_formula_affine() {
 }
 
 /// There the method decides; the places are those of the table in `model/dependence.rs`.
+///
+/// The force of the damper presses on no guide, like P: it acts at S along the line from the wall to S, which is horizontal (both are
+/// at the height l/2 sin(alpha), and the bar, whose ends slide in horizontal slots, only translates along them). Let H be a horizontal force at S.
+/// Vertical balance of the bar and the block, `N_1 + N_2 + N_3 = m g`, and the couple of the massless block about A,
+/// `(N_2 - N_3) b/2 + (friction at its faces) h/2 = 0`, do not contain H; the balance of moments about S does not because H acts there,
+/// and the horizontal acceleration that it causes is that of S, whose inertia force has no moment about S either. So neither N(0) nor the
+/// columns, which are answers to unit friction forces, depend on H: "independent". The same normal forces at both ends confirm it.
 #[test]
 fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
     let drawer = gallery::find("drawer").expect("in the gallery").text;
@@ -64,8 +71,20 @@ fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
         ("m=1 kg..2 kg", "bracketing"),
         ("alpha=70 deg..80 deg", "bracketing"),
     ] {
-        // The preload `m*g` follows from both. A horizontal force, also that of a damper, presses the bar nowhere.
+        // The preload `m*g` follows from both.
         assert_eq!(method(klepp, vary), expected, "{vary}");
+    }
+    let klepp_model = Model::parse(klepp).expect("sound");
+    let forces = |damping: &str| {
+        let report =
+            solve(&klepp_model.with(&parameters(&[("c", damping)])).expect("sound")).expect("solvable");
+        let of = |solution: &slideway::report::Solution| {
+            solution.contacts.iter().map(|contact| contact.normal_force).collect::<Vec<_>>()
+        };
+        report.solutions.iter().map(of).collect::<Vec<_>>()
+    };
+    for (one, other) in forces("0").iter().flatten().zip(forces("10 N s/m").iter().flatten()) {
+        assert!((one - other).abs() <= 1e-12 * 9.81, "{one} {other}");
     }
     let formulas = [("2*x/4 + 0.1", "closed form"), ("max(x, 0.3)", "bracketing"), ("x*x/x", "bracketing")];
     for (formula, expected) in formulas {
@@ -112,7 +131,7 @@ fn intervals_between_ends_are_examined_inside() {
 fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let drawer = model("drawer");
     let sampled = of(&drawer, "L=0.2 m..0.5 m");
-    assert!(sampled.counts.iter().all(|count| count.known == Known::Sampled && count.proven.is_none()));
+    assert!(sampled.counts.iter().all(|count| count.known == Known::Sampled && count.proven.is_empty()));
     assert!(
         sampled.counts.iter().all(|count| count.spacing.is_some_and(|spacing| spacing <= 0.0006 + 1e-12))
     );
@@ -122,13 +141,23 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     let [moves, locked] = &proven.counts[..] else { panic!("{:?}", proven.counts) };
     // mu = L / (2 a), and no nearer to it than a ten-thousandth of both intervals.
     let locking: f64 = 2.0 / 3.0;
-    let [stretch, beyond] = [moves, locked].map(|count| count.proven.expect("proven"));
+    let [stretch, beyond] = [moves, locked].map(|count| {
+        let [stretch] = count.proven[..] else { panic!("{count:?}") };
+        stretch
+    });
     assert!(stretch[0] == 0.0 && beyond[1] == 1.0);
     assert!(
         stretch[1] < locking
             && locking - stretch[1] < 1e-4
             && beyond[0] > locking
             && beyond[0] - locking < 1e-4
+    );
+    // What is told of the part that is left out is true.
+    assert_eq!(moves.left_out(), moves.to - stretch[1]);
+    assert!(
+        proven.guarantee.contains("are proven, except within 6.7e-5 of ends of modes"),
+        "{}",
+        proven.guarantee
     );
     assert_eq!(of(&drawer, "mu=0..1").counts[0].known, Known::ClosedForm);
 }
