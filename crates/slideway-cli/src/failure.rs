@@ -8,6 +8,7 @@ use crate::time_series::SeriesFormat;
 use crate::watch::Halt;
 use clap::ValueEnum;
 use slideway::raw_problem::RawFaults;
+use slideway_pictures::NotFinite;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -88,6 +89,12 @@ pub(crate) enum Failure {
     SeveralMotions,
     /// Standard output cannot be written.
     StandardOutput { error: io::Error },
+}
+
+impl From<NotFinite> for Failure {
+    fn from(fault: NotFinite) -> Self {
+        Self::Picture { reason: fault.to_string() }
+    }
 }
 
 impl Failure {

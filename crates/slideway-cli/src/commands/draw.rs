@@ -13,6 +13,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{Report, Status};
 use slideway::solve::{SolveOptions, solve_with};
+use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
 
@@ -43,7 +44,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     };
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
-    picture.write_scaled(&written(&sheet, arguments.theme, width), sharpness, &output)?;
+    picture.write_scaled(written(&sheet, arguments.theme, width), sharpness, &output)?;
     let has_found = report.is_none_or(|report| report.status != Status::Unknown);
     Ok(outcome(halt, if has_found || halt.is_none() { Outcome::Done } else { Outcome::Unknown }))
 }
@@ -59,7 +60,7 @@ fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<O
     }
 }
 
-fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> String {
+fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {
     let frame = Frame {
         bounds: sheet.bounds,
         title: &sheet.title,

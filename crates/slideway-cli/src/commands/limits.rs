@@ -30,7 +30,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         let found = limits::curves_with(&model, &options, arguments.quantity.into(), &mut look);
         let (report, curves) = watch.whole(found.map_err(|faults| input.refused(faults))?)?;
         let figure = limits_figure(&report, &curves);
-        picture.write(&to_svg(&figure, arguments.plot.theme.colours()), &file)?;
+        picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;
         report
     } else {
         let found = limits::limits_with(&model, &options, &mut look);

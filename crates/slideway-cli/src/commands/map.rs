@@ -32,7 +32,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
         None => output.write(&to_json(&report))?,
-        Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), &output)?,
+        Some(picture) => picture.write(to_svg(&report, arguments.theme.colours()), &output)?,
     }
     Ok(Outcome::Done)
 }

@@ -52,7 +52,7 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         if history.end == End::Interrupted && watch.halt() == Some(Halt::Interrupted) {
             files.interrupt();
         }
-        files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
+        files.write(&history, &options, (step, &input), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
     let told = told.map_err(|faults| input.refused(faults))?;
@@ -244,7 +244,7 @@ impl<'a> Files<'a> {
         &self,
         history: &History,
         options: &SimulateOptions,
-        (step, metadata): (Option<f64>, &Metadata),
+        (step, input): (Option<f64>, &Input),
         watch: &mut Watch,
     ) -> Result<(), Failure> {
         if let Some((format, output)) = &self.table {
@@ -252,7 +252,8 @@ impl<'a> Files<'a> {
                 Some(step) => history.times_in_steps(step),
                 None => history.times().collect(),
             };
-            let series = history.series(&times);
+            let series = finite(history.series(&times)).map_err(|faults| input.refused(faults))?;
+            let metadata = &Metadata::of(input);
             match format {
                 SeriesFormat::Csv => output.write(&to_csv(&series))?,
                 SeriesFormat::Npz => output.write_bytes(&to_npz(&series, metadata))?,
@@ -264,6 +265,7 @@ impl<'a> Files<'a> {
                 SeriesFormat::Json => {
                     let mut report = motion::report(history, options);
                     report.samples = Some(series);
+                    let report = finite(report).map_err(|faults| input.refused(faults))?;
                     output.write(&motion::to_json(&report))?;
                 }
             }
@@ -272,7 +274,7 @@ impl<'a> Files<'a> {
         if let Some((picture, output)) = &self.plot {
             let portrait = self.arguments.phase_portrait;
             let figure = if portrait { portrait_figure(history) } else { motion_figure(history) };
-            picture.write(&to_svg(&figure, theme), output)?;
+            picture.write(to_svg(&figure, theme), output)?;
         }
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
@@ -287,8 +289,8 @@ impl<'a> Files<'a> {
                 watch.look(progress)
             };
             let bytes = match format {
-                AnimationFormat::Html => animation.to_html().into_bytes(),
-                AnimationFormat::Svg => animation.to_svg().into_bytes(),
+                AnimationFormat::Html => animation.to_html()?.into_bytes(),
+                AnimationFormat::Svg => animation.to_svg()?.into_bytes(),
                 AnimationFormat::Gif => match animation.to_gif(&mut progress) {
                     Ok(bytes) => bytes,
                     Err(GifFault::Ended) => {

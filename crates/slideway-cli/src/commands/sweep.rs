@@ -115,7 +115,7 @@ impl Plotting {
 
     fn write(mut self, state: &SweepState) -> Result<(), Failure> {
         self.plot.set_branches(state.branches());
-        self.picture.write(&to_svg(&self.plot.figure(&self.title), self.theme), &self.file)
+        self.picture.write(to_svg(&self.plot.figure(&self.title), self.theme), &self.file)
     }
 }
 

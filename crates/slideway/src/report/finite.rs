@@ -1,4 +1,4 @@
-//! No number of a report is infinite or undefined: JSON would write `null` for it, and text `inf`.
+//! No number that leaves is infinite or undefined: JSON would write `null` for it, and text `inf`.
 
 use crate::fault::{Fault, FaultKind, Faults};
 use serde::ser::{
@@ -18,6 +18,12 @@ pub fn finite<T: Serialize>(report: T) -> Result<T, Faults> {
             Err(Fault::general(FaultKind::Overflow { quantity: format!("`{place}` of the answer") }).into())
         }
     }
+}
+
+/// The number of a cell of a table; nothing where it is not defined, which is an empty cell (CSV), null (Parquet) or NaN (NumPy).
+/// An infinite number is none.
+pub fn defined(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
 /// A number that is not finite.
