@@ -68,8 +68,8 @@ pub(crate) enum Failure {
     Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
     /// A motion was interrupted, and its table so far is kept.
     MotionInterrupted { path: PathBuf },
-    /// The output would take the place of the model.
-    OverwritesModel { path: PathBuf },
+    /// An output, or what is kept beside it while it is unfinished, would take the place of the input.
+    OverwritesInput { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
     /// An unfinished table cannot be written any further.
@@ -168,7 +168,9 @@ impl Failure {
             Self::MotionInterrupted { path } => {
                 format!("interrupted; the table of the motion until then is in `{}`", path.display())
             }
-            Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
+            Self::OverwritesInput { path } => {
+                format!("the output would take the place of its input `{}`", path.display())
+            }
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }

@@ -91,6 +91,5 @@ pub(crate) fn beside(
         return Err(Failure::SameOutput { path: path.clone() });
     }
     let picture = Picture::of(path)?;
-    model.spare(&destination)?;
-    Ok(Some((picture, output.to(&destination)?)))
+    Ok(Some((picture, output.to(&destination, Some(&model.file))?)))
 }

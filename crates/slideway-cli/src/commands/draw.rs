@@ -19,8 +19,7 @@ use slideway_pictures::drawing::{Sheet, Shown, sheet};
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
     let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
     let input = Input::read(&arguments.model)?;

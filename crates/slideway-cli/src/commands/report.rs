@@ -12,9 +12,9 @@ use slideway::limits::{LimitsOptions, LimitsReport, Quantity, curves_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::solve::{SolveOptions, solve_with};
+use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{Figure, Page, to_html};
-use slideway_pictures::NotFinite;
 use slideway_pictures::plot::{self, limits_figure, to_svg};
 use slideway_pictures::theme::{DARK, LIGHT};
 use std::ffi::OsStr;
@@ -27,8 +27,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     if let Some(path) = &arguments.destination.output {
         be_a_page(path)?;
     }
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;

@@ -28,7 +28,6 @@ const MOST_ROWS: f64 = 1e7;
 
 /// Follows a mechanism in time.
 pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
-    arguments.model.spare(&arguments.destination)?;
     let mut files = Files::new(arguments, output)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
@@ -203,8 +202,7 @@ impl<'a> Files<'a> {
     fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
         let place = |path: &Path| {
             let destination = arguments.destination.beside(path);
-            arguments.model.spare(&destination)?;
-            output.to(&destination)
+            output.to(&destination, Some(&arguments.model.file))
         };
         let table = match arguments.destination.output.as_deref() {
             Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),

@@ -20,8 +20,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
     let format = format(arguments)?;
     let picture = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
-    let destination = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let destination = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = arguments.options();

@@ -133,7 +133,11 @@ fn shape(out: &mut String, class: &str, shape: &Shape) {
 }
 
 fn points(places: &[Point]) -> String {
-    places.iter().map(|place| format!("{},{}", coordinate(place.x), coordinate(place.y))).collect::<Vec<_>>().join(" ")
+    places
+        .iter()
+        .map(|place| format!("{},{}", coordinate(place.x), coordinate(place.y)))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// The class of a shape in a document.

@@ -32,7 +32,7 @@ const LINE: f64 = 18.0;
 /// the model), `legend`. Pixels of the report need not be pixels of the picture: a map of 1000 x 1000 is as large, but finer.
 ///
 /// # Errors
-/// If a number is too large to be drawn.
+/// If a number is too large or too small to be drawn.
 pub fn to_svg(report: &MapReport, theme: &Theme) -> Result<String, NotFinite> {
     let mut svg = Svg::default();
     hatchings(&mut svg, theme);

@@ -70,8 +70,12 @@ pub(super) fn html(animation: &Animation) -> String {
         }),
     );
     out.push_str("];\nconst events = [");
-    list(&mut out, animation.events.iter().map(|(time, words)| format!("[{},{}]", exact(*time), literal(words))));
-    let _ = write!(out, "];\nconst frameTime = {};\n{SCRIPT}</script>\n</html>\n", exact(animation.frame_time));
+    list(
+        &mut out,
+        animation.events.iter().map(|(time, words)| format!("[{},{}]", exact(*time), literal(words))),
+    );
+    let _ =
+        write!(out, "];\nconst frameTime = {};\n{SCRIPT}</script>\n</html>\n", exact(animation.frame_time));
     out
 }
 
@@ -303,7 +307,9 @@ fn events(animation: &Animation, out: &mut String) {
 /// What makes a group visible from a time of the clock on, for some time (s).
 fn shown(begin: f64, duration: f64) -> String {
     let [begin, duration] = [begin, duration].map(thousandths);
-    format!("<set attributeName=\"display\" to=\"inline\" begin=\"clock.begin+{begin}s\" dur=\"{duration}s\"/>")
+    format!(
+        "<set attributeName=\"display\" to=\"inline\" begin=\"clock.begin+{begin}s\" dur=\"{duration}s\"/>"
+    )
 }
 
 /// The shapes with which every frame begins.

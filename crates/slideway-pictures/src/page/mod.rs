@@ -5,8 +5,8 @@
 
 mod context;
 
-use crate::drawing::Sheet;
 use crate::coordinate::finished;
+use crate::drawing::Sheet;
 use crate::escaped;
 use context::Context;
 use minijinja::{AutoEscape, Environment, Output, State, Value};

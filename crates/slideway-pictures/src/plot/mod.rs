@@ -80,7 +80,7 @@ fn dashes(stroke: Stroke) -> &'static str {
 /// `band`, `legend`.
 ///
 /// # Errors
-/// If a number is too large to be drawn.
+/// If a number is too large or too small to be drawn.
 pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
     let mut svg = Svg::default();
     hatchings(&mut svg, theme);
