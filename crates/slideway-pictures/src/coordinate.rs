@@ -1,5 +1,6 @@
 //! Places and sizes of pictures as text: the one way in which numbers get into a picture.
 
+use crate::escaped;
 use thiserror::Error;
 
 /// What stands where a number has no text. Neither XML nor [`crate::escaped`] lets such a character through, so that nothing
@@ -40,6 +41,11 @@ pub(crate) fn coordinate(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// An attribute with places and sizes, as it stands in XML; it is no text from elsewhere.
+pub(crate) fn attribute(value: &str) -> String {
+    value.split(NONE).map(escaped).collect::<Vec<_>>().join(NONE)
+}
+
 /// Parts of a picture all of whose places and sizes are finite.
 ///
 /// # Errors
@@ -59,7 +65,6 @@ pub(crate) fn finished(picture: String) -> Result<String, NotFinite> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::escaped;
 
     #[test]
     fn two_decimals_and_nothing_else() {
@@ -67,7 +72,8 @@ mod tests {
         assert_eq!([exact(0.15), thousandths(0.15), tenths(0.25)], ["0.15", "0.150", "0.2"]);
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for text in [coordinate(value), exact(value), thousandths(value), tenths(value)] {
-                assert_eq!(finished(format!("<circle r=\"{text}\"/>")), Err(NotFinite));
+                let element = format!("<path d=\"{}\"/>", attribute(&format!("M1 {text}")));
+                assert_eq!(finished(element), Err(NotFinite));
             }
         }
         // Text that looks like it is none.

@@ -1,7 +1,7 @@
 //! Writing SVG: elements with attributes, numbers of two decimals, escaped text.
 
 pub(crate) use crate::coordinate::coordinate;
-use crate::coordinate::{NotFinite, finished};
+use crate::coordinate::{NotFinite, attribute, finished};
 use crate::escaped;
 use crate::typeface::STACK;
 pub(crate) use crate::typeface::width;
@@ -83,7 +83,7 @@ impl Svg {
     fn start(&mut self, name: &str, attributes: &[(&str, &str)]) {
         let _ = write!(self.body, "{}<{name}", "  ".repeat(self.indent));
         for (key, value) in attributes {
-            let _ = write!(self.body, " {key}=\"{}\"", escaped(value));
+            let _ = write!(self.body, " {key}=\"{}\"", attribute(value));
         }
     }
 }
