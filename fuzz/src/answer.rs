@@ -11,7 +11,6 @@ pub fn answer(problem: &RawProblem) {
     let limits = Limits { solutions: 100, singular: 20, bases: 1000, ..Limits::default() };
     let options = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
     let Ok(report) = solve(problem, &options, 10, &mut |_| ControlFlow::Continue(())) else { return };
-    let json = to_json(&report);
-    assert!(!json.contains("null"), "{json}");
-    let _ = (to_text(&report, Style::default()), to_npz(&report));
+    // JSON refuses numbers that are not finite by itself; `null` stands for what is told in `beyond_range`.
+    let _ = (to_json(&report), to_text(&report, Style::default()), to_npz(&report));
 }

@@ -8,6 +8,7 @@ use crate::time_series::SeriesFormat;
 use crate::watch::Halt;
 use clap::ValueEnum;
 use slideway::raw_problem::RawFaults;
+use slideway_pictures::NotFinite;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -67,8 +68,8 @@ pub(crate) enum Failure {
     Unswept { halt: Halt, done: u64, points: u64, path: Option<PathBuf> },
     /// A motion was interrupted, and its table so far is kept.
     MotionInterrupted { path: PathBuf },
-    /// The output would take the place of the model.
-    OverwritesModel { path: PathBuf },
+    /// An output, or what is kept beside it while it is unfinished, would take the place of the input.
+    OverwritesInput { path: PathBuf },
     /// The output file cannot be written.
     CannotWrite { path: PathBuf, error: io::Error },
     /// An unfinished table cannot be written any further.
@@ -88,6 +89,12 @@ pub(crate) enum Failure {
     SeveralMotions,
     /// Standard output cannot be written.
     StandardOutput { error: io::Error },
+}
+
+impl From<NotFinite> for Failure {
+    fn from(fault: NotFinite) -> Self {
+        Self::Picture { reason: fault.to_string() }
+    }
 }
 
 impl Failure {
@@ -161,7 +168,9 @@ impl Failure {
             Self::MotionInterrupted { path } => {
                 format!("interrupted; the table of the motion until then is in `{}`", path.display())
             }
-            Self::OverwritesModel { path } => format!("`{}` is the model itself", path.display()),
+            Self::OverwritesInput { path } => {
+                format!("the output would take the place of its input `{}`", path.display())
+            }
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }

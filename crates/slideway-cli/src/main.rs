@@ -16,6 +16,7 @@ use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
 use failure::Failure;
 use output::Output;
+use slideway::report::Status;
 use std::process::ExitCode;
 
 /// What a command found, as its exit code.
@@ -31,6 +32,16 @@ enum Outcome {
     Unknown = 3,
     /// It was interrupted.
     Interrupted = 130,
+}
+
+impl From<Status> for Outcome {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Self::Done,
+            Status::None => Self::NoSolution,
+            Status::Unknown => Self::Unknown,
+        }
+    }
 }
 
 impl From<Outcome> for ExitCode {

@@ -27,11 +27,17 @@ impl Output {
         Self { color, file: None }
     }
 
-    /// Where the arguments want it.
+    /// Where the arguments want it, which is not where `input` is read from.
     ///
     /// # Errors
-    /// If the file exists and must not be overwritten: better said before the work than after it.
-    pub(crate) fn to(&self, destination: &Destination) -> Result<Self, Failure> {
+    /// If it would take the place of the input, or the file exists and must not be overwritten: better said before the work than
+    /// after it.
+    pub(crate) fn to(&self, destination: &Destination, input: Option<&Path>) -> Result<Self, Failure> {
+        if let (Some(input), Some(file)) = (input, destination.file())
+            && takes_the_place_of(&file, input)
+        {
+            return Err(Failure::OverwritesInput { path: input.to_owned() });
+        }
         let file = destination
             .output
             .as_ref()
@@ -194,6 +200,14 @@ pub(crate) fn followed(path: &Path) -> PathBuf {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => path,
     }
+}
+
+/// Whether a file, or what is kept beside it while it is unfinished, has the place of an input.
+fn takes_the_place_of(file: &Path, input: &Path) -> bool {
+    let Ok(input) = input.canonicalize() else { return false };
+    let unfinished = beside(file, PARTIAL);
+    input == file
+        || input.as_os_str().as_encoded_bytes().starts_with(unfinished.as_os_str().as_encoded_bytes())
 }
 
 fn is_regular(path: &Path) -> bool {

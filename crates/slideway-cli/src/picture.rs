@@ -3,6 +3,7 @@
 use crate::arguments::{Destination, ModelArguments, PlotArguments};
 use crate::failure::Failure;
 use crate::output::Output;
+use slideway_pictures::NotFinite;
 use slideway_pictures::raster::png;
 use std::path::Path;
 
@@ -46,23 +47,29 @@ impl Picture {
         Self::of(path).map(Some).map_err(|_| Failure::FileFormat { path: path.to_owned(), known })
     }
 
-    /// Writes a picture that is given as SVG, with two pixels for each of its units if it is to have pixels.
+    /// Writes a picture that was made as SVG, with two pixels for each of its units if it is to have pixels.
     ///
     /// # Errors
-    /// If it cannot be converted or written.
-    pub(crate) fn write(self, svg: &str, output: &Output) -> Result<(), Failure> {
+    /// If it could not be made, or cannot be converted or written.
+    pub(crate) fn write(self, svg: Result<String, NotFinite>, output: &Output) -> Result<(), Failure> {
         self.write_scaled(svg, SHARPNESS, output)
     }
 
-    /// Writes a picture that is given as SVG, with so many pixels for each of its units if it is to have pixels.
+    /// Writes a picture that was made as SVG, with so many pixels for each of its units if it is to have pixels.
     ///
     /// # Errors
-    /// If it cannot be converted or written.
-    pub(crate) fn write_scaled(self, svg: &str, scale: f64, output: &Output) -> Result<(), Failure> {
+    /// As [`Picture::write`].
+    pub(crate) fn write_scaled(
+        self,
+        svg: Result<String, NotFinite>,
+        scale: f64,
+        output: &Output,
+    ) -> Result<(), Failure> {
+        let svg = svg?;
         match self {
             Self::Svg => output.write_bytes(svg.as_bytes()),
             Self::Png => output.write_bytes(
-                &png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
+                &png(&svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
             ),
         }
     }
@@ -84,6 +91,5 @@ pub(crate) fn beside(
         return Err(Failure::SameOutput { path: path.clone() });
     }
     let picture = Picture::of(path)?;
-    model.spare(&destination)?;
-    Ok(Some((picture, output.to(&destination)?)))
+    Ok(Some((picture, output.to(&destination, Some(&model.file))?)))
 }

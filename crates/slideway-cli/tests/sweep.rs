@@ -4,7 +4,7 @@
 
 mod command;
 
-use command::{command, slideway};
+use command::{command, slideway, top};
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -323,7 +323,7 @@ fn links_are_followed_and_two_outputs_do_not_share_a_file() {
     }
     let words = ["check", "model.toml", "--force", "--output", "./model.toml"];
     let output = command(&words).current_dir(folder.path()).output().unwrap();
-    assert!(String::from_utf8(output.stderr).unwrap().contains("is the model itself"));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("would take the place of its input"));
 }
 
 /// A file whose name has an end of line does not break the comments of a table.
@@ -529,4 +529,45 @@ fn bad_arguments_are_told() {
     // The same text was a panic of `limits`.
     let run = slideway(&["limits", DRAWER, "--vary", "mu=0..abc"]);
     assert!(run.code == 2 && run.stderr.contains("unknown name `abc`"), "{}", run.stderr);
+}
+
+/// Whatever is written, and however its path is spelt: not over what is read, nor where an unfinished table would be over it.
+#[test]
+fn no_command_writes_over_its_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = std::fs::read_to_string(top().join("models/drawer.toml")).unwrap();
+    let problem = r#"{"M": [[1]], "q": [-1]}"#;
+    for (words, content) in [
+        ("check in.toml -o ./in.toml", &*model),
+        ("solve in.toml -o ./in.toml", &model),
+        ("hold in.toml -o ./in.toml", &model),
+        ("drive in.toml -o ./in.toml", &model),
+        ("size in.toml --vary mu --margin 1.5 -o ./in.toml", &model),
+        ("limits in.toml --vary mu=0..1 -o ./in.toml", &model),
+        ("limits in.svg --vary mu=0..1 --plot ./in.svg", &model),
+        ("map in.svg --x mu=0..1 --y a=0..1m -o ./in.svg", &model),
+        ("map in.json --x mu=0..1 --y a=0..1m -o ./in.json", &model),
+        ("draw in.svg -o ./in.svg", &model),
+        ("draw in.png -o ./in.png", &model),
+        ("report in.html -o ./in.html", &model),
+        ("simulate in.csv --until 1s -o ./in.csv", &model),
+        ("simulate in.svg --until 1s --plot ./in.svg", &model),
+        ("simulate in.gif --until 1s --animate ./in.gif", &model),
+        ("simulate in.csv.partial --until 1s -o ./in.csv", &model),
+        ("sweep in.csv --vary mu=0..1:3 -o ./in.csv", &model),
+        ("sweep in.svg --vary mu=0..1:3 -o table.csv --plot ./in.svg", &model),
+        ("sweep in.csv.partial --vary mu=0..1:3 -o ./in.csv", &model),
+        ("sweep in.csv.partial.state --vary mu=0..1:3 -o ./in.csv", &model),
+        ("modes in.json -o ./in.json", problem),
+        ("modes in.npz -o ./in.npz", problem),
+    ] {
+        let words: Vec<&str> = words.split(' ').chain(["--force"]).collect();
+        let file = folder.path().join(words[1]);
+        std::fs::write(&file, content).unwrap();
+        let output = command(&words).current_dir(folder.path()).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {said}");
+        assert!(said.contains("would take the place of its input"), "{words:?}: {said}");
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), content, "{words:?}");
+    }
 }

@@ -3,6 +3,7 @@
 //! The library [`slideway`] computes and knows no pictures; this crate turns its values into SVG (and PNG), without
 //! computing anything of mechanics. Like the library it reads no file and no clock, and prints nothing.
 
+mod coordinate;
 pub mod drawing;
 pub mod map;
 pub mod motion;
@@ -11,6 +12,8 @@ pub mod plot;
 pub mod raster;
 pub mod theme;
 pub mod typeface;
+
+pub use coordinate::NotFinite;
 
 /// Text as it stands in XML and HTML, in elements and attributes: characters that are not seen, some of which XML does not
 /// allow, stand as their numbers ([`slideway::printable`]). Ends of lines are blanks.

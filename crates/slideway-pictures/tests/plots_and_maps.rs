@@ -5,7 +5,8 @@ use slideway::limits::{LimitsOptions, Quantity, limits_with_curves};
 use slideway::map::{ColourBy, MapOptions, map};
 use slideway::model::{Model, Settings};
 use slideway::motion::{SimulateOptions, simulate};
-use slideway_pictures::motion::{motion_figure, portrait_figure};
+use slideway_pictures::NotFinite;
+use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::{self, Figure, limits_figure};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
 use slideway_pictures::typeface;
@@ -54,7 +55,7 @@ fn points(path: &str) -> Vec<Vec<[f64; 2]>> {
 #[test]
 fn the_paper_s_figures() {
     let klepp = model("klepp-2002", &[("F_20", "0")]);
-    let svg = plot::to_svg(&figure(&klepp, "mu_1=0..0.8"), &LIGHT);
+    let svg = plot::to_svg(&figure(&klepp, "mu_1=0..0.8"), &LIGHT).expect("finite places");
     let frames = of_class(&svg, "frame");
     assert_eq!(frames.len(), 2);
     let cotangent = 1.0 / 80.0_f64.to_radians().tan();
@@ -96,7 +97,7 @@ fn curves_stay_within_frames_and_do_not_step() {
     for (name, vary) in
         [("klepp-2002", "mu_1=0..0.8"), ("slider-crank", "phi=-80 deg..80 deg"), ("drawer", "mu=0..1")]
     {
-        let svg = plot::to_svg(&figure(&model(name, &[]), vary), &LIGHT);
+        let svg = plot::to_svg(&figure(&model(name, &[]), vary), &LIGHT).expect("finite places");
         let frames = of_class(&svg, "frame");
         for curve in of_class(&svg, "curve") {
             for part in points(attribute(curve, "d").expect("data")) {
@@ -123,7 +124,8 @@ fn curves_stay_within_frames_and_do_not_step() {
 #[test]
 fn themes_have_their_colours_and_pictures_are_reproducible() {
     let klepp = model("klepp-2002", &[]);
-    let of_theme = |theme: &Theme| plot::to_svg(&figure(&klepp, "mu_1=0..0.8"), theme);
+    let of_theme =
+        |theme: &Theme| plot::to_svg(&figure(&klepp, "mu_1=0..0.8"), theme).expect("finite places");
     assert_eq!(of_theme(&DARK), of_theme(&DARK));
     assert!(of_theme(&DARK).contains(DARK.background) && !of_theme(&DARK).contains(LIGHT.ink));
     assert!(of_theme(&LIGHT).contains(LIGHT.series[1]));
@@ -145,7 +147,7 @@ fn regions_of_a_map_cover_their_pixels() {
     for (name, x, y, colour_by) in planes {
         let options = MapOptions { width: 160, height: 120, colour_by, ..MapOptions::of(x, y) };
         let report = map(&model(name, &[]), &options).expect("a map");
-        let svg = slideway_pictures::map::to_svg(&report, &LIGHT);
+        let svg = slideway_pictures::map::to_svg(&report, &LIGHT).expect("finite places");
         let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
         let whole = number(frame, "width") * number(frame, "height");
         let regions = of_class(&svg, "region");
@@ -228,7 +230,10 @@ fn pictures() -> Vec<(String, String)> {
     for (name, x, y, colour_by) in maps {
         let options = MapOptions { width: 40, height: 40, colour_by, ..MapOptions::of(x, y) };
         let report = map(&model(name, &[]), &options).expect("a map");
-        pictures.push((format!("map of {name}"), slideway_pictures::map::to_svg(&report, &DARK)));
+        pictures.push((
+            format!("map of {name}"),
+            slideway_pictures::map::to_svg(&report, &DARK).expect("finite places"),
+        ));
     }
     let limits = [
         ("klepp-2002", "friction=0..10"),
@@ -239,12 +244,18 @@ fn pictures() -> Vec<(String, String)> {
     ];
     for (name, vary) in limits {
         let figure = figure(&model(name, &[]), vary);
-        pictures.push((format!("limits of {name}"), plot::to_svg(&figure, &LIGHT)));
+        pictures.push((format!("limits of {name}"), plot::to_svg(&figure, &LIGHT).expect("finite places")));
     }
     for name in ["frictional-oscillator", "klepp-2002-spring", "stick-slip", "telescopic-boom"] {
         let history = simulate(&model(name, &[]), &SimulateOptions::new(0.5)).expect("a motion");
-        pictures.push((format!("motion of {name}"), plot::to_svg(&motion_figure(&history), &LIGHT)));
-        pictures.push((format!("portrait of {name}"), plot::to_svg(&portrait_figure(&history), &LIGHT)));
+        pictures.push((
+            format!("motion of {name}"),
+            plot::to_svg(&motion_figure(&history), &LIGHT).expect("finite places"),
+        ));
+        pictures.push((
+            format!("portrait of {name}"),
+            plot::to_svg(&portrait_figure(&history), &LIGHT).expect("finite places"),
+        ));
     }
     pictures
 }
@@ -272,7 +283,7 @@ fn all_text_is_within_the_picture_and_none_over_another() {
 fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
     let oscillator =
         simulate(&model("frictional-oscillator", &[]), &SimulateOptions::new(1.0)).expect("a motion");
-    let svg = plot::to_svg(&portrait_figure(&oscillator), &LIGHT);
+    let svg = plot::to_svg(&portrait_figure(&oscillator), &LIGHT).expect("finite places");
     let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
     let (left, right) = (number(frame, "x"), number(frame, "x") + number(frame, "width"));
     let curves = of_class(&svg, "curve");
@@ -281,10 +292,35 @@ fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
         assert!(left + 5.0 < x && x < right - 5.0, "{x} of {left} to {right}");
     }
     let crank = simulate(&model("slider-crank", &[]), &SimulateOptions::new(0.3)).expect("a motion");
-    let svg = plot::to_svg(&motion_figure(&crank), &LIGHT);
+    let svg = plot::to_svg(&motion_figure(&crank), &LIGHT).expect("finite places");
     let energy = svg.rsplit("class=\"panel\"").next().expect("a last panel");
     let widths: Vec<f64> =
         of_class(energy, "curve").iter().map(|curve| number(curve, "stroke-width")).collect();
     assert!(widths.len() > 40, "many phases");
     assert!(widths.iter().all(|width| *width == 2.2), "{widths:?}");
+}
+
+/// No picture with a place that is no number is given out, whatever kind it is.
+#[test]
+fn places_that_are_not_finite_are_refused() {
+    // A mark is drawn wherever it is; a range as wide as all numbers has no scale.
+    let mut limits = figure(&model("klepp-2002", &[]), "mu_1=0..0.8");
+    assert!(plot::to_svg(&limits, &LIGHT).is_ok());
+    limits.panels[0].x.range = Some([-f64::MAX, f64::MAX]);
+    assert_eq!(plot::to_svg(&limits, &LIGHT), Err(NotFinite));
+
+    let options = MapOptions { width: 20, height: 20, ..MapOptions::of("mu=0..1", "a=0..1 m") };
+    let mut plane = map(&model("drawer", &[]), &options).expect("a map");
+    assert!(slideway_pictures::map::to_svg(&plane, &LIGHT).is_ok());
+    (plane.x.from, plane.x.value) = (f64::NEG_INFINITY, 0.0);
+    assert_eq!(slideway_pictures::map::to_svg(&plane, &LIGHT), Err(NotFinite));
+
+    // Frames of a motion in slow motion: they stand longer than there are numbers for.
+    let history = simulate(&model("drawer", &[]), &SimulateOptions::new(20.0)).expect("a motion");
+    let shown =
+        |slow_motion| animation(&history, &AnimationOptions { slow_motion: Some(slow_motion) }, &LIGHT);
+    assert!(shown(1.0).to_svg().is_ok() && shown(1.0).to_html().is_ok());
+    assert_eq!(shown(f64::MAX).to_svg(), Err(NotFinite));
+    assert_eq!(shown(f64::MAX).to_html(), Err(NotFinite));
+    assert!(shown(f64::MAX).to_gif(&mut |_| std::ops::ControlFlow::Continue(())).is_err());
 }

@@ -163,3 +163,18 @@ fn a_continuum_is_cut_to_where_no_guided_slider_tips() {
     assert_eq!((tips.status, tips.solutions.len(), tips.continua.len()), (Status::One, 1, 0));
     assert!(tips.solutions[0].contacts.iter().all(|contact| contact.normal_force == 0.0));
 }
+
+#[test]
+fn forces_that_may_be_zero_are_told_as_zero() {
+    // Nothing loads it, and its rod does not turn; that the rod does not is known to 1e-307 rad/s, in bounds that hold zero.
+    let settings = Settings::default().parameter("P_2", "0 N").parameter("l", "10 m");
+    let model = Model::parse(find("painleve-klein").unwrap().text).unwrap().with(&settings).unwrap();
+    let report = solve(&model).unwrap();
+    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    assert!(report.undecided_modes.is_empty(), "{:?}", report.undecided_modes);
+    let solution = &report.solutions[0];
+    assert!(solution.on_boundary);
+    assert!(solution.contacts.iter().all(|contact| (contact.side, contact.normal_force) == (0, 0.0)));
+    assert!(solution.contacts.iter().all(|contact| contact.friction_force == 0.0));
+    assert_eq!(solution.coordinates[0].acceleration, 0.0);
+}

@@ -1,7 +1,5 @@
 //! A model and what is changed in it.
 
-use super::Destination;
-use crate::failure::Failure;
 use clap::Args;
 use slideway::fault::Fault;
 use slideway::model::{SettingKind, Settings};
@@ -32,20 +30,6 @@ pub(crate) struct ModelArguments {
 }
 
 impl ModelArguments {
-    /// Sees to it that the output does not take the place of the model.
-    ///
-    /// # Errors
-    /// If both are the same file.
-    pub(crate) fn spare(&self, destination: &Destination) -> Result<(), Failure> {
-        let Some(output) = &destination.output else { return Ok(()) };
-        match (self.file.canonicalize(), destination.file()) {
-            (Ok(model), Some(file)) if model == file => {
-                Err(Failure::OverwritesModel { path: output.clone() })
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// The settings, and the faults of those that are not of the form name=value.
     pub(crate) fn settings(&self) -> (Settings, Vec<Fault>) {
         let mut settings = Settings::default();

@@ -9,8 +9,7 @@ use slideway::check;
 
 /// Says what a model consists of, and whether it can be solved.
 pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let report = check::check(&model).map_err(|faults| input.refused(faults))?;

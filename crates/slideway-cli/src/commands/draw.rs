@@ -13,13 +13,13 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{Report, Status};
 use slideway::solve::{SolveOptions, solve_with};
+use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{Sheet, Shown, sheet};
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let file = arguments.destination.output.as_deref().filter(|path| path.as_os_str() != "-");
     let picture = file.map_or(Ok(Picture::Svg), Picture::of)?;
     let input = Input::read(&arguments.model)?;
@@ -43,7 +43,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     };
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
-    picture.write_scaled(&written(&sheet, arguments.theme, width), sharpness, &output)?;
+    picture.write_scaled(written(&sheet, arguments.theme, width), sharpness, &output)?;
     let has_found = report.is_none_or(|report| report.status != Status::Unknown);
     Ok(outcome(halt, if has_found || halt.is_none() { Outcome::Done } else { Outcome::Unknown }))
 }
@@ -59,7 +59,7 @@ fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<O
     }
 }
 
-fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> String {
+fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {
     let frame = Frame {
         bounds: sheet.bounds,
         title: &sheet.title,

@@ -10,8 +10,7 @@ use slideway::drive::{self, DriveOptions};
 
 /// Says which efforts the drives need.
 pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = DriveOptions { vary: arguments.vary.clone(), rows: arguments.rows };

@@ -10,8 +10,7 @@ use slideway::standstill::{self, HoldOptions};
 
 /// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
 pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = HoldOptions {

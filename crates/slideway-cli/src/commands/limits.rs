@@ -14,8 +14,7 @@ use slideway_pictures::plot::{limits_figure, to_svg};
 /// Says for which values each contact mode exists, and plots it if asked to.
 pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Outcome, Failure> {
     let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = LimitsOptions {
@@ -30,7 +29,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         let found = limits::curves_with(&model, &options, arguments.quantity.into(), &mut look);
         let (report, curves) = watch.whole(found.map_err(|faults| input.refused(faults))?)?;
         let figure = limits_figure(&report, &curves);
-        picture.write(&to_svg(&figure, arguments.plot.theme.colours()), &file)?;
+        picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;
         report
     } else {
         let found = limits::limits_with(&model, &options, &mut look);

@@ -13,9 +13,8 @@ use slideway_pictures::map::to_svg;
 /// Maps the plane of two quantities.
 pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, Failure> {
     let destination = Destination { output: Some(arguments.output.clone()), force: arguments.force };
-    arguments.model.spare(&destination)?;
     let picture = Picture::unless_json(&arguments.output)?;
-    let output = output.to(&destination)?;
+    let output = output.to(&destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let [width, height] = arguments.size;
@@ -32,7 +31,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
         None => output.write(&to_json(&report))?,
-        Some(picture) => picture.write(&to_svg(&report, arguments.theme.colours()), &output)?,
+        Some(picture) => picture.write(to_svg(&report, arguments.theme.colours()), &output)?,
     }
     Ok(Outcome::Done)
 }

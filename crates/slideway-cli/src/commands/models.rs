@@ -13,7 +13,7 @@ const WIDTH: usize = 80;
 
 /// Lists the gallery, or writes one of its models.
 pub(crate) fn models(arguments: &ModelsArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
+    let output = output.to(&arguments.destination, None)?;
     output.write(&match &arguments.name {
         None => list(),
         Some(name) => model(name, arguments.stages)?,

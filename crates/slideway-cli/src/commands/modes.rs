@@ -9,11 +9,10 @@ use crate::watch::{Watch, outcome};
 use slideway::raw_problem::{
     Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_json, to_npz, to_text,
 };
-use slideway::report::Status;
 
 /// Finds and writes all solutions of a problem given by its matrices.
 pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.file))?;
     let problem = read(arguments)?;
     let SearchArguments { max_solutions, time, .. } = &arguments.search;
     let mut watch = Watch::new(time.time_limit);
@@ -27,14 +26,7 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
         ModesFormat::Json => output.write(&to_json(&report))?,
         ModesFormat::Npz => output.write_bytes(&to_npz(&report))?,
     }
-    Ok(outcome(
-        halt,
-        match report.status {
-            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
-            Status::None => Outcome::NoSolution,
-            Status::Unknown => Outcome::Unknown,
-        },
-    ))
+    Ok(outcome(halt, report.status.into()))
 }
 
 fn read(arguments: &ModesArguments) -> Result<RawProblem, Failure> {

@@ -12,9 +12,10 @@ use slideway::limits::{LimitsOptions, LimitsReport, Quantity, curves_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::solve::{SolveOptions, solve_with};
+use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{Figure, Page, to_html};
-use slideway_pictures::plot::{limits_figure, to_svg};
+use slideway_pictures::plot::{self, limits_figure, to_svg};
 use slideway_pictures::theme::{DARK, LIGHT};
 use std::ffi::OsStr;
 use std::path::Path;
@@ -26,8 +27,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     if let Some(path) = &arguments.destination.output {
         be_a_page(path)?;
     }
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let mechanism = Mechanism::new(&model).map_err(|faults| input.refused(faults))?;
@@ -41,7 +41,9 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let varied = varied(&model, &arguments.vary, &mut watch).map_err(|faults| input.refused(faults))?;
     let is_whole = watch.halt().is_none();
     let varied = watch.whole(varied.filter(|_| is_whole))?;
-    let (limits, figures): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
+    let (limits, plots): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
+    let figures = limits.iter().zip(&plots).map(|(limits, plot)| figure(limits, plot));
+    let figures = figures.collect::<Result<Vec<_>, _>>()?;
     let settings: Vec<String> = input.settings.entries().iter().map(slideway::model::Setting::text).collect();
     let page = Page {
         command: &command(arguments, &input, &settings),
@@ -78,7 +80,7 @@ fn varied(
     model: &Model,
     wanted: &[String],
     watch: &mut Watch,
-) -> Result<Option<Vec<(LimitsReport, Figure)>>, Faults> {
+) -> Result<Option<Vec<(LimitsReport, plot::Figure)>>, Faults> {
     if wanted.is_empty() {
         return Ok(match limits(model, slideway::limits::FRICTION, watch) {
             Ok(found) => found.map(|found| vec![found]),
@@ -88,17 +90,22 @@ fn varied(
     wanted.iter().map(|vary| limits(model, vary, watch)).collect()
 }
 
-fn limits(model: &Model, vary: &str, watch: &mut Watch) -> Result<Option<(LimitsReport, Figure)>, Faults> {
+fn limits(
+    model: &Model,
+    vary: &str,
+    watch: &mut Watch,
+) -> Result<Option<(LimitsReport, plot::Figure)>, Faults> {
     let options = LimitsOptions::of(vary);
     let found = curves_with(model, &options, Quantity::NormalForce, &mut |progress| watch.look(progress))?;
     let Some((report, curves)) = found else { return Ok(None) };
     let plot = limits_figure(&report, &curves);
-    let figure = Figure {
-        caption: format!("Normal forces of the contacts over {}.", report.vary.name),
-        light: to_svg(&plot, &LIGHT),
-        dark: to_svg(&plot, &DARK),
-    };
-    Ok(Some((report, figure)))
+    Ok(Some((report, plot)))
+}
+
+/// A plot with what it shows.
+fn figure(limits: &LimitsReport, plot: &plot::Figure) -> Result<Figure, NotFinite> {
+    let caption = format!("Normal forces of the contacts over {}.", limits.vary.name);
+    Ok(Figure { caption, light: to_svg(plot, &LIGHT)?, dark: to_svg(plot, &DARK)? })
 }
 
 /// The command that makes the page, as far as it matters for what is on it.

@@ -28,7 +28,6 @@ const MOST_ROWS: f64 = 1e7;
 
 /// Follows a mechanism in time.
 pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result<Outcome, Failure> {
-    arguments.model.spare(&arguments.destination)?;
     let mut files = Files::new(arguments, output)?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
@@ -52,7 +51,7 @@ pub(crate) fn simulate(arguments: &SimulateArguments, output: &Output) -> Result
         if history.end == End::Interrupted && watch.halt() == Some(Halt::Interrupted) {
             files.interrupt();
         }
-        files.write(&history, &options, (step, &Metadata::of(&input)), &mut watch)?;
+        files.write(&history, &options, (step, &input), &mut watch)?;
         Told::one(arguments, &history, &options, output)
     };
     let told = told.map_err(|faults| input.refused(faults))?;
@@ -203,8 +202,7 @@ impl<'a> Files<'a> {
     fn new(arguments: &'a SimulateArguments, output: &Output) -> Result<Self, Failure> {
         let place = |path: &Path| {
             let destination = arguments.destination.beside(path);
-            arguments.model.spare(&destination)?;
-            output.to(&destination)
+            output.to(&destination, Some(&arguments.model.file))
         };
         let table = match arguments.destination.output.as_deref() {
             Some(path) => Some((SeriesFormat::of(path)?, place(path)?)),
@@ -244,7 +242,7 @@ impl<'a> Files<'a> {
         &self,
         history: &History,
         options: &SimulateOptions,
-        (step, metadata): (Option<f64>, &Metadata),
+        (step, input): (Option<f64>, &Input),
         watch: &mut Watch,
     ) -> Result<(), Failure> {
         if let Some((format, output)) = &self.table {
@@ -252,7 +250,8 @@ impl<'a> Files<'a> {
                 Some(step) => history.times_in_steps(step),
                 None => history.times().collect(),
             };
-            let series = history.series(&times);
+            let series = finite(history.series(&times)).map_err(|faults| input.refused(faults))?;
+            let metadata = &Metadata::of(input);
             match format {
                 SeriesFormat::Csv => output.write(&to_csv(&series))?,
                 SeriesFormat::Npz => output.write_bytes(&to_npz(&series, metadata))?,
@@ -264,6 +263,7 @@ impl<'a> Files<'a> {
                 SeriesFormat::Json => {
                     let mut report = motion::report(history, options);
                     report.samples = Some(series);
+                    let report = finite(report).map_err(|faults| input.refused(faults))?;
                     output.write(&motion::to_json(&report))?;
                 }
             }
@@ -272,7 +272,7 @@ impl<'a> Files<'a> {
         if let Some((picture, output)) = &self.plot {
             let portrait = self.arguments.phase_portrait;
             let figure = if portrait { portrait_figure(history) } else { motion_figure(history) };
-            picture.write(&to_svg(&figure, theme), output)?;
+            picture.write(to_svg(&figure, theme), output)?;
         }
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
@@ -287,8 +287,8 @@ impl<'a> Files<'a> {
                 watch.look(progress)
             };
             let bytes = match format {
-                AnimationFormat::Html => animation.to_html().into_bytes(),
-                AnimationFormat::Svg => animation.to_svg().into_bytes(),
+                AnimationFormat::Html => animation.to_html()?.into_bytes(),
+                AnimationFormat::Svg => animation.to_svg()?.into_bytes(),
                 AnimationFormat::Gif => match animation.to_gif(&mut progress) {
                     Ok(bytes) => bytes,
                     Err(GifFault::Ended) => {

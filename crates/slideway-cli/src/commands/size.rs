@@ -10,8 +10,7 @@ use slideway::size::{self, SizeOptions};
 
 /// Finds the value of a parameter at which a margin is just met.
 pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let loads = model.loads.iter().map(|load| &load.name);

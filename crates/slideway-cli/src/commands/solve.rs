@@ -6,13 +6,12 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
-use slideway::report::{Status, to_csv, to_json, to_text};
+use slideway::report::{to_csv, to_json, to_text};
 use slideway::solve::{SolveOptions, solve_with};
 
 /// Finds and writes all solutions of a model.
 pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outcome, Failure> {
-    let output = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = SolveOptions {
@@ -29,12 +28,5 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
         Format::Json => to_json(&report),
         Format::Csv => to_csv(&report),
     })?;
-    Ok(outcome(
-        halt,
-        match report.status {
-            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Outcome::Done,
-            Status::None => Outcome::NoSolution,
-            Status::Unknown => Outcome::Unknown,
-        },
-    ))
+    Ok(outcome(halt, report.status.into()))
 }

@@ -20,8 +20,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outcome, Failure> {
     let format = format(arguments)?;
     let picture = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
-    let destination = output.to(&arguments.destination)?;
-    arguments.model.spare(&arguments.destination)?;
+    let destination = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = arguments.options();
@@ -115,7 +114,7 @@ impl Plotting {
 
     fn write(mut self, state: &SweepState) -> Result<(), Failure> {
         self.plot.set_branches(state.branches());
-        self.picture.write(&to_svg(&self.plot.figure(&self.title), self.theme), &self.file)
+        self.picture.write(to_svg(&self.plot.figure(&self.title), self.theme), &self.file)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Layout, Metadata};
 use slideway::printable;
+use slideway::report::defined;
 use slideway::sweep::Rows;
 
 /// Comment lines with command and model, and the line of names.
@@ -39,8 +40,7 @@ pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
     let mut buffer = zmij::Buffer::new();
     let mut digits = itoa::Buffer::new();
     let mut number = |out: &mut Vec<u8>, value: f64| {
-        // What is no number is left empty.
-        if value.is_finite() {
+        if let Some(value) = defined(value) {
             out.extend_from_slice(buffer.format_finite(value).as_bytes());
         }
         out.push(b',');

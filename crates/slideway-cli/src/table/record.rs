@@ -2,6 +2,7 @@
 //! made from.
 
 use super::Layout;
+use slideway::report::defined;
 use slideway::sweep::Rows;
 
 /// Bytes of a word of a status, a kind, a verdict.
@@ -72,10 +73,13 @@ pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
         out.extend_from_slice(&word[..word.len().min(size)]);
         out.resize(end, 0);
     };
+    let number = |out: &mut Vec<u8>, value: f64| {
+        out.extend_from_slice(&defined(value).unwrap_or(f64::NAN).to_le_bytes());
+    };
     for (row, head) in rows.heads.iter().enumerate() {
         let (varied, numbers) = rows.numbers(row).split_at(rows.varied);
         out.extend_from_slice(&head.point.to_le_bytes());
-        varied.iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+        varied.iter().for_each(|value| number(&mut out, *value));
         word(&mut out, head.breakpoint.word().as_bytes(), WORD);
         word(&mut out, head.status.word().as_bytes(), WORD);
         for count in [head.solutions, head.gap_states, head.rejected] {
@@ -87,7 +91,7 @@ pub(super) fn rows(layout: &Layout, rows: &Rows) -> Vec<u8> {
         if layout.attainability {
             word(&mut out, head.verdict.word().as_bytes(), WORD);
         }
-        numbers.iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+        numbers.iter().for_each(|value| number(&mut out, *value));
     }
     out
 }

@@ -316,8 +316,8 @@ pub(crate) fn signs(pattern: &str) -> String {
 /// Four significant digits, with a true minus sign.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
-    let text = if size == 0.0 {
-        "0".to_owned()
+    let text = if size == 0.0 || !size.is_finite() {
+        slideway::report::precise(value)
     } else if !(1e-3..1e5).contains(&size) {
         format!("{value:.3e}")
     } else {

@@ -1,6 +1,7 @@
 //! Scenes as SVG: text stays text, and every shape has a class.
 
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, head};
+use crate::coordinate::{NotFinite, coordinate, finished};
 use crate::escaped;
 use crate::theme::Theme;
 use crate::typeface::STACK;
@@ -32,7 +33,15 @@ pub struct Frame<'a> {
 }
 
 /// A scene as an SVG document.
-pub fn write(scene: &Scene, frame: &Frame<'_>) -> String {
+///
+/// # Errors
+/// If a place or a size is infinite or undefined.
+pub fn write(scene: &Scene, frame: &Frame<'_>) -> Result<String, NotFinite> {
+    finished(document(scene, frame))
+}
+
+/// The document, of which it is not seen yet whether its coordinates are finite.
+pub(crate) fn document(scene: &Scene, frame: &Frame<'_>) -> String {
     let (corner, size) = (frame.bounds.least, frame.bounds.size());
     let [width, height] = [size.x.max(1.0), size.y.max(1.0)];
     let shown = frame.width.unwrap_or(width);
@@ -41,12 +50,12 @@ pub fn write(scene: &Scene, frame: &Frame<'_>) -> String {
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"{} {} {} {}\" role=\"img\" \
          font-family=\"{STACK}\">",
-        short(shown),
-        short(shown * height / width),
-        short(corner.x),
-        short(corner.y),
-        short(width),
-        short(height)
+        coordinate(shown),
+        coordinate(shown * height / width),
+        coordinate(corner.x),
+        coordinate(corner.y),
+        coordinate(width),
+        coordinate(height)
     );
     let _ = writeln!(out, "<title>{}</title>", escaped(frame.title));
     let _ = writeln!(out, "<desc>{}</desc>", escaped(frame.description));
@@ -56,10 +65,10 @@ pub fn write(scene: &Scene, frame: &Frame<'_>) -> String {
     let _ = writeln!(
         out,
         "<rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-        short(corner.x),
-        short(corner.y),
-        short(width),
-        short(height)
+        coordinate(corner.x),
+        coordinate(corner.y),
+        coordinate(width),
+        coordinate(height)
     );
     for element in &scene.elements {
         shape(&mut out, class_name(element.class), &element.shape);
@@ -84,9 +93,9 @@ fn shape(out: &mut String, class: &str, shape: &Shape) {
         Shape::Circle(centre, radius) => writeln!(
             out,
             "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
-            short(centre.x),
-            short(centre.y),
-            short(*radius)
+            coordinate(centre.x),
+            coordinate(centre.y),
+            coordinate(*radius)
         ),
         Shape::Arrow { from, to } => {
             let direction = super::outline::unit(to - from, Point::x());
@@ -114,9 +123,9 @@ fn shape(out: &mut String, class: &str, shape: &Shape) {
             writeln!(
                 out,
                 "<text class=\"{class} s-text\" x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\">{}</text>",
-                short(text.at.x),
-                short(text.at.y),
-                short(text.size),
+                coordinate(text.at.x),
+                coordinate(text.at.y),
+                coordinate(text.size),
                 escaped(&text.text)
             )
         }
@@ -124,14 +133,11 @@ fn shape(out: &mut String, class: &str, shape: &Shape) {
 }
 
 fn points(places: &[Point]) -> String {
-    places.iter().map(|place| format!("{},{}", short(place.x), short(place.y))).collect::<Vec<_>>().join(" ")
-}
-
-/// Two decimals, without zeros at the end.
-pub(crate) fn short(value: f64) -> String {
-    let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    places
+        .iter()
+        .map(|place| format!("{},{}", coordinate(place.x), coordinate(place.y)))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// The class of a shape in a document.

@@ -6,6 +6,7 @@
 mod colours;
 mod regions;
 
+use crate::NotFinite;
 use crate::plot::frame::{FrameAxis, Placed, draw_axes};
 use crate::plot::svg::{Svg, coordinate, wrapped};
 use crate::plot::{SMALL, TITLE, hatching_fill, hatchings};
@@ -29,7 +30,10 @@ const LINE: f64 = 18.0;
 ///
 /// Elements have classes: `title`, `frame`, `region` (with `data-class`), `tick`, `axis`, `model` (a cross at the values of
 /// the model), `legend`. Pixels of the report need not be pixels of the picture: a map of 1000 x 1000 is as large, but finer.
-pub fn to_svg(report: &MapReport, theme: &Theme) -> String {
+///
+/// # Errors
+/// If a number is too large or too small to be drawn.
+pub fn to_svg(report: &MapReport, theme: &Theme) -> Result<String, NotFinite> {
     let mut svg = Svg::default();
     hatchings(&mut svg, theme);
     let mut top = MARGIN + TITLE;

@@ -2,6 +2,7 @@
 
 use super::gif::{self, GifFault};
 use super::page;
+use crate::coordinate::{NotFinite, finished, finished_parts};
 use crate::drawing::svg::markup;
 use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
 use crate::theme::Theme;
@@ -64,13 +65,21 @@ pub(super) struct FrameOf {
 
 impl Animation {
     /// As a page by itself, with a slider for the time and the log of events.
-    pub fn to_html(&self) -> String {
-        page::html(self)
+    ///
+    /// # Errors
+    /// If a place or a size is infinite or undefined.
+    pub fn to_html(&self) -> Result<String, NotFinite> {
+        // In the page they are parts of a program, in which characters are written otherwise.
+        finished_parts(&self.shapes)?;
+        finished(page::html(self))
     }
 
     /// As an SVG document that moves by itself.
-    pub fn to_svg(&self) -> String {
-        page::svg(self)
+    ///
+    /// # Errors
+    /// As [`Animation::to_html`].
+    pub fn to_svg(&self) -> Result<String, NotFinite> {
+        finished(page::svg(self))
     }
 
     /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each unit of

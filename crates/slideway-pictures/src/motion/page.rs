@@ -1,7 +1,8 @@
 //! A moving picture as a document by itself.
 
 use super::animation::{Animation, FrameOf};
-use crate::drawing::svg::{Colour, rules, short};
+use crate::coordinate::{coordinate, exact, tenths, thousandths};
+use crate::drawing::svg::{Colour, rules};
 use crate::escaped;
 use crate::plot::svg::wrapped;
 use crate::typeface::{STACK, width};
@@ -65,12 +66,16 @@ pub(super) fn html(animation: &Animation) -> String {
         &mut out,
         animation.frames.iter().map(|frame| {
             let shapes: Vec<String> = frame.shapes.iter().map(ToString::to_string).collect();
-            format!("[{:?},{},[{}]]", frame.time, literal(&frame.mode), shapes.join(","))
+            format!("[{},{},[{}]]", exact(frame.time), literal(&frame.mode), shapes.join(","))
         }),
     );
     out.push_str("];\nconst events = [");
-    list(&mut out, animation.events.iter().map(|(time, words)| format!("[{time:?},{}]", literal(words))));
-    let _ = write!(out, "];\nconst frameTime = {:?};\n{SCRIPT}</script>\n</html>\n", animation.frame_time);
+    list(
+        &mut out,
+        animation.events.iter().map(|(time, words)| format!("[{},{}]", exact(*time), literal(words))),
+    );
+    let _ =
+        write!(out, "];\nconst frameTime = {};\n{SCRIPT}</script>\n</html>\n", exact(animation.frame_time));
     out
 }
 
@@ -136,8 +141,8 @@ pub(super) fn svg(animation: &Animation) -> String {
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"{}\" role=\"img\" font-family=\"{STACK}\">\n\
          <title>{}</title>\n<style>\n{}.frame, .told {{ display: none; }}\n</style>",
-        short(size.x),
-        short(size.y + CAPTION),
+        coordinate(size.x),
+        coordinate(size.y + CAPTION),
         view_box(animation, CAPTION),
         escaped(&animation.title),
         rules(&Colour::of_theme(theme)),
@@ -146,11 +151,12 @@ pub(super) fn svg(animation: &Animation) -> String {
     let _ = writeln!(
         out,
         "<rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\
-         <animate id=\"clock\" attributeName=\"opacity\" from=\"1\" to=\"1\" begin=\"0s;clock.end\" dur=\"{total:.3}s\"/></rect>",
-        short(corner.x),
-        short(corner.y),
-        short(size.x),
-        short(size.y + CAPTION),
+         <animate id=\"clock\" attributeName=\"opacity\" from=\"1\" to=\"1\" begin=\"0s;clock.end\" dur=\"{}s\"/></rect>",
+        coordinate(corner.x),
+        coordinate(corner.y),
+        coordinate(size.x),
+        coordinate(size.y + CAPTION),
+        thousandths(total),
     );
     let common = common(animation);
     for index in &common {
@@ -184,12 +190,12 @@ pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"{x} {y} {width} {height}\">\n<style>\n{rules}</style>\n\
          <rect class=\"s-paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-        short(corner.x - BLEED),
-        short(corner.y - BLEED),
+        coordinate(corner.x - BLEED),
+        coordinate(corner.y - BLEED),
         width + 2.0 * BLEED,
         height + 2.0 * BLEED,
-        x = short(corner.x),
-        y = short(corner.y),
+        x = coordinate(corner.x),
+        y = coordinate(corner.y),
         rules = rules(&Colour::of_theme(&animation.theme)),
     );
     for index in &frame.shapes {
@@ -215,8 +221,8 @@ fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
     let _ = write!(
         out,
         "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"15\">t = {:.4} s, mode {}</text>",
-        short(animation.bounds.least.x + INDENT),
-        short(animation.bounds.greatest.y + 16.0),
+        coordinate(animation.bounds.least.x + INDENT),
+        coordinate(animation.bounds.greatest.y + 16.0),
         frame.time,
         escaped(&frame.mode)
     );
@@ -227,8 +233,8 @@ fn speed_below(animation: &Animation, out: &mut String) {
     let _ = writeln!(
         out,
         "<text class=\"s-dimension\" style=\"stroke: none\" x=\"{}\" y=\"{}\" font-size=\"12\">{}</text>",
-        short(animation.bounds.least.x + INDENT),
-        short(animation.bounds.greatest.y + 72.0),
+        coordinate(animation.bounds.least.x + INDENT),
+        coordinate(animation.bounds.greatest.y + 72.0),
         speed(animation)
     );
 }
@@ -245,8 +251,8 @@ fn words_of_event(animation: &Animation, time: f64, words: &str, out: &mut Strin
         let _ = write!(
             out,
             "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{}</text>",
-            short(animation.bounds.least.x + INDENT),
-            short(animation.bounds.greatest.y + 38.0 + 16.0 * line as f64),
+            coordinate(animation.bounds.least.x + INDENT),
+            coordinate(animation.bounds.greatest.y + 38.0 + 16.0 * line as f64),
             escaped(text)
         );
     }
@@ -300,8 +306,9 @@ fn events(animation: &Animation, out: &mut String) {
 
 /// What makes a group visible from a time of the clock on, for some time (s).
 fn shown(begin: f64, duration: f64) -> String {
+    let [begin, duration] = [begin, duration].map(thousandths);
     format!(
-        "<set attributeName=\"display\" to=\"inline\" begin=\"clock.begin+{begin:.3}s\" dur=\"{duration:.3}s\"/>"
+        "<set attributeName=\"display\" to=\"inline\" begin=\"clock.begin+{begin}s\" dur=\"{duration}s\"/>"
     )
 }
 
@@ -320,15 +327,15 @@ fn speed(animation: &Animation) -> String {
     if factor == 1.0 {
         "As fast as it is".to_owned()
     } else if factor > 1.0 {
-        format!("{factor:.1} times slower than it is")
+        format!("{} times slower than it is", tenths(factor))
     } else {
-        format!("{:.1} times faster than it is", 1.0 / factor)
+        format!("{} times faster than it is", tenths(1.0 / factor))
     }
 }
 
 fn view_box(animation: &Animation, below: f64) -> String {
     let (corner, size) = (animation.bounds.least, animation.bounds.size());
-    [corner.x, corner.y, size.x, size.y + below].map(short).join(" ")
+    [corner.x, corner.y, size.x, size.y + below].map(coordinate).join(" ")
 }
 
 fn list(out: &mut String, items: impl Iterator<Item = String>) {

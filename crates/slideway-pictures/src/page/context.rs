@@ -90,7 +90,7 @@ fn drawing(page: &Page<'_>) -> String {
         width: None,
         colours: Colours::Page,
     };
-    svg::write(&page.sheet.scene, &frame)
+    svg::document(&page.sheet.scene, &frame)
 }
 
 fn states(report: &Report) -> Vec<StateView<'_>> {

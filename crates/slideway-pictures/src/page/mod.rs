@@ -5,6 +5,7 @@
 
 mod context;
 
+use crate::coordinate::finished;
 use crate::drawing::Sheet;
 use crate::escaped;
 use context::Context;
@@ -48,7 +49,7 @@ pub struct Figure {
     pub dark: String,
 }
 
-/// The page could not be filled: a fault of its template.
+/// The page could not be filled: a number that cannot be drawn, or a fault of its template.
 #[derive(Debug, Error)]
 #[error("the page could not be made: {reason}")]
 pub struct PageFault {
@@ -60,7 +61,7 @@ pub struct PageFault {
 /// numbers ([`slideway::printable`]).
 ///
 /// # Errors
-/// A fault of the template, which the tests exclude.
+/// If a place or a size in its drawing is infinite or undefined; a fault of the template, which the tests exclude.
 pub fn to_html(page: &Page<'_>) -> Result<String, PageFault> {
     let fault = |error: minijinja::Error| PageFault { reason: format!("{error:#}") };
     let mut environment = Environment::new();
@@ -73,7 +74,8 @@ pub fn to_html(page: &Page<'_>) -> Result<String, PageFault> {
     environment.add_filter("precise", |value: f64| slideway::report::precise(value));
     environment.add_template("report.html", TEMPLATE).map_err(fault)?;
     let template = environment.get_template("report.html").map_err(fault)?;
-    template.render(Context::of(page)).map_err(fault)
+    let html = template.render(Context::of(page)).map_err(fault)?;
+    finished(html).map_err(|fault| PageFault { reason: fault.to_string() })
 }
 
 /// Writes a value of the template; text keeps its lines.

@@ -19,7 +19,8 @@
 //!     }],
 //!     ..Figure::default()
 //! };
-//! assert!(to_svg(&figure, &LIGHT).contains("x in m"));
+//! assert!(to_svg(&figure, &LIGHT)?.contains("x in m"));
+//! # Ok::<(), slideway_pictures::NotFinite>(())
 //! ```
 
 pub(crate) mod clip;
@@ -40,6 +41,7 @@ pub use limits::limits_figure;
 pub use scale::fitting_range;
 pub use sweep::{Extract, Extractor, SweepPlot};
 
+use crate::NotFinite;
 use crate::theme::{DASHES, Theme};
 use legend::Legend;
 use panel::PanelLayout;
@@ -76,7 +78,10 @@ fn dashes(stroke: Stroke) -> &'static str {
 /// The same figure gives the same bytes. Elements have classes: `title`, `panel`, `frame`, `grid`, `tick`, `axis`, `curve`
 /// (with `data-branch` and `data-quantity`), `end`, `marker`, `marked` and `asymptote` (with `data-at`), `flag`, `zone`,
 /// `band`, `legend`.
-pub fn to_svg(figure: &Figure, theme: &Theme) -> String {
+///
+/// # Errors
+/// If a number is too large or too small to be drawn.
+pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
     let mut svg = Svg::default();
     hatchings(&mut svg, theme);
     let mut zones = figure.panels.iter().flat_map(|panel| &panel.zones);

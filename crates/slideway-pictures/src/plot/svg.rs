@@ -1,5 +1,7 @@
 //! Writing SVG: elements with attributes, numbers of two decimals, escaped text.
 
+pub(crate) use crate::coordinate::coordinate;
+use crate::coordinate::{NotFinite, attribute, finished};
 use crate::escaped;
 use crate::typeface::STACK;
 pub(crate) use crate::typeface::width;
@@ -10,13 +12,6 @@ use std::fmt::Write;
 pub(crate) struct Svg {
     body: String,
     indent: usize,
-}
-
-/// A coordinate with at most two decimals.
-pub(crate) fn coordinate(value: f64) -> String {
-    let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 impl Svg {
@@ -66,21 +61,29 @@ impl Svg {
     }
 
     /// The document with its size in pixels and a title for those who cannot see it.
-    pub(crate) fn document(&self, [width, height]: [f64; 2], title: &str, background: &str) -> String {
+    ///
+    /// # Errors
+    /// If a coordinate is infinite or undefined.
+    pub(crate) fn document(
+        &self,
+        [width, height]: [f64; 2],
+        title: &str,
+        background: &str,
+    ) -> Result<String, NotFinite> {
         let [width, height] = [width, height].map(coordinate);
-        format!(
+        finished(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"{STACK}\" role=\"img\">\n<title>{}</title>\n\
              <rect class=\"background\" width=\"{width}\" height=\"{height}\" fill=\"{background}\"/>\n{}</svg>\n",
             escaped(title),
             self.body
-        )
+        ))
     }
 
     fn start(&mut self, name: &str, attributes: &[(&str, &str)]) {
         let _ = write!(self.body, "{}<{name}", "  ".repeat(self.indent));
         for (key, value) in attributes {
-            let _ = write!(self.body, " {key}=\"{}\"", escaped(value));
+            let _ = write!(self.body, " {key}=\"{}\"", attribute(value));
         }
     }
 }
@@ -105,9 +108,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_and_numbers() {
+    fn text() {
         assert_eq!(escaped("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
-        assert_eq!([1.0, -0.001, 12.345, -2.5].map(coordinate), ["1", "0", "12.35", "-2.5"]);
     }
 
     #[test]

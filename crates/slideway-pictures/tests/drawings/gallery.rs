@@ -2,9 +2,10 @@
 
 use crate::Case;
 use slideway::model::Settings;
+use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{
-    Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Shown, View, scene, sheet,
+    Bounds, Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Shown, View, scene, sheet,
 };
 use slideway_pictures::theme::{DARK, LIGHT};
 
@@ -277,11 +278,10 @@ fn pictures_say_what_they_show_in_words_and_escape_names() {
             width: Some(800.0),
             colours: Colours::Theme(theme),
         };
-        let svg = svg::write(&sheet.scene, &frame);
+        let svg = svg::write(&sheet.scene, &frame).unwrap();
         assert!(svg.contains("<title>A &lt;b&gt; &amp; &quot;quoted&quot; title</title>"));
         assert!(svg.contains("<desc>q = 0 m, rate 1 m/s 3 solutions"));
         assert!(svg.contains("width=\"800\"") && svg.contains(theme.background));
-        assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(slideway_pictures::raster::png(&svg, 0.5).is_ok());
     }
 }
@@ -304,4 +304,22 @@ fn one_view_serves_many_configurations() {
     let (first, second) = (walls(&here), walls(&there));
     assert!(!first.is_empty());
     assert_eq!(first, second);
+}
+
+#[test]
+fn a_drawing_with_a_place_that_is_no_number_is_refused() {
+    let case = Case::gallery("drawer");
+    let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
+    let write = |bounds: Bounds, scene: &Scene| {
+        let frame = Frame { bounds, title: "", description: "", width: None, colours: Colours::Theme(LIGHT) };
+        svg::write(scene, &frame)
+    };
+    assert!(write(sheet.bounds, &sheet.scene).is_ok());
+    let wide = Bounds { greatest: Point::new(f64::INFINITY, 1.0), ..sheet.bounds };
+    assert_eq!(write(wide, &sheet.scene), Err(NotFinite));
+    for value in [f64::NAN, f64::INFINITY] {
+        let mut scene = sheet.scene.clone();
+        scene.add(Class::Pin, Shape::Circle(Point::new(0.0, value), 1.0));
+        assert_eq!(write(sheet.bounds, &scene), Err(NotFinite));
+    }
 }

@@ -37,7 +37,6 @@ proptest! {
             width: None,
             colours: Colours::Theme(LIGHT),
         };
-        let svg = svg::write(&sheet.scene, &frame);
-        prop_assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        prop_assert!(svg::write(&sheet.scene, &frame).is_ok());
     }
 }

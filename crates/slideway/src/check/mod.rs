@@ -24,6 +24,7 @@ use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Model, SliderKind};
+use crate::report::finite;
 use crate::solve::{check_size, mode_problem, velocity_signs};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -209,7 +210,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         keep(signs.map(|_| ()));
     }
     let inertia = inertia(&mechanism, &configuration);
-    Ok(CheckReport {
+    finite(CheckReport {
         schema: SCHEMA,
         title: mechanism.title.clone(),
         sound: faults.is_empty(),

@@ -11,7 +11,8 @@ use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
 use nalgebra::{DMatrix, DVector};
 
-/// Forces below this multiple of the greatest may be nothing but rounding.
+/// Where parameters are uncertain, forces below this multiple of the greatest are taken for nothing but rounding. It is a
+/// convention, which decides only what is called a solution in the middle of the bounds, not the bounds.
 const ROUNDING: f64 = 1e-12;
 
 /// A mechanism in its configuration, all within intervals.
@@ -20,6 +21,9 @@ pub(super) struct Coefficients<'a> {
     pub(super) mechanism: &'a Mechanism<Interval>,
     pub(super) configuration: &'a Configuration<Interval>,
     pub(super) equations: &'a Assembled<Interval>,
+    /// Whether every parameter is one number. Then all widths come from rounding, and bounds that hold zero mean that
+    /// nothing but zero can be told; else they mean that zero is one of many values.
+    pub(super) are_numbers: bool,
 }
 
 impl Coefficients<'_> {
@@ -70,8 +74,14 @@ impl Coefficients<'_> {
         let greatest = self.greatest_force(&|row| unknowns[(row, 0)]);
         Some(DMatrix::from_fn(contacts, 1 + contacts, |contact, column| {
             let scale = if column == 0 { greatest } else { 1.0 };
-            without_rounding(unknowns[(rows[contact], column)], scale)
+            self.without_rounding(unknowns[(rows[contact], column)], scale)
         }))
+    }
+
+    /// Bounds that hold zero for rounding alone, with zero in their middle, so that what belongs on a boundary is found there.
+    fn without_rounding(&self, value: Interval, scale: f64) -> Interval {
+        let is_rounding = value.contains(0.0) && (self.are_numbers || value.magnitude() <= ROUNDING * scale);
+        if is_rounding { Interval::around(0.0, value.magnitude()) } else { value }
     }
 
     /// The couples of the guided sliders.
@@ -192,7 +202,7 @@ impl Coefficients<'_> {
                 preload[side][k] * Interval::point(influence.velocity_signs[k]) * eta.entry(row, k)
             };
             let jumps: Vec<[Interval; 2]> = (0..contacts).map(|row| [jump(0, row), jump(1, row)]).collect();
-            if self.has_shared_jump(k) || differ_by_rounding(&jumps, preload[0][k].hull(preload[1][k])) {
+            if self.has_shared_jump(k) || self.may_be_shared(&jumps) {
                 for (right, [positive, negative]) in right.iter_mut().zip(jumps) {
                     *right += positive.hull(negative);
                 }
@@ -222,29 +232,23 @@ impl Coefficients<'_> {
         one_line && formulas.is_some_and(|[positive, negative]| positive == negative)
     }
 
+    /// Whether nothing tells `d_k^+` from `d_k^-` but rounding. A gap between them is the boundary between both sides then, and
+    /// the hull of both holds every share of them. Of exact numbers (raw problems) this is never asked.
+    fn may_be_shared(&self, jumps: &[[Interval; 2]]) -> bool {
+        jumps.iter().all(|&[positive, negative]| {
+            let difference = positive - negative;
+            difference == Interval::ZERO || self.are_numbers && difference.contains(0.0)
+        })
+    }
+
     fn slider(&self, contact: usize) -> Option<&Slider<Interval>> {
         self.mechanism.slider(self.mechanism.contacts[contact].joint)
     }
 }
 
-/// A number that may be nothing but rounding, with zero in the middle of its bounds, so that what belongs on a boundary
-/// is found there.
-fn without_rounding(value: Interval, scale: f64) -> Interval {
-    let is_rounding = value.contains(0.0) && value.magnitude() <= ROUNDING * scale;
-    if is_rounding { Interval::around(0.0, value.magnitude()) } else { value }
-}
-
 /// Whether it makes a difference at which face friction acts.
 fn has_two_faces(slider: &Slider<Interval>) -> bool {
     slider.kind == SliderKind::Block && slider.height != Interval::ZERO
-}
-
-/// Whether `d_k^+` and `d_k^-` are the same but for rounding. A gap between them would be the boundary between both
-/// sides, within the bounds.
-fn differ_by_rounding(jumps: &[[Interval; 2]], preload: Interval) -> bool {
-    let greatest = jumps.iter().flatten().map(|jump| jump.magnitude()).fold(0.0, f64::max);
-    let most = ROUNDING * preload.magnitude().max(greatest);
-    jumps.iter().all(|[positive, negative]| (*positive - *negative).magnitude() <= most)
 }
 
 fn bounded(entries: &DMatrix<Interval>) -> Result<IntervalMatrix, NotEnclosed> {

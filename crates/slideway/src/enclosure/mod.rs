@@ -85,6 +85,13 @@ impl UncertainParameters {
         self.entries.is_empty() && self.coordinates.is_empty() && self.friction.is_none()
     }
 
+    /// Whether each is one number: then bounds of what follows from them are as wide as rounding makes them.
+    fn are_numbers(&self) -> bool {
+        let bounds =
+            self.entries.iter().chain(&self.coordinates).map(|(_, bounds)| bounds).chain(&self.friction);
+        bounds.into_iter().all(|bounds| bounds.lower() == bounds.upper())
+    }
+
     /// Puts the bounds of coordinates and of the factor of friction into a mechanism.
     fn apply(&self, mechanism: &mut Mechanism<Interval>) -> Result<(), NotEnclosed> {
         for (name, bounds) in &self.coordinates {
@@ -210,8 +217,13 @@ pub fn enclosure(
     uncertain.apply(&mut mechanism)?;
     let configuration = motion::enclosed(&mechanism, configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
-    let coefficients =
-        Coefficients { model, mechanism: &mechanism, configuration: &configuration, equations: &equations };
+    let coefficients = Coefficients {
+        model,
+        mechanism: &mechanism,
+        configuration: &configuration,
+        equations: &equations,
+        are_numbers: uncertain.are_numbers(),
+    };
     let (influence, couples) = coefficients.influence()?;
     let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
     Ok(EnclosedModeProblem { influence, problem, couples })

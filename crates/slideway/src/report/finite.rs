@@ -1,4 +1,4 @@
-//! No number of a report is infinite or undefined: JSON would write `null` for it, and text `inf`.
+//! No number that leaves is infinite or undefined: JSON would write `null` for it, and text `inf`.
 
 use crate::fault::{Fault, FaultKind, Faults};
 use serde::ser::{
@@ -18,6 +18,12 @@ pub fn finite<T: Serialize>(report: T) -> Result<T, Faults> {
             Err(Fault::general(FaultKind::Overflow { quantity: format!("`{place}` of the answer") }).into())
         }
     }
+}
+
+/// The number of a cell of a table; nothing where it is not defined, which is an empty cell (CSV), null (Parquet) or NaN (NumPy).
+/// An infinite number is none.
+pub fn defined(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
 /// A number that is not finite.
@@ -222,7 +228,8 @@ impl SerializeMap for Parts<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::finite;
+    use super::{defined, finite};
+    use crate::report::indented_json;
     use serde::Serialize;
     use std::collections::BTreeMap;
 
@@ -262,5 +269,17 @@ mod tests {
             let told = finite(whole).map(|whole| whole.name).expect_err("not finite").to_string();
             assert!(told.contains(place), "{told}");
         }
+    }
+
+    #[test]
+    #[should_panic(expected = "`parts[0][1]`")]
+    fn json_has_no_null_for_a_number() {
+        let _ = indented_json(&Whole { parts: vec![(1, f64::NAN)], ..whole() });
+    }
+
+    #[test]
+    fn cells_of_tables_are_finite_or_empty() {
+        assert_eq!([0.0, f64::MAX].map(defined), [Some(0.0), Some(f64::MAX)]);
+        assert_eq!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(defined), [None; 3]);
     }
 }

@@ -5,13 +5,17 @@ use crate::printable;
 use serde::Serialize;
 
 /// The report as indented JSON, ending in a line end; the layout is that of [`Report`], its version in `schema`.
+///
+/// # Panics
+/// If a number of the report is not finite, which no function that makes reports lets through ([`finite`](super::finite)).
 pub fn to_json(report: &Report) -> String {
     indented(report)
 }
 
-/// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped.
+/// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped. All JSON is written here: a
+/// number that is not finite, for which there would be `null`, is refused.
 pub(crate) fn indented<T: Serialize>(report: &T) -> String {
-    debug_assert!(super::finite(report).is_ok(), "{:?}", super::finite(report).err());
+    let report = super::finite(report).unwrap_or_else(|faults| panic!("{faults}"));
     let text = serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");
     let mut text = printable::json(&text).into_owned();
     text.push('\n');

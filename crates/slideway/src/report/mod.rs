@@ -14,7 +14,7 @@ mod text;
 
 pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
 pub use csv::to_csv;
-pub use finite::finite;
+pub use finite::{defined, finite};
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
 pub use number::precise;

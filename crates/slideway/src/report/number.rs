@@ -5,6 +5,10 @@ const NOISE: f64 = 1e-13;
 
 /// A number with five significant digits; scientific where it is very large or small.
 pub(crate) fn number(value: f64) -> String {
+    if !value.is_finite() {
+        // Reports hold no such number; what is computed from theirs may still be too large.
+        return if value.is_nan() { "undefined" } else { "beyond all bounds" }.to_owned();
+    }
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -53,6 +57,8 @@ mod tests {
             (0.000_123_456, "0.00012346"),
             (1.234_56e-5, "1.2346e-5"),
             (-2.5e7, "-2.5000e7"),
+            (f64::INFINITY, "beyond all bounds"),
+            (f64::NAN, "undefined"),
         ];
         for (value, text) in table {
             assert_eq!(number(value), text);

@@ -19,7 +19,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Report, Status, finite};
+use crate::report::{self, Report, Status};
 use nalgebra::DVector;
 
 /// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping.
@@ -82,7 +82,7 @@ impl<'a> Answer<'a> {
         open.extend(tipping.unproven.iter().map(|joint| format!("that {joint} tips is not proven")));
         let undecided = !lists.undecided.is_empty() || found.is_partial();
         let outcomes = found.result.outcomes();
-        let report = Report {
+        Ok(Report {
             schema: report::SCHEMA,
             status: status(undecided, solutions.len(), gaps.len(), continua.len()),
             complete: if open.is_empty() { "proven" } else { "not proven" },
@@ -111,8 +111,7 @@ impl<'a> Answer<'a> {
             uncertainty: None,
             influence: self.influence_summary(),
             condition: self.equations.condition(),
-        };
-        finite(report)
+        })
     }
 
     /// Files the states of the mechanism that a state of the mode problem stands for, unless a guided slider would tip.

@@ -10,7 +10,7 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::modes::certificate::IntervalModeProblem;
 use crate::modes::{SearchOptions, search};
-use crate::report::Report;
+use crate::report::{Report, finite};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -39,5 +39,5 @@ pub(crate) fn careful_report(
         .map_err(|_| overflow())?;
     let answer =
         Answer { mechanism, configuration, equations, influence, velocity_signs, jumps, enclosed: None };
-    answer.report(&Found { result: &result, rounded: None, most: MOST_STATES })
+    finite(answer.report(&Found { result: &result, rounded: None, most: MOST_STATES })?)
 }

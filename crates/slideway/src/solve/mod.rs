@@ -56,7 +56,7 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, search};
 use crate::progress::Callback;
-use crate::report::Report;
+use crate::report::{Report, finite};
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -131,7 +131,7 @@ pub fn solve_with(
         margins::add(&mut report, &mechanism, &influence, &velocity_signs);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
-    Ok(report)
+    finite(report)
 }
 
 /// The middle of each range, as the only value.

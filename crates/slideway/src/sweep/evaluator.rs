@@ -264,7 +264,7 @@ impl<'p> Evaluator<'p> {
 }
 
 /// Adds the rows of the states of a point, with their attainability if that is asked for; nothing, and `false`, if a
-/// guided slider is about to tip.
+/// guided slider is about to tip, or a number overflows.
 fn write(
     plan: &Plan,
     mechanism: &Mechanism,

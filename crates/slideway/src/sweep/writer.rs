@@ -43,7 +43,8 @@ impl Counts {
 }
 
 impl Writer<'_> {
-    /// Adds the rows of a point, solutions before gap states; nothing, and `false`, if a guided slider is about to tip.
+    /// Adds the rows of a point, solutions before gap states; nothing, and `false`, if a guided slider is about to tip or a
+    /// number overflows: `solve` then says so.
     pub(super) fn write(&self, states: &[SmallState], point: Point<'_>, rows: &mut Rows) -> bool {
         let first = rows.len();
         let contacts = self.plan.columns.contacts;
@@ -69,7 +70,7 @@ impl Writer<'_> {
         true
     }
 
-    /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told.
+    /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told, or a number overflows.
     fn row(&self, state: &SmallState, point: Point<'_>, rows: &mut Rows, counts: &mut Counts) -> Option<()> {
         let columns = &self.plan.columns;
         let contacts = columns.contacts;
@@ -97,6 +98,9 @@ impl Writer<'_> {
                     sums.for_each(|(sum, per_force)| *sum += force * per_force);
                 }
             }
+        }
+        if !forces.iter().chain(&*outputs).all(|number| number.is_finite()) {
+            return None;
         }
         if !self.keeps(state, outputs)? {
             rows.numbers.truncate(start);

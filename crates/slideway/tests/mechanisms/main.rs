@@ -12,6 +12,7 @@ mod attainability;
 mod configuration;
 mod design;
 mod enclosure;
+mod exact_chains;
 mod gallery;
 mod gallery_frictionless;
 mod gap_states;

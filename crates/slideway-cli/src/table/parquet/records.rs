@@ -4,6 +4,7 @@ use super::{Column, ColumnKind, GROUP, ParquetTable, Values};
 use crate::table::record::{Field, FieldKind, fields};
 use crate::table::{Layout, Metadata};
 use ::parquet::data_type::ByteArray;
+use slideway::report::defined;
 use std::array;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -83,7 +84,7 @@ impl Group {
             }
             FieldKind::Number => {
                 let numbers = self.fields(start).map(f64::from_le_bytes);
-                Values::Number(numbers.map(|number| number.is_finite().then_some(number)).collect())
+                Values::Number(numbers.map(defined).collect())
             }
             FieldKind::Word(size) => Values::Word(self.words(start, size).collect()),
         }

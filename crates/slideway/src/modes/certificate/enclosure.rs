@@ -176,9 +176,13 @@ pub fn enclose_solution(
     let mut entries = DMatrix::from_element(size, columns, Interval::ZERO);
     for column in 0..columns {
         let right = right_hand_side.centre().column(column).into_owned();
+        let spread = right_hand_side.radius().column(column).into_owned();
+        if right.amax() == 0.0 && spread.amax() == 0.0 {
+            // A X = 0 has the solution 0 alone, which needs no bound of rounding; that A is regular is seen below.
+            continue;
+        }
         let guess = inverse.apply(&right);
         let image = product_with_column(matrix, &guess);
-        let spread = right_hand_side.radius().column(column).into_owned();
         let rounded = (&right - image.centre()).abs() * f64::EPSILON;
         let bound = upper_sum(&[&image.radius().column(0).into_owned(), &spread, &rounded]);
         let residual = BoundedVector { centre: &right - image.centre().column(0), bound };
