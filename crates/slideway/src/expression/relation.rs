@@ -131,7 +131,7 @@ impl Expression {
         for step in self.steps() {
             let moves = match &step.operation {
                 Operation::Number { .. } => false,
-                Operation::Symbol(symbol) => matches!(symbol, Symbol::Coordinate(_) | Symbol::Rate(_)),
+                Operation::Symbol(symbol) => !matches!(symbol, Symbol::Parameter(_) | Symbol::Time),
                 Operation::Unary(_) | Operation::Table(_) => stack.pop().unwrap_or(false),
                 Operation::Binary(_) => stack.pop().unwrap_or(false) | stack.pop().unwrap_or(false),
             };

@@ -40,9 +40,10 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
-        let mechanism = Mechanism::new(model)?;
+        let mut mechanism = Mechanism::new(model)?;
         check_size(&mechanism)?;
         let configuration = Configuration::new(&mechanism)?;
+        configuration.put_friction(&mut mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
         let influence = Influence::new(&equations);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
@@ -53,9 +54,10 @@ impl Stages {
     ///
     /// # Errors
     /// Whatever `solve` refuses.
-    pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
+    pub(crate) fn along(trail: &mut Trail, mut mechanism: Mechanism) -> Result<Self, Faults> {
         check_size(&mechanism)?;
         let (configuration, influences) = trail.state(&mechanism)?;
+        configuration.put_friction(&mut mechanism)?;
         let influence = Influence::of(influences);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
         Ok(Self { mechanism, configuration, influence, velocity_signs })
