@@ -25,7 +25,7 @@ fuzz_target!(|text: &str| {
                 check(&fault, text);
             }
             let values =
-                Values { parameters: &[2.0, 0.3], coordinates: &[0.5, -1.0], rates: &[1.0, 0.0], time: 0.1 };
+                Values { parameters: &[2.0, 0.3], coordinates: &[0.5, -1.0], rates: &[1.0, 0.0], time: 0.1, sliding_speed: 0.3 };
             match expression.evaluate(&values) {
                 Ok(value) => assert!(value.is_finite(), "{value} from {text:?}"),
                 Err(fault) => check(&fault, text),

@@ -232,6 +232,10 @@ pub enum FaultKind {
     WrongDimension { wanted: Dimension, found: Dimension },
     #[error("{what} cannot depend on the motion, but it uses `{symbol}`")]
     DependsOnMotion { what: String, symbol: String },
+    #[error("{what} must not depend on the sliding speed, but it uses `sliding_speed`")]
+    DependsOnSlidingSpeed { what: String },
+    #[error("at the sliding speed {speed} m/s: {fault}")]
+    AtSlidingSpeed { speed: f64, fault: Box<FaultKind> },
     #[error("parameters refer to each other in a circle: {}", cycle.join(" -> "))]
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
@@ -456,7 +460,15 @@ impl FaultKind {
             Self::DependsOnMotion { .. } => {
                 Some("only loads and drives may depend on coordinates, rates and the time t")
             }
-            Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
+            Self::DependsOnSlidingSpeed { .. } => Some(
+                "only the kinetic coefficient `mu` may depend on it; a force that grows with the velocity is a damper, or a load with `rate(q)`",
+            ),
+            Self::AtSlidingSpeed { .. } => Some(
+                "a coefficient of friction has to be finite and not negative at every speed that occurs, zero included",
+            ),
+            Self::StaticBelowKinetic { .. } => Some(
+                "leave `mu_static` out to make it equal to `mu`, at the sliding speed zero if that depends on it",
+            ),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some(

@@ -9,8 +9,13 @@ use slideway::expression::{
     Names, Symbol, Values, is_reserved, is_valid_name, parse,
 };
 
-const VALUES: Values<'_> =
-    Values { parameters: &[2.0, 3.0, 5.0, 7.0], coordinates: &[0.5, 0.25], rates: &[11.0, 13.0], time: 4.0 };
+const VALUES: Values<'_> = Values {
+    parameters: &[2.0, 3.0, 5.0, 7.0],
+    coordinates: &[0.5, 0.25],
+    rates: &[11.0, 13.0],
+    time: 4.0,
+    sliding_speed: 0.125,
+};
 
 /// Parameters l, mu, m, g; coordinates phi, s.
 fn names() -> Names {
@@ -167,6 +172,7 @@ fn of(symbol: Symbol) -> Inferred {
         Symbol::Coordinate(_) => Inferred::Known(Dimension::ANGLE),
         Symbol::Rate(_) => Inferred::Known(Dimension::VELOCITY),
         Symbol::Time => Inferred::Known(Dimension::TIME),
+        Symbol::SlidingSpeed => Inferred::Known(Dimension::VELOCITY),
     }
 }
 
@@ -316,7 +322,7 @@ fn without_a_finite_value(#[case] text: &str, #[case] span: std::ops::Range<usiz
 
 #[test]
 fn missing_and_infinite_values_are_faults() {
-    let none = Values { parameters: &[], coordinates: &[], rates: &[], time: f64::INFINITY };
+    let none = Values { time: f64::INFINITY, ..Values::of_parameters(&[]) };
     let kind = |text: &str| read(text).evaluate(&none).map_err(|fault| fault.kind);
     assert_eq!(kind("mu"), Err(Kind::MissingValue { symbol: Symbol::Parameter(1) }));
     assert_eq!(kind("rate(s)"), Err(Kind::MissingValue { symbol: Symbol::Rate(1) }));
@@ -337,7 +343,7 @@ fn symbols_and_constants() {
 
 #[test]
 fn reserved_and_valid_names() {
-    assert!(["t", "pi", "rate", "min", "log10"].into_iter().all(is_reserved));
+    assert!(["t", "pi", "rate", "sliding_speed", "min", "log10"].into_iter().all(is_reserved));
     assert!(!["T", "m", "l", ""].into_iter().any(is_reserved));
     assert!(["l", "_x", "l_1", "α2", "mu"].into_iter().all(is_valid_name));
     assert!(!["", "1l", "a-b", "x y", "x²", "°"].into_iter().any(is_valid_name));
@@ -384,7 +390,7 @@ fn long_and_deep_within_the_limits() {
 
 /// The interval of an expression of time.
 fn interval_at(time: Interval, text: &str) -> Result<Interval, ExpressionFault> {
-    let values = Values { parameters: &[], coordinates: &[], rates: &[], time };
+    let values = Values { time, ..Values::of_parameters(&[]) };
     parse(text, &Names::new()).expect("a sound expression").evaluate(&values)
 }
 

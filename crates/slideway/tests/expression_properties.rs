@@ -22,8 +22,13 @@ fn names() -> Names {
 fn read_without_panic(text: &str) {
     let parameters = PARAMETERS.map(|(_, value)| value);
     let coordinates = COORDINATES.map(|(_, value)| value);
-    let values =
-        Values { parameters: &parameters, coordinates: &coordinates, rates: &[0.0, -1.0], time: TIME };
+    let values = Values {
+        parameters: &parameters,
+        coordinates: &coordinates,
+        rates: &[0.0, -1.0],
+        time: TIME,
+        sliding_speed: 0.0,
+    };
     let faults = match parse(text, &names()) {
         Ok(expression) => {
             let dimension = expression.dimension(&|_| Inferred::Any).err();
@@ -197,7 +202,7 @@ proptest! {
         let text = tree.text(0);
         let parameters = PARAMETERS.map(|(_, value)| value);
         let coordinates = COORDINATES.map(|(_, value)| value);
-        let values = Values { parameters: &parameters, coordinates: &coordinates, rates: &[], time: TIME };
+        let values = Values { coordinates: &coordinates, time: TIME, ..Values::of_parameters(&parameters) };
         let expression = parse(&text, &names()).map_err(|faults| TestCaseError::fail(format!("{text}: {faults:?}")))?;
         prop_assert_eq!(expression.evaluate(&values).ok(), tree.value(), "{}", text);
     }

@@ -184,7 +184,7 @@ pub struct CoordinateSummary {
 /// # Errors
 /// Values that are not finite or not allowed: then there is nothing to check.
 pub fn check(model: &Model) -> Result<CheckReport, Faults> {
-    let mechanism = Mechanism::new(model)?;
+    let mut mechanism = Mechanism::new(model)?;
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
     // What is too large to be solved is too large to be analysed further.
@@ -197,6 +197,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mobility = Mobility::of(&mechanism, &configuration);
     let mut condition = None;
     if assembled {
+        keep(configuration.put_friction(&mut mechanism));
         let signs = velocity_signs(&mechanism, &configuration);
         match KineticEquations::new(&mechanism, &configuration) {
             Ok(equations) => {

@@ -214,6 +214,26 @@ impl<T: Real> Configuration<T> {
         ContactGeometry { point, tangent, normal: rot90(tangent), sliding_velocity: tangent.dot(&relative) }
     }
 
+    /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu over velocity).
+    ///
+    /// # Errors
+    /// A fault for each coefficient that is not finite or is negative there.
+    pub fn put_friction(&self, mechanism: &mut Mechanism<T>) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        for k in 0..mechanism.contacts.len() {
+            if !mechanism.contacts[k].depends_on_speed() {
+                continue;
+            }
+            let id = ContactId(k);
+            let speed = self.contact(mechanism, id).sliding_velocity.abs();
+            match mechanism.friction_of(id, speed, self.pieces.as_deref()) {
+                Ok(mu) => mechanism.contacts[k].mu = mu,
+                Err(fault) => faults.push(fault),
+            }
+        }
+        faults.or(())
+    }
+
     /// Supported length of a block slider: distance of front from rear contact along the guide (m).
     pub fn overlap(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Option<T> {
         let [front, rear] = slider.contacts[..] else { return None };

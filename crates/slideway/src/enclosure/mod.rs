@@ -92,23 +92,33 @@ impl UncertainParameters {
         bounds.into_iter().all(|bounds| bounds.lower() == bounds.upper())
     }
 
-    /// Puts the bounds of coordinates and of the factor of friction into a mechanism.
-    fn apply(&self, mechanism: &mut Mechanism<Interval>) -> Result<(), NotEnclosed> {
+    /// Puts the bounds of coordinates into a mechanism.
+    fn put_coordinates(&self, mechanism: &mut Mechanism<Interval>) -> Result<(), NotEnclosed> {
         for (name, bounds) in &self.coordinates {
             let known = |coordinate: &&mut Coordinate<Interval>| *coordinate.name == **name;
             let coordinate = mechanism.coordinates.iter_mut().find(known);
             coordinate.ok_or_else(|| NotEnclosed::UnknownCoordinate { name: name.clone() })?.value = *bounds;
-        }
-        if let Some(factor) = self.friction {
-            for contact in &mut mechanism.contacts {
-                contact.mu = contact.mu.map(|mu| mu * factor);
-            }
         }
         let unbounded = self.coordinates.iter().find(|(_, bounds)| !bounds.magnitude().is_finite());
         match unbounded {
             Some((name, _)) => Err(NotEnclosed::Unbounded { name: name.clone() }),
             None => Ok(()),
         }
+    }
+
+    /// Puts friction at the sliding speeds of a configuration into a mechanism, and the bounds of its factor.
+    fn put_friction(
+        &self,
+        mechanism: &mut Mechanism<Interval>,
+        configuration: &Configuration<Interval>,
+    ) -> Result<(), NotEnclosed> {
+        configuration.put_friction(mechanism).map_err(NotEnclosed::Values)?;
+        if let Some(factor) = self.friction {
+            for contact in &mut mechanism.contacts {
+                contact.mu = contact.mu.map(|mu| mu * factor);
+            }
+        }
+        Ok(())
     }
 
     /// The bounds by the number of the parameter.
@@ -214,8 +224,9 @@ pub fn enclosure(
 ) -> Result<EnclosedModeProblem, NotEnclosed> {
     let given = uncertain.of(model)?;
     let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
-    uncertain.apply(&mut mechanism)?;
+    uncertain.put_coordinates(&mut mechanism)?;
     let configuration = motion::enclosed(&mechanism, configuration)?;
+    uncertain.put_friction(&mut mechanism, &configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
     let coefficients = Coefficients {
         model,

@@ -18,15 +18,23 @@ pub struct Values<'a, T = f64> {
     pub rates: &'a [T],
     /// Time, in s.
     pub time: T,
+    /// The absolute sliding velocity of a joint, in m/s.
+    pub sliding_speed: T,
 }
 
-impl<T: Real> Values<'_, T> {
+impl<'a, T: Real> Values<'a, T> {
+    /// Those of parameters alone, at rest at time zero.
+    pub fn of_parameters(parameters: &'a [T]) -> Self {
+        Self { parameters, coordinates: &[], rates: &[], time: T::zero(), sliding_speed: T::zero() }
+    }
+
     fn of(&self, symbol: Symbol) -> Result<T, ExpressionFaultKind> {
         let value = match symbol {
             Symbol::Parameter(index) => self.parameters.get(index).copied(),
             Symbol::Coordinate(index) => self.coordinates.get(index).copied(),
             Symbol::Rate(index) => self.rates.get(index).copied(),
             Symbol::Time => Some(self.time),
+            Symbol::SlidingSpeed => Some(self.sliding_speed),
         };
         value.ok_or(ExpressionFaultKind::MissingValue { symbol })
     }
@@ -49,7 +57,7 @@ impl Expression {
     /// ```
     /// use slideway::expression::{ExpressionFaultKind, Names, Values, parse};
     ///
-    /// let values = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
+    /// let values = Values::of_parameters(&[]);
     /// let fault = parse("2 + 1/t", &Names::new()).unwrap().evaluate(&values).unwrap_err();
     /// assert_eq!(fault.kind, ExpressionFaultKind::DivisionByZero { numerator: 1.0 });
     /// assert_eq!(fault.span, 4..7);

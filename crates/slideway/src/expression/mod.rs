@@ -30,7 +30,7 @@
 //! names.parameter("l");
 //! names.coordinate("phi");
 //! let height = parse("l*sin(phi) + 25 mm", &names).unwrap();
-//! let values = Values { parameters: &[2.0], coordinates: &[0.0], rates: &[0.0], time: 0.0 };
+//! let values = Values { coordinates: &[0.0], ..Values::of_parameters(&[2.0]) };
 //! assert_eq!(height.evaluate(&values), Ok(0.025));
 //! ```
 

@@ -17,6 +17,8 @@ pub enum Symbol {
     Rate(usize),
     /// Time, written `t`.
     Time,
+    /// The absolute sliding velocity of a joint, written `sliding_speed`.
+    SlidingSpeed,
 }
 
 /// The names visible in an expression, beside the reserved ones.
@@ -79,17 +81,20 @@ impl Names {
         symbol
     }
 
-    /// What `name` stands for; `t` is always time, and no other reserved name is a symbol.
+    /// What `name` stands for; `t` is always time, `sliding_speed` the absolute sliding velocity, and no other reserved name
+    /// is a symbol.
     pub fn lookup(&self, name: &str) -> Option<Symbol> {
-        if is_reserved(name) {
-            return (name == TIME).then_some(Symbol::Time);
+        match name {
+            TIME => Some(Symbol::Time),
+            SLIDING_SPEED => Some(Symbol::SlidingSpeed),
+            _ if is_reserved(name) => None,
+            _ => self.symbols.get(name).copied(),
         }
-        self.symbols.get(name).copied()
     }
 
-    /// The name most like `name`, if one is like it at all: one of those added, `t` or `pi`.
+    /// The name most like `name`, if one is like it at all: one of those added, `t`, `pi` or `sliding_speed`.
     pub fn nearest(&self, name: &str) -> Option<&str> {
-        let known = self.in_order.iter().map(String::as_str).chain([TIME, PI]);
+        let known = self.in_order.iter().map(String::as_str).chain([TIME, PI, SLIDING_SPEED]);
         nearest(name, known).first().copied()
     }
 
@@ -110,15 +115,16 @@ impl Names {
 pub(super) const TIME: &str = "t";
 pub(super) const PI: &str = "pi";
 pub(super) const RATE: &str = "rate";
+pub(super) const SLIDING_SPEED: &str = "sliding_speed";
 
-/// Whether `name` has a fixed meaning in every expression: `t`, `pi`, `rate` and the functions.
+/// Whether `name` has a fixed meaning in every expression: `t`, `pi`, `rate`, `sliding_speed` and the functions.
 ///
 /// ```
 /// assert!(slideway::expression::is_reserved("sin"));
 /// assert!(!slideway::expression::is_reserved("m"));
 /// ```
 pub fn is_reserved(name: &str) -> bool {
-    [TIME, PI, RATE].contains(&name) || function::find(name).is_some()
+    [TIME, PI, RATE, SLIDING_SPEED].contains(&name) || function::find(name).is_some()
 }
 
 /// Whether `name` has the form of a name: a letter or `_`, then letters, digits 0 to 9 and `_`.

@@ -60,7 +60,7 @@ impl Expression {
     /// ```
     /// use slideway::expression::{Expression, Values};
     ///
-    /// let values = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
+    /// let values = Values::of_parameters(&[]);
     /// assert_eq!(Expression::constant(2.5).evaluate(&values), Ok(2.5));
     /// ```
     pub fn constant(value: f64) -> Self {
@@ -106,7 +106,7 @@ impl Expression {
     /// ```
     /// use slideway::expression::{Names, Values, parse};
     ///
-    /// let values = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
+    /// let values = Values::of_parameters(&[]);
     /// assert_eq!(parse("2 - 5", &Names::new()).unwrap().negated().evaluate(&values), Ok(3.0));
     /// ```
     #[must_use]

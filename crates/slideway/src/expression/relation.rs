@@ -133,9 +133,10 @@ impl Expression {
         for step in self.steps() {
             let mut operand = || stack.pop().unwrap_or_default();
             let [of_coordinates, of_rates] = match &step.operation {
-                Operation::Number { .. } => [false; 2],
+                Operation::Number { .. } | Operation::Symbol(Symbol::Parameter(_) | Symbol::Time) => [false; 2],
                 Operation::Symbol(symbol) => {
-                    [matches!(symbol, Symbol::Coordinate(_)), matches!(symbol, Symbol::Rate(_))]
+                    let is_coordinate = matches!(symbol, Symbol::Coordinate(_));
+                    [is_coordinate, !is_coordinate]
                 }
                 Operation::Unary(_) | Operation::Table(_) => operand(),
                 Operation::Binary(_) => {

@@ -38,7 +38,7 @@ pub struct Entry {
 /// let mut names = Names::new();
 /// names.table(push);
 /// let expression = parse("2*push(t)", &names).unwrap();
-/// let values = |time| Values { parameters: &[], coordinates: &[], rates: &[], time };
+/// let values = |time| Values { time, ..Values::of_parameters(&[]) };
 /// assert_eq!(expression.evaluate(&values(0.5)), Ok(10.0));
 /// assert_eq!(expression.evaluate(&values(2.0)), Ok(10.0));
 /// assert_eq!(expression.evaluate(&values(9.0)), Ok(0.0));

@@ -216,10 +216,11 @@ impl StateAt {
     fn new(varied: &Varied, at: f64) -> Result<Self, Faults> {
         let (model, factor) = varied.model_at(at)?;
         let mut mechanism = Mechanism::new(&model)?;
+        let configuration = Configuration::new(&mechanism)?;
+        configuration.put_friction(&mut mechanism)?;
         for contact in &mut mechanism.contacts {
             contact.mu = contact.mu.map(|mu| mu * factor);
         }
-        let configuration = Configuration::new(&mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
         let influence = Influence::new(&equations);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;

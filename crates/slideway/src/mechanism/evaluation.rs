@@ -157,6 +157,7 @@ impl<T: Real> Evaluation<'_, T> {
                 offset: T::exactly(*offset) * length,
                 carried_by: contact.carried_by,
                 mu: contact.mu.map(|mu| self.value(mu)),
+                law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),
                 mu_static: contact.mu_static.map(|mu| self.value(mu)),
                 preload: contact
                     .preload

@@ -143,9 +143,12 @@ pub struct Contact<T = f64> {
     pub offset: T,
     /// What it travels with.
     pub carried_by: CarriedBy,
-    /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
+    /// Kinetic friction coefficient where the normal force is positive, and where it is negative: at the sliding speed
+    /// zero, or at that of the last call of [`Configuration::put_friction`](crate::configuration::Configuration::put_friction).
     pub mu: [T; 2],
-    /// Static friction coefficient, likewise.
+    /// The formulas of those that depend on the sliding speed.
+    pub law: [Option<FormulaId>; 2],
+    /// Static friction coefficient, likewise; what is not given is the kinetic one at the sliding speed zero.
     pub mu_static: [T; 2],
     /// Preload (N), likewise.
     pub preload: [T; 2],
@@ -156,9 +159,14 @@ pub struct Contact<T = f64> {
 }
 
 impl<T: Real> Contact<T> {
-    /// Whether the contact has neither friction nor preload.
+    /// Whether the contact has neither friction nor preload, at whatever speed it slides.
     pub fn is_frictionless(&self) -> bool {
-        self.mu == [T::zero(); 2] && self.preload == [T::zero(); 2]
+        !self.depends_on_speed() && self.mu == [T::zero(); 2] && self.preload == [T::zero(); 2]
+    }
+
+    /// Whether its kinetic friction depends on its sliding speed.
+    pub fn depends_on_speed(&self) -> bool {
+        self.law != [None; 2]
     }
 }
 
@@ -427,6 +435,43 @@ impl<T: Real> Mechanism<T> {
         positive != negative || self.preload_changes_face(contact)
     }
 
+    /// Kinetic friction coefficients of a contact at a sliding velocity (m/s), for both sides: they are even, as the
+    /// formulas know its absolute value alone.
+    ///
+    /// # Errors
+    /// A fault that names the speed if a coefficient is not finite or is negative there.
+    pub fn friction_at(&self, contact: ContactId, velocity: T) -> Result<[T; 2], Fault> {
+        self.friction_of(contact, velocity.abs(), None)
+    }
+
+    /// The formulas of [`Self::friction_at`] with a number in place of the sliding speed, with every relation on its piece, if
+    /// pieces are given.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn friction_of(
+        &self,
+        contact: ContactId,
+        speed: T,
+        pieces: Option<&Pieces>,
+    ) -> Result<[T; 2], Fault> {
+        let Contact { mu, law, .. } = &self.contacts[contact.index()];
+        let at = |side: usize| match law[side] {
+            Some(id) => {
+                let pieces = pieces.map_or(&[][..], |pieces| pieces.of(id));
+                self.formulas[id.index()].at_speed(&self.parameters, speed, pieces)
+            }
+            None => Ok(mu[side]),
+        };
+        let positive = at(0)?;
+        Ok([positive, if law[1].is_some() && law[1] == law[0] { positive } else { at(1)? }])
+    }
+
+    /// Whether some kinetic friction depends on a sliding speed.
+    pub fn has_friction_laws(&self) -> bool {
+        self.contacts.iter().any(Contact::depends_on_speed)
+    }
+
     /// Name of a frame.
     pub fn frame_name(&self, frame: Frame) -> &str {
         frame.body().map_or("ground", |body| &self.bodies[body.index()].name)
@@ -472,7 +517,7 @@ impl<T: Real> Mechanism<T> {
 
     /// What the names in an expression stand for in a state.
     pub(crate) fn values<'a>(&'a self, coordinates: &'a [T], rates: &'a [T], time: T) -> Values<'a, T> {
-        Values { parameters: &self.parameters, coordinates, rates, time }
+        Values { parameters: &self.parameters, coordinates, rates, time, sliding_speed: T::zero() }
     }
 }
 

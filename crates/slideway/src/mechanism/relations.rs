@@ -1,17 +1,19 @@
-//! The relations in the formulas of loads and drives: where these jump or have a kink.
+//! The relations in the formulas of loads, drives and friction: where these jump or have a kink.
 
 use super::{LoadKind, Mechanism, Quantity};
 use crate::expression::{Piece, RelationKind};
-use crate::ids::FormulaId;
+use crate::ids::{ContactId, FormulaId};
 use std::sync::Arc;
 
-/// A relation in the formula of a load or of a drive.
+/// A relation in the formula of a load, of a drive, or of friction.
 #[derive(Debug, Clone)]
 pub(crate) struct Relation {
-    /// The load or drive.
+    /// The load, the drive, or the friction of a contact.
     pub(crate) owner: Arc<str>,
     /// The formula.
     pub(crate) formula: FormulaId,
+    /// A contact on whose sliding speed the formula depends: all that share it belong to one joint.
+    pub(crate) contact: Option<ContactId>,
     /// Its number within the formula.
     pub(crate) number: usize,
     /// What is known of it.
@@ -51,25 +53,27 @@ impl Pieces {
 }
 
 impl Mechanism {
-    /// The relations in the formulas of loads and drives, in the order of these formulas.
+    /// The relations in the formulas of loads, drives and friction, in the order of these formulas.
     pub(crate) fn relations(&self) -> Vec<Relation> {
         let loads = self.loads.iter().flat_map(|load| {
             quantities(&load.kind).into_iter().map(|quantity| (&load.name, quantity)).collect::<Vec<_>>()
         });
         let drives = self.drives.iter().map(|drive| (&drive.name, drive.acceleration));
-        let mut formulas: Vec<(FormulaId, &Arc<str>)> = loads
-            .chain(drives)
-            .filter_map(|(owner, quantity)| match quantity {
-                Quantity::Varying(id) => Some((id, owner)),
-                Quantity::Constant(_) => None,
-            })
-            .collect();
-        formulas.sort_by_key(|(id, _)| id.index());
-        formulas.dedup_by_key(|(id, _)| id.index());
-        let of_formula = |(formula, owner): (FormulaId, &Arc<str>)| {
+        let moving = loads.chain(drives).filter_map(|(owner, quantity)| match quantity {
+            Quantity::Varying(id) => Some((id, owner.clone(), None)),
+            Quantity::Constant(_) => None,
+        });
+        let laws = self.contacts.iter().enumerate().flat_map(|(k, contact)| {
+            let owner: Arc<str> =
+                format!("the friction of {}", self.joints[contact.joint.index()].name).into();
+            contact.law.into_iter().flatten().map(move |id| (id, owner.clone(), Some(ContactId(k))))
+        });
+        let mut formulas: Vec<(FormulaId, Arc<str>, Option<ContactId>)> = moving.chain(laws).collect();
+        formulas.sort_by_key(|(id, ..)| id.index());
+        formulas.dedup_by_key(|(id, ..)| id.index());
+        let of_formula = |(formula, owner, contact): (FormulaId, Arc<str>, Option<ContactId>)| {
             let kinds = self.formulas[formula.index()].expression.relations().into_iter().enumerate();
-            let owner = owner.clone();
-            kinds.map(move |(number, kind)| Relation { owner: owner.clone(), formula, number, kind })
+            kinds.map(move |(number, kind)| Relation { owner: owner.clone(), formula, contact, number, kind })
         };
         formulas.into_iter().flat_map(of_formula).collect()
     }

@@ -222,6 +222,7 @@ impl Model {
             Symbol::Coordinate(index) => coordinate(index, true),
             Symbol::Rate(index) => coordinate(index, false),
             Symbol::Time => Inferred::Known(Dimension::TIME),
+            Symbol::SlidingSpeed => Inferred::Known(Dimension::VELOCITY),
         }
     }
 
@@ -246,6 +247,7 @@ impl Model {
             Symbol::Coordinate(index) => self.coordinates[index].name.to_string(),
             Symbol::Rate(index) => format!("rate({})", self.coordinates[index].name),
             Symbol::Time => "t".to_owned(),
+            Symbol::SlidingSpeed => "sliding_speed".to_owned(),
         }
     }
 

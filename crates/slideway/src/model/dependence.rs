@@ -55,7 +55,7 @@ impl Model {
     fn value_at(&self, formula: FormulaId, parameter: usize, value: f64) -> Option<f64> {
         let mut parameters = vec![0.0; self.parameters.len()];
         let evaluate = |id: FormulaId, parameters: &[f64]| {
-            let values = Values { parameters, coordinates: &[], rates: &[], time: 0.0 };
+            let values = Values::of_parameters(parameters);
             self.formula(id).expression.evaluate(&values)
         };
         for &index in &self.evaluation_order {
@@ -82,11 +82,11 @@ impl Model {
     }
 }
 
-/// Coordinates, rates and the time of a state are constants there.
+/// Coordinates, rates, sliding speeds and the time of a state are constants there.
 fn of_symbol(symbol: Symbol, parameters: &[Degree]) -> Degree {
     match symbol {
         Symbol::Parameter(index) => parameters[index],
-        Symbol::Coordinate(_) | Symbol::Rate(_) | Symbol::Time => Degree::Constant,
+        Symbol::Coordinate(_) | Symbol::Rate(_) | Symbol::Time | Symbol::SlidingSpeed => Degree::Constant,
     }
 }
 

@@ -47,6 +47,17 @@ pub enum Allowed {
     NotNegative,
 }
 
+/// With what a quantity may vary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Varies {
+    /// It stays as it is during the motion.
+    Never,
+    /// With coordinates, rates and time.
+    WithMotion,
+    /// With the sliding speed of its joint.
+    WithSpeed,
+}
+
 /// A number or an expression of the model.
 #[derive(Debug, Clone)]
 pub struct Formula {
@@ -56,8 +67,8 @@ pub struct Formula {
     pub range: Option<Box<[Expression; 2]>>,
     /// The dimension its value must have; nothing for parameters, which may have any.
     pub wanted: Option<Dimension>,
-    /// Whether it may use coordinates, rates and time.
-    pub may_move: bool,
+    /// With what it may vary.
+    pub varies: Varies,
     /// Which values it may have.
     pub allowed: Allowed,
     /// Whether it could not be read, or uses a parameter that could not; only while a model is read.
@@ -69,12 +80,15 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// Its value from the parameters alone.
+    /// Its value from the parameters alone; that of a coefficient of friction at the sliding speed zero.
     ///
     /// # Errors
     /// A fault if the value is not finite or not allowed.
     pub fn constant<T: Real>(&self, parameters: &[T]) -> Result<T, Fault> {
-        self.value(&Values { parameters, coordinates: &[], rates: &[], time: T::zero() })
+        if self.depends_on_speed() {
+            return self.at_speed(parameters, T::zero(), &[]);
+        }
+        self.value(&Values::of_parameters(parameters))
     }
 
     /// Its value in a state.
@@ -110,7 +124,27 @@ impl Formula {
 
     /// Whether its value depends on coordinates, rates or time.
     pub fn moves(&self) -> bool {
-        self.expression.symbols().any(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_)))
+        self.expression
+            .symbols()
+            .any(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_) | Symbol::SlidingSpeed))
+    }
+
+    /// Whether its value depends on the sliding speed of its joint.
+    pub fn depends_on_speed(&self) -> bool {
+        self.expression.symbols().any(|(symbol, _)| symbol == Symbol::SlidingSpeed)
+    }
+
+    /// Its value at a sliding speed (m/s), with every relation on its piece; relations without a piece follow their arguments.
+    ///
+    /// # Errors
+    /// A fault that names the speed if the value is not finite or not allowed.
+    pub(crate) fn at_speed<T: Real>(&self, parameters: &[T], speed: T, pieces: &[Piece]) -> Result<T, Fault> {
+        let values = Values { sliding_speed: speed, ..Values::of_parameters(parameters) };
+        let found = self.value_on(&values, pieces);
+        found.map_err(|fault| {
+            let kind = FaultKind::AtSlidingSpeed { speed: speed.lower(), fault: Box::new(fault.kind) };
+            Fault::new(kind, fault.place.unwrap_or_else(|| self.origin.place()))
+        })
     }
 
     /// Every way in which it is not what is wanted: its dimension, and a dependence on the motion.
@@ -120,13 +154,19 @@ impl Formula {
         names: &dyn Fn(Symbol) -> String,
     ) -> Vec<Fault> {
         let mut faults = Vec::new();
-        if !self.may_move {
-            let moving =
-                self.expression.symbols().find(|(symbol, _)| !matches!(symbol, Symbol::Parameter(_)));
-            if let Some((symbol, span)) = moving {
-                let kind = FaultKind::DependsOnMotion { what: self.what.to_string(), symbol: names(symbol) };
-                faults.push(Fault::new(kind, self.origin.part(&span)));
-            }
+        let permitted = |symbol: Symbol| match symbol {
+            Symbol::Parameter(_) => true,
+            Symbol::SlidingSpeed => self.varies == Varies::WithSpeed,
+            Symbol::Coordinate(_) | Symbol::Rate(_) | Symbol::Time => self.varies == Varies::WithMotion,
+        };
+        if let Some((symbol, span)) = self.expression.symbols().find(|(symbol, _)| !permitted(*symbol)) {
+            let (what, name) = (self.what.to_string(), names(symbol));
+            let kind = if symbol == Symbol::SlidingSpeed {
+                FaultKind::DependsOnSlidingSpeed { what }
+            } else {
+                FaultKind::DependsOnMotion { what, symbol: name }
+            };
+            faults.push(Fault::new(kind, self.origin.part(&span)));
         }
         match (self.expression.dimension(of), self.wanted) {
             (Err(fault), _) => faults.push(self.origin.fault(fault)),

@@ -43,7 +43,7 @@ mod structure;
 
 pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
-pub use formula::{Allowed, Formula, Origin};
+pub use formula::{Allowed, Formula, Origin, Varies};
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
 

@@ -92,7 +92,7 @@ impl Model {
     /// The ends of a parameter's range, if it has one.
     fn range_ends(&self, parameter: &Parameter, parameters: &[f64]) -> Option<Result<[f64; 2], Fault>> {
         let formula = self.formula(parameter.value);
-        let values = Values { parameters, coordinates: &[], rates: &[], time: 0.0 };
+        let values = Values::of_parameters(parameters);
         let end = |end: &Expression| end.evaluate(&values).map_err(|fault| formula.origin.fault(fault));
         let [from, to] = formula.range.as_deref()?;
         Some(end(from).and_then(|from| Ok([from, end(to)?])))

@@ -1,6 +1,6 @@
 //! What a command changes in a model before it is solved: parameters, coordinate values and rates.
 
-use super::formula::{Allowed, Formula, Origin};
+use super::formula::{Allowed, Formula, Origin, Varies};
 use super::range::parse_value;
 use super::{Coordinate, Model};
 use crate::expression::{Dimension, parse};
@@ -223,7 +223,7 @@ impl Model {
             range,
             wanted,
             allowed: Allowed::Any,
-            may_move: false,
+            varies: Varies::Never,
             broken: false,
             what,
             origin,

@@ -12,6 +12,7 @@ use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
 use crate::fault::{Fault, FaultKind};
+use crate::ids::JointId;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -627,7 +628,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
             self.state = settled;
         }
         self.equations.place(self.time, &self.state);
-        self.switching.settle(&self.equations.configuration);
+        let sliders = self.equations.sliders.iter().zip(stopped);
+        let stops = |joint: JointId| sliders.clone().any(|(slider, stopped)| *slider == joint && *stopped);
+        self.switching.settle(&self.equations.configuration, &stops);
         self.equations.configuration.pieces = self.switching.pieces();
     }
 

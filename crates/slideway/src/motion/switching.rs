@@ -1,6 +1,6 @@
-//! Time events: where loads and drives jump or have a kink.
+//! Time events: where loads, drives and friction jump or have a kink.
 //!
-//! Within a phase every relation (`sign`, `step`, `abs`, `min`, `max`, tables) of the loads and drives is held on the piece on
+//! Within a phase every relation (`sign`, `step`, `abs`, `min`, `max`, tables) of the loads, drives and friction is held on the piece on
 //! which it is, so that the motion is smooth; a relation whose arguments depend on the motion is watched like a normal force.
 //! Where they depend on time alone the end of the piece is computed in advance: time is passed through in cells on which
 //! interval arithmetic proves the margin to be positive, and what is left is a time within rounding. So none is missed,
@@ -9,6 +9,7 @@
 use super::root::first_fall;
 use crate::configuration::Configuration;
 use crate::expression::{End, Expression, Piece, Values};
+use crate::ids::JointId;
 use crate::interval::Interval;
 use crate::mechanism::{Mechanism, Pieces, Relation};
 use std::convert::Infallible;
@@ -26,7 +27,7 @@ const NEAREST: f64 = 1e-60;
 /// A relation and an end of its piece.
 pub(super) type Switch = (usize, End);
 
-/// The relations of loads and drives along a motion.
+/// The relations of loads, drives and friction along a motion.
 pub(super) struct Switching<'m> {
     mechanism: &'m Mechanism,
     relations: Vec<Relation>,
@@ -47,7 +48,7 @@ impl<'m> Switching<'m> {
         let next = f64::NEG_INFINITY;
         let mut switching = Self { mechanism, relations, pieces, parameters, next, due: Vec::new() };
         for relation in 0..switching.relations.len() {
-            let piece = switching.ahead(configuration, relation);
+            let piece = switching.ahead(configuration, relation, switching.speed(configuration, relation));
             switching.set(relation, piece);
         }
         switching
@@ -70,7 +71,8 @@ impl<'m> Switching<'m> {
     /// How far a relation is from an end of its piece; infinite where it has none.
     pub(super) fn margin(&self, configuration: &Configuration, (relation, end): Switch) -> f64 {
         let Configuration { coordinates, rates, time, .. } = configuration;
-        let values = self.mechanism.values(coordinates, rates, *time);
+        let sliding_speed = self.speed(configuration, relation);
+        let values = Values { sliding_speed, ..self.mechanism.values(coordinates, rates, *time) };
         let (expression, pieces, number) = self.of(relation);
         expression.margin(&values, pieces, (number, end)).unwrap_or(f64::INFINITY)
     }
@@ -121,13 +123,19 @@ impl<'m> Switching<'m> {
         jumping
     }
 
-    /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none: where something stops.
-    pub(super) fn settle(&mut self, configuration: &Configuration) {
+    /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none, and for those of the
+    /// friction of joints that stop.
+    pub(super) fn settle(&mut self, configuration: &Configuration, stops: &dyn Fn(JointId) -> bool) {
         for relation in 0..self.relations.len() {
+            let contact = self.relations[relation].contact;
+            let rubs = contact.is_some_and(|contact| stops(self.mechanism.contacts[contact.index()].joint));
             let at_end = |end: End| self.margin(configuration, (relation, end)) == 0.0;
             let is_free = self.pieces.piece(relation) == Piece::Free;
-            if !self.relations[relation].kind.of_time && (is_free || End::BOTH.into_iter().any(at_end)) {
-                let piece = self.ahead(configuration, relation);
+            if !self.relations[relation].kind.of_time
+                && (is_free || rubs || End::BOTH.into_iter().any(at_end))
+            {
+                let speed = if rubs { 0.0 } else { self.speed(configuration, relation) };
+                let piece = self.ahead(configuration, relation, speed);
                 self.set(relation, piece);
             }
         }
@@ -137,10 +145,16 @@ impl<'m> Switching<'m> {
     pub(super) fn jump(&mut self, configuration: &Configuration) {
         for relation in 0..self.relations.len() {
             if !self.relations[relation].kind.of_time {
-                let piece = self.ahead(configuration, relation);
+                let piece = self.ahead(configuration, relation, self.speed(configuration, relation));
                 self.set(relation, piece);
             }
         }
+    }
+
+    /// The sliding speed on which a relation depends (m/s).
+    fn speed(&self, configuration: &Configuration, relation: usize) -> f64 {
+        let contact = self.relations[relation].contact;
+        contact.map_or(0.0, |contact| configuration.contact(self.mechanism, contact).sliding_velocity.abs())
     }
 
     fn of(&self, relation: usize) -> (&'m Expression, &[Piece], usize) {
@@ -160,14 +174,15 @@ impl<'m> Switching<'m> {
     }
 
     /// The piece of a relation just after a state: at the nearest time ahead at which it can be told from rounding, as the
-    /// velocities go on. Free if it can be told nowhere: the argument stays at the threshold.
-    fn ahead(&self, configuration: &Configuration, relation: usize) -> Piece {
+    /// velocities go on; what stops can only become faster. Free if it can be told nowhere: the argument stays at the threshold.
+    fn ahead(&self, configuration: &Configuration, relation: usize, speed: f64) -> Piece {
         let (expression, pieces, number) = self.of(relation);
         let Configuration { coordinates, rates, time, .. } = configuration;
         let first = if *time == 0.0 { NEAREST } else { NEXT * f64::EPSILON * time.abs() };
         let steps = std::iter::once(0.0).chain((0..LOOKS).map(|look| first * FARTHER.powi(look)));
         let rates: Vec<Interval> = rates.iter().map(|rate| Interval::point(*rate)).collect();
         let piece = |step: f64| {
+            let sliding_speed = Interval::point(if speed == 0.0 { step } else { speed });
             let step = Interval::point(step);
             let moved = coordinates.iter().zip(&rates);
             let coordinates: Vec<Interval> =
@@ -177,6 +192,7 @@ impl<'m> Switching<'m> {
                 coordinates: &coordinates,
                 rates: &rates,
                 time: Interval::point(*time) + step,
+                sliding_speed,
             };
             expression.piece(&values, pieces, number)
         };
@@ -187,7 +203,7 @@ impl<'m> Switching<'m> {
     fn end_of(&self, (relation, end): Switch, [from, until]: [f64; 2]) -> Option<f64> {
         let (expression, pieces, number) = self.of(relation);
         let margin = |time: Interval| {
-            let values = Values { parameters: &self.parameters, coordinates: &[], rates: &[], time };
+            let values = Values { time, ..Values::of_parameters(&self.parameters) };
             expression.margin(&values, pieces, (number, end))
         };
         margin(Interval::point(from))?;

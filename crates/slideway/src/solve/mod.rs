@@ -98,9 +98,10 @@ pub fn solve_with(
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<Report, Faults> {
-    let mechanism = Mechanism::new(model)?;
+    let mut mechanism = Mechanism::new(model)?;
     check_size(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
+    configuration.put_friction(&mut mechanism)?;
     let equations = KineticEquations::new(&mechanism, &configuration)?;
     let influence = Influence::new(&equations);
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;

@@ -47,9 +47,10 @@ impl Stages {
     ///
     /// # Errors
     /// Whatever `solve` refuses.
-    pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
+    pub(crate) fn following(follower: &mut Follower, mut mechanism: Mechanism) -> Result<Self, Faults> {
         check_size(&mechanism)?;
         let configuration = follower.configuration(&mechanism)?;
+        configuration.put_friction(&mut mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
         let influence = Influence::new(&equations);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
@@ -60,9 +61,10 @@ impl Stages {
     ///
     /// # Errors
     /// Whatever `solve` refuses.
-    pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
+    pub(crate) fn along(trail: &mut Trail, mut mechanism: Mechanism) -> Result<Self, Faults> {
         check_size(&mechanism)?;
         let (configuration, influences) = trail.state(&mechanism)?;
+        configuration.put_friction(&mut mechanism)?;
         let influence = Influence::of(influences);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
         Ok(Self { mechanism, configuration, influence, velocity_signs })

@@ -194,7 +194,6 @@ impl<'p> Evaluator<'p> {
                 _ => None,
             });
             self.mechanism = Mechanism::with_parameters(&plan.model, &given.collect::<Vec<_>>())?;
-            self.friction = Friction::of(&self.mechanism);
         }
         for (kind, value) in plan.varied.iter().zip(values) {
             match *kind {
@@ -204,10 +203,17 @@ impl<'p> Evaluator<'p> {
                 Kind::Time => self.mechanism.time = *value,
             }
         }
-        self.put_friction(values)?;
+        if plan.friction.is_some() {
+            self.put_friction(values)?;
+        }
         if self.stages.is_none() || !plan.same_state() {
             self.stages = None;
             let stages = Stages::along(&mut self.trail, &self.mechanism, &plan.columns)?;
+            if plan.friction.is_none() {
+                stages.configuration.put_friction(&mut self.mechanism)?;
+                self.friction = Friction::of(&self.mechanism);
+                self.put_friction(values)?;
+            }
             self.stages = Some(Cow::Owned(stages));
         }
         Ok(())

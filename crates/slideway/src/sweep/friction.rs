@@ -46,7 +46,8 @@ struct ContactFormulas {
 }
 
 impl FrictionFormulas {
-    /// The formulas of friction that the varied parameters change; none if they change something else, too.
+    /// The formulas of friction that the varied parameters change; none if they change something else, too, or if friction
+    /// depends on sliding speeds.
     ///
     /// # Errors
     /// Values of the model that are not allowed.
@@ -60,7 +61,9 @@ impl FrictionFormulas {
             .collect();
         let uses = |id: FormulaId| given.iter().any(|(index, _)| model.uses(id, *index));
         let mut contacts = Vec::new();
-        if given.iter().any(|(index, _)| !model.changes_friction_alone(*index)) {
+        let depends_on_speed = model.contacts().flat_map(|contact| contact.mu);
+        let depends_on_speed = depends_on_speed.into_iter().any(|mu| model.formula(mu).depends_on_speed());
+        if depends_on_speed || given.iter().any(|(index, _)| !model.changes_friction_alone(*index)) {
             return Ok(None);
         }
         for (number, contact) in model.contacts().enumerate() {

@@ -4,7 +4,7 @@ use super::super::file::{CoordinateTable, DriveTable, Entry, EventTable, ForceFr
 use super::super::quantity::Span;
 use super::super::settings::dimension_of;
 use super::super::{Coordinate, CoordinateKind, Drive, Effort, Event};
-use super::{Allowed, Reader, Wanted};
+use super::{Allowed, Reader, Varies, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace, nearest};
 use crate::ids::{CoordinateId, Frame, JointId};
@@ -106,7 +106,7 @@ impl Reader<'_> {
             self.valid_name("event", &entry.name, &entry.span);
             let Some(table) = entry.contents else { continue };
             let what = format!("the quantity of the event {}", entry.name);
-            let zero_of = self.any_formula(&table.zero_of, what, None, Allowed::Any, true);
+            let zero_of = self.any_formula(&table.zero_of, what, None, Allowed::Any, Varies::WithMotion);
             events.push(Event {
                 name: Arc::from(entry.name),
                 place: FaultPlace::model(entry.span),

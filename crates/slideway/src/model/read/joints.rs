@@ -220,12 +220,15 @@ impl Reader<'_> {
     }
 
     fn friction(&mut self, written: WrittenFriction<'_>, name: &str) -> ReadFriction {
-        let mut sides = |value: Option<&PerSide>, what: &str, dimension| {
-            value.map(|value| self.sides(value, &format!("the {what} of {name}"), dimension))
+        let mut sides = |value: Option<&PerSide>, wanted: &dyn Fn() -> Wanted| {
+            value.map(|value| self.sides(value, &|| wanted().not_negative()))
         };
-        let mu = sides(written.mu, "friction coefficient", Dimension::NONE);
-        let mu_static = sides(written.mu_static, "static friction coefficient", Dimension::NONE);
-        let preload = sides(written.preload, "preload", Dimension::FORCE);
+        let of = |what: &str| format!("the {what} of {name}");
+        let mu = sides(written.mu, &|| Wanted::with_speed(of("friction coefficient"), Dimension::NONE));
+        let mu_static = sides(written.mu_static, &|| {
+            Wanted::constant(of("static friction coefficient"), Dimension::NONE)
+        });
+        let preload = sides(written.preload, &|| Wanted::constant(of("preload"), Dimension::FORCE));
         let stiffness = written.stiffness.map(|stiffness| {
             let what = format!("the stiffness of the guide at {name}");
             self.formula(stiffness, Wanted::constant(what, Dimension::STIFFNESS).positive())
@@ -251,8 +254,7 @@ impl Reader<'_> {
         }
     }
 
-    fn sides(&mut self, written: &PerSide, what: &str, dimension: Dimension) -> [FormulaId; 2] {
-        let wanted = || Wanted::constant(what, dimension).not_negative();
+    fn sides(&mut self, written: &PerSide, wanted: &dyn Fn() -> Wanted) -> [FormulaId; 2] {
         match written {
             PerSide::Both(quantity) => [self.formula(quantity, wanted()); 2],
             PerSide::Each(sides) => {

@@ -9,7 +9,7 @@ mod joints;
 mod loads;
 mod tables;
 
-use super::formula::{Allowed, Formula, Origin, expression_start};
+use super::formula::{Allowed, Formula, Origin, Varies, expression_start};
 use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity, Written};
 use super::range::{Value, parse_value};
 use super::sections::{JointContents, Sections, sections};
@@ -54,18 +54,23 @@ struct Wanted {
     what: String,
     dimension: Dimension,
     allowed: Allowed,
-    may_move: bool,
+    varies: Varies,
 }
 
 impl Wanted {
     /// A quantity that stays constant during the motion.
     fn constant(what: impl Into<String>, dimension: Dimension) -> Self {
-        Self { what: what.into(), dimension, allowed: Allowed::Any, may_move: false }
+        Self { what: what.into(), dimension, allowed: Allowed::Any, varies: Varies::Never }
     }
 
     /// A quantity that may depend on coordinates, rates and time.
     fn moving(what: impl Into<String>, dimension: Dimension) -> Self {
-        Self { may_move: true, ..Self::constant(what, dimension) }
+        Self { varies: Varies::WithMotion, ..Self::constant(what, dimension) }
+    }
+
+    /// A quantity that may depend on the sliding speed of its joint.
+    fn with_speed(what: impl Into<String>, dimension: Dimension) -> Self {
+        Self { varies: Varies::WithSpeed, ..Self::constant(what, dimension) }
     }
 
     fn positive(self) -> Self {
@@ -212,7 +217,7 @@ impl<'t> Reader<'t> {
             range: None,
             wanted: None,
             allowed: Allowed::Any,
-            may_move: false,
+            varies: Varies::Never,
             broken: false,
             what: Arc::from("a number"),
             origin: Origin { source: Source::Model, span: span.clone(), expression_start: None },
@@ -220,7 +225,7 @@ impl<'t> Reader<'t> {
     }
 
     fn formula(&mut self, quantity: &Quantity, wanted: Wanted) -> FormulaId {
-        self.any_formula(quantity, wanted.what, Some(wanted.dimension), wanted.allowed, wanted.may_move)
+        self.any_formula(quantity, wanted.what, Some(wanted.dimension), wanted.allowed, wanted.varies)
     }
 
     fn any_formula(
@@ -229,7 +234,7 @@ impl<'t> Reader<'t> {
         what: String,
         dimension: Option<Dimension>,
         allowed: Allowed,
-        may_move: bool,
+        varies: Varies,
     ) -> FormulaId {
         let origin = self.origin(quantity);
         let parsed = match &quantity.written {
@@ -243,7 +248,7 @@ impl<'t> Reader<'t> {
             }
             Written::Text(text) if self.mended && text == STAND_IN => None,
             // Only parameters have any dimension and no motion; they may have a range.
-            Written::Text(text) => match self.parse(text, dimension.is_none() && !may_move) {
+            Written::Text(text) => match self.parse(text, dimension.is_none() && varies == Varies::Never) {
                 Ok(value) => Some(value),
                 Err(faults) => {
                     self.faults.extend(faults.into_iter().map(|fault| origin.fault(fault)));
@@ -254,7 +259,7 @@ impl<'t> Reader<'t> {
         let broken = parsed.is_none();
         let (expression, range) = parsed.unwrap_or_else(|| (Expression::constant(0.0), None));
         let what = Arc::from(what);
-        self.push(Formula { expression, range, wanted: dimension, allowed, may_move, broken, what, origin })
+        self.push(Formula { expression, range, wanted: dimension, allowed, varies, broken, what, origin })
     }
 
     fn parse(&self, text: &str, may_be_range: bool) -> Result<Value, Vec<ExpressionFault>> {
@@ -274,7 +279,7 @@ impl<'t> Reader<'t> {
         for entry in entries {
             let what = format!("the parameter {}", entry.name);
             let value = match &entry.contents {
-                Some(quantity) => self.any_formula(quantity, what, None, Allowed::Any, false),
+                Some(quantity) => self.any_formula(quantity, what, None, Allowed::Any, Varies::Never),
                 None => self.broken(&entry.span),
             };
             parameters.push(Parameter { name: Arc::from(entry.name), value });

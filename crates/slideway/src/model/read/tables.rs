@@ -111,8 +111,8 @@ impl Reader<'_> {
     }
 
     fn entry_of(&mut self, expression: &Expression, quantity: &Quantity) -> Option<(TableEntry, Inferred)> {
-        let number = Values { parameters: &[], coordinates: &[], rates: &[], time: 0.0 };
-        let range = Values { parameters: &[], coordinates: &[], rates: &[], time: Interval::ZERO };
+        let number = Values::of_parameters(&[]);
+        let range = Values::<Interval>::of_parameters(&[]);
         let read = expression.dimension(&|_| Inferred::Any).and_then(|inferred| {
             let entry =
                 TableEntry { value: expression.evaluate(&number)?, enclosure: expression.evaluate(&range)? };

@@ -81,7 +81,7 @@ fn locked(
     configuration: &Configuration,
     stuck: impl Iterator<Item = usize>,
 ) -> (Mechanism, KineticEquations) {
-    let mut found = (instant.mechanism.clone(), instant.equations.clone());
+    let mut found = (instant.mechanism_at_speeds(), instant.equations.clone());
     for joint in stuck {
         let id = instant.joints[joint].id;
         let Some(slider) = instant.mechanism.slider(id) else { continue };

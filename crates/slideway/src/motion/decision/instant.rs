@@ -13,6 +13,7 @@ use crate::model::{PreloadLine, SliderKind};
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
 
 /// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
 const NO_INFLUENCE: f64 = 1e-13;
@@ -83,6 +84,8 @@ pub(super) struct Outputs {
 pub(super) struct Instant<'m> {
     /// The mechanism.
     pub(super) mechanism: &'m Mechanism,
+    /// Its contacts, with the friction of their sliding speeds.
+    contacts: Cow<'m, [Contact]>,
     /// Its kinetic equations.
     pub(super) equations: KineticEquations,
     /// How its unknowns answer to friction.
@@ -103,7 +106,7 @@ impl<'m> Instant<'m> {
     /// A mechanism in a configuration.
     ///
     /// # Errors
-    /// Whatever [`KineticEquations::new`] refuses.
+    /// Whatever [`KineticEquations::new`] refuses, friction without a value.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         let influence = Influence::new(&equations);
@@ -112,7 +115,8 @@ impl<'m> Instant<'m> {
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);
         let shift = DVector::zeros(outputs.base.len());
-        Ok(Self { mechanism, equations, influence, joints, units, outputs, shift, groups })
+        let contacts = contacts(mechanism, configuration, &equations)?;
+        Ok(Self { mechanism, contacts, equations, influence, joints, units, outputs, shift, groups })
     }
 
     /// Takes over the loads at another time, where nothing has moved.
@@ -261,8 +265,15 @@ impl<'m> Instant<'m> {
     }
 
     /// A contact by its number.
-    pub(super) fn contact(&self, k: usize) -> &'m Contact {
-        &self.mechanism.contacts[k]
+    pub(super) fn contact(&self, k: usize) -> &Contact {
+        &self.contacts[k]
+    }
+
+    /// The mechanism with the friction of the sliding speeds.
+    pub(super) fn mechanism_at_speeds(&self) -> Mechanism {
+        let mut mechanism = self.mechanism.clone();
+        mechanism.contacts = self.contacts.to_vec();
+        mechanism
     }
 
     /// The sliding joint of a contact.
@@ -308,6 +319,21 @@ fn wrong_count(what: &'static str, expected: usize, found: usize) -> Result<(), 
         return Ok(());
     }
     Err(Fault::general(FaultKind::WrongCount { what, expected, found }).into())
+}
+
+/// The contacts with the friction of their sliding speeds.
+fn contacts<'m>(
+    mechanism: &'m Mechanism,
+    configuration: &Configuration,
+    equations: &KineticEquations,
+) -> Result<Cow<'m, [Contact]>, Faults> {
+    let mut contacts = Cow::Borrowed(&mechanism.contacts[..]);
+    for k in (0..contacts.len()).filter(|&k| mechanism.contacts[k].depends_on_speed()) {
+        let speed = equations.contacts[k].sliding_velocity.abs();
+        contacts.to_mut()[k].mu =
+            mechanism.friction_of(ContactId(k), speed, configuration.pieces.as_deref())?;
+    }
+    Ok(contacts)
 }
 
 /// The sliding joints of a mechanism, in the order of its joints.

@@ -23,6 +23,7 @@ impl Equations<'_> {
             add(&self.configuration, wrench, |row, value| self.unknowns[row] += value);
         }
         self.assemble_constraints();
+        self.update_friction()?;
         self.assemble_friction();
         self.assemble_drives()
     }
@@ -46,6 +47,28 @@ impl Equations<'_> {
             self.rows.extend_from_slice(&self.row.entries);
             self.row_ends.push(self.rows.len());
         }
+    }
+
+    /// Friction that depends on the sliding speed, at that of the present state. Beyond the instant at which the joint stops,
+    /// where a step may look before it is cut, the formula goes on smoothly with a negative number if it has a value there.
+    fn update_friction(&mut self) -> Result<(), Failure> {
+        for (k, rubbing) in self.rubbing.iter_mut().enumerate() {
+            if let Rubbing::Pressed { sigma, mu, sign, .. } = rubbing
+                && self.mechanism.contacts[k].depends_on_speed()
+            {
+                let forwards = *sign * self.contacts[k].sliding_velocity;
+                let at = |speed: f64| {
+                    self.mechanism.friction_of(ContactId(k), speed, self.configuration.pieces.as_deref())
+                };
+                let mut found = at(forwards);
+                if forwards < 0.0 && found.is_err() {
+                    found = at(-forwards);
+                }
+                let [positive, negative] = found.map_err(|fault| Failure::Loads(fault.into()))?;
+                *mu = if *sigma < 0.0 { negative } else { positive };
+            }
+        }
+        Ok(())
     }
 
     fn assemble_friction(&mut self) {
