@@ -247,13 +247,15 @@ fn severity(verdict: Verdict) -> u8 {
 }
 
 /// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as far as can be
-/// seen, or in joints that stick in the one and do not begin to move in the other.
+/// seen, or in joints that stick in the one and do not begin to move in the other. Beside the previous phase, which may be at its
+/// end, those are left.
 fn without_copies(search: &Search<'_>, list: &mut Vec<Successor>) {
     let stays = |one: &Successor, limit: Limit| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&limit));
     let instant = search.instant;
     let is_copy = |one: &Successor, other: &Successor| {
         let rests = |joint: usize| {
-            one.phase.joints[joint] == JointPhase::Sticking
+            !one.is_present
+                && one.phase.joints[joint] == JointPhase::Sticking
                 && stays(other, Limit::Slip(instant.joints[joint].id))
         };
         let same_joint = |joint: usize| one.phase.joints[joint] == other.phase.joints[joint] || rests(joint);

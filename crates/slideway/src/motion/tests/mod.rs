@@ -4,6 +4,7 @@
 mod agreement;
 mod closed_forms;
 mod continuations;
+mod gaps;
 mod layers;
 mod limits;
 mod mechanisms;
