@@ -1,5 +1,6 @@
 //! The motion within a phase: steps, projections, and where the phase ends.
 
+use super::decision::scale_of_forces;
 use super::equations::{Drift, Equations, Failure};
 use super::event::Cause;
 use super::history::{End, History};
@@ -107,6 +108,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
             equations,
         };
         smooth.equations.configuration.pieces = smooth.switching.pieces();
+        smooth.watch.magnitudes.force =
+            scale_of_forces(smooth.equations.mechanism, &smooth.equations.configuration);
         smooth.notice_velocity();
         smooth
     }
