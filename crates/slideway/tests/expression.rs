@@ -170,9 +170,8 @@ fn of(symbol: Symbol) -> Inferred {
         Symbol::Parameter(3) => Inferred::Known(Dimension::ACCELERATION),
         Symbol::Parameter(_) => Inferred::Any,
         Symbol::Coordinate(_) => Inferred::Known(Dimension::ANGLE),
-        Symbol::Rate(_) => Inferred::Known(Dimension::VELOCITY),
+        Symbol::Rate(_) | Symbol::SlidingSpeed => Inferred::Known(Dimension::VELOCITY),
         Symbol::Time => Inferred::Known(Dimension::TIME),
-        Symbol::SlidingSpeed => Inferred::Known(Dimension::VELOCITY),
     }
 }
 

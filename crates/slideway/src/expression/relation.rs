@@ -133,7 +133,9 @@ impl Expression {
         for step in self.steps() {
             let mut operand = || stack.pop().unwrap_or_default();
             let [of_coordinates, of_rates] = match &step.operation {
-                Operation::Number { .. } | Operation::Symbol(Symbol::Parameter(_) | Symbol::Time) => [false; 2],
+                Operation::Number { .. } | Operation::Symbol(Symbol::Parameter(_) | Symbol::Time) => {
+                    [false; 2]
+                }
                 Operation::Symbol(symbol) => {
                     let is_coordinate = matches!(symbol, Symbol::Coordinate(_));
                     [is_coordinate, !is_coordinate]

@@ -62,6 +62,7 @@ impl Cause {
             // The share of the positive face has vanished: the negative one presses.
             Watched::Share(contact, Side::Positive) => Self::PreloadGapEnds(contact, Side::Negative),
             Watched::Share(contact, Side::Negative) => Self::PreloadGapEnds(contact, Side::Positive),
+            Watched::Between(contact, side) => Self::PreloadGapEnds(contact, side),
             Watched::Velocity(index, _) => Self::Stops(sliders[index]),
             Watched::Determinant => Self::Locks,
             Watched::ReactionLimit(contact) => Self::ReactionLimit(contact),

@@ -1,6 +1,7 @@
 //! The motion within a phase: steps, projections, and where the phase ends.
 
-use super::equations::{Equations, Failure};
+use super::decision::scale_of_forces;
+use super::equations::{Drift, Equations, Failure};
 use super::event::Cause;
 use super::history::{End, History};
 use super::options::SimulateOptions;
@@ -26,6 +27,8 @@ const SAME_INSTANT: f64 = 1e-9;
 const STOPPED: f64 = 0.01;
 /// Accuracy of a zero, as part of a step.
 const ROOT_TOLERANCE: f64 = 1e-13;
+/// Part of the way to a zero over which the slope there is taken: the square root of what numbers resolve.
+const SLOPE: f64 = 1e-8;
 /// A function of the user that is below this multiple of its next value has just passed zero.
 const USER_ZERO: f64 = 1e-9;
 /// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
@@ -106,6 +109,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
             equations,
         };
         smooth.equations.configuration.pieces = smooth.switching.pieces();
+        smooth.watch.magnitudes.force =
+            scale_of_forces(smooth.equations.mechanism, &smooth.equations.configuration);
         smooth.notice_velocity();
         smooth
     }
@@ -233,12 +238,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 None
             }
             Ok(Some((mut fraction, watched))) => {
-                history.dense.truncate(first);
+                let dense = history.dense.split_off(first);
                 self.next = step;
                 let causes = self.causes(&watched);
                 if fraction > 1.0 - SAME_INSTANT {
                     // It happens where the step was to end in any case.
                     fraction = 1.0;
+                } else if let Ok(corrected) =
+                    self.corrected(phase, decisions, (&dense, step), (fraction, watched[0]))
+                {
+                    fraction = corrected;
                 }
                 match self.stop_at(fraction * step, history) {
                     Ok(()) if fraction > 0.0 && self.still_slides(phase, &causes) => {
@@ -372,12 +381,17 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if step <= 0.0 {
             return Ok(());
         }
-        self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
-        let drift = self.equations.project(&mut self.stepper.end);
+        let drift = self.attempt(step)?;
         history.drift = history.drift.max(drift);
         self.stepper.describe(step, &self.state, &mut history.dense);
         self.advance(step);
         Ok(())
+    }
+
+    /// A step of a given length to a state on the joints, whatever its error is.
+    fn attempt(&mut self, step: f64) -> Result<Drift, Failure> {
+        self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
+        Ok(self.equations.project(&mut self.stepper.end))
     }
 
     /// Whether a joint that should have stopped at the end of the step slides on, much faster than errors of steps are: its
@@ -577,8 +591,41 @@ impl<'o, 'm> Smooth<'o, 'm> {
             zeros.push((zero, watched));
         }
         let first = zeros.iter().map(|(zero, _)| *zero).fold(f64::INFINITY, f64::min);
-        let same = zeros.iter().filter(|(zero, _)| *zero <= first + SAME_INSTANT);
-        Ok((first, same.map(|(_, watched)| *watched).collect()))
+        zeros.retain(|(zero, _)| *zero <= first + SAME_INSTANT);
+        zeros.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Ok((first, zeros.into_iter().map(|(_, watched)| watched).collect()))
+    }
+
+    /// The length, as a fraction of a step, of a step of its own at whose very end a function vanishes that does so at a given place
+    /// on the solution within the longer step: Newton's method with the slope on that solution.
+    fn corrected(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        (dense, step): (&[f64], f64),
+        (mut fraction, watched): (f64, Watched),
+    ) -> Result<f64, Failure> {
+        let beside = fraction * (1.0 - SLOPE);
+        self.evaluate_within(dense, beside, step, watched.needs())?;
+        let slope = self.value(watched, phase, decisions)? / (beside - fraction);
+        let greatest = (self.stop - self.time) / step;
+        let mut value = f64::INFINITY;
+        let mut trial = fraction;
+        while trial > 0.0 && trial <= greatest {
+            self.attempt(trial * step)?;
+            self.stepper.end.clone_into(&mut self.inside);
+            self.equations.evaluate(self.time + trial * step, &self.inside)?;
+            let found = self.value(watched, phase, decisions)?;
+            if found.abs() >= value {
+                break;
+            }
+            (fraction, value) = (trial, found.abs());
+            trial -= found / slope;
+            if (trial - fraction).abs() <= ROOT_TOLERANCE {
+                break;
+            }
+        }
+        Ok(fraction)
     }
 
     /// Puts the equations at a fraction of the step.

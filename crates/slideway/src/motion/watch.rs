@@ -32,6 +32,8 @@ pub(super) enum Watched {
     NormalForce(ContactId),
     /// The share of a face in a preload gap: of the positive one, or of the negative one.
     Share(ContactId, Side),
+    /// Minus the normal force towards this side of a contact that is without one, in the preload gap of a guided slider.
+    Between(ContactId, Side),
     /// The sliding velocity of a joint, counted in its direction; the joint's number among the sliding ones.
     Velocity(usize, f64),
     /// The determinant of the mode, relative to the start of the phase, without what overlaps alone change.
@@ -68,6 +70,7 @@ impl Watched {
         match self {
             Self::NormalForce(_)
             | Self::Share(..)
+            | Self::Between(..)
             | Self::Determinant
             | Self::ReactionLimit(_)
             | Self::Couple(_) => Needs::Forces,
@@ -127,7 +130,7 @@ impl<'o> Watch<'o> {
                     self.contact(*contact, phase.contacts[contact.index()]);
                 }
                 if slider.kind == SliderKind::Guided {
-                    self.list.push(Watched::Couple(*joint));
+                    self.guided(*joint, slider.contacts[0], phase.contacts[slider.contacts[0].index()]);
                 }
             }
             if slider.kind == SliderKind::Block {
@@ -165,6 +168,15 @@ impl<'o> Watch<'o> {
         }
     }
 
+    fn guided(&mut self, joint: JointId, contact: ContactId, phase: ContactPhase) {
+        match phase {
+            ContactPhase::Pressed(_) => self.list.push(Watched::Couple(joint)),
+            ContactPhase::PreloadGap => {
+                self.list.extend(Side::BOTH.map(|side| Watched::Between(contact, side)));
+            }
+        }
+    }
+
     /// The value of a watched function at the last evaluation of the equations; not that of sticking, nor of relations.
     ///
     /// # Errors
@@ -188,6 +200,7 @@ impl<'o> Watch<'o> {
                 let share = equations.share(contact.index()).unwrap_or(0.5);
                 if side == Side::Positive { share } else { 1.0 - share }
             }
+            Watched::Between(contact, side) => -side.sign() * equations.normal_force(contact.index()),
             Watched::Velocity(index, sign) => {
                 let contact = slider(equations.sliders[index]).contacts[0];
                 sign * equations.contacts[contact.index()].sliding_velocity
@@ -226,7 +239,7 @@ impl<'o> Watch<'o> {
     pub(super) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
         let force = FORCE_TOLERANCE * self.magnitudes.force;
         match watched {
-            Watched::NormalForce(_) | Watched::ReactionLimit(_) => force,
+            Watched::NormalForce(_) | Watched::Between(..) | Watched::ReactionLimit(_) => force,
             Watched::Couple(joint) => {
                 force * equations.mechanism.slider(joint).map_or(0.0, |slider| slider.length)
             }

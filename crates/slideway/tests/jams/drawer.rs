@@ -236,7 +236,6 @@ rate = "0.2 m/s"
 /// m x'' = P (L - x)/(L - x + c) + m R/m_c. At the jam the relative velocity v is lost, m v^2/2, and both roll on together, with the momentum
 /// that the resistance R has left, until R stops them.
 #[test]
-#[ignore = "known fault: where the castors stop, the wedged guide lets go for a while though it can stick"]
 fn a_jam_in_a_rolling_carcass_stops_the_drawer_alone() {
     let history = simulate(&Model::parse(ROLLING).unwrap(), &SimulateOptions::new(30.0)).unwrap();
     assert_eq!(history.end, End::Finished, "{:#?}", history.events);

@@ -2,6 +2,7 @@
 
 use super::assessment::Assessment;
 use super::bounds::possible_sides;
+use super::scale::{Share, scale};
 use super::system::Question;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -94,6 +95,8 @@ pub(super) struct Instant<'m> {
     pub(super) joints: Vec<SlidingJoint>,
     /// Units of the whole.
     pub(super) units: Units,
+    /// What the loads come to (N), of the whole and of what is connected with each joint, see [`scale`].
+    ahead: Vec<f64>,
     /// What is asked of forces and accelerations.
     pub(super) outputs: Outputs,
     /// By how much these differ from the loads, see [`Self::vanish`].
@@ -111,12 +114,14 @@ impl<'m> Instant<'m> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         let influence = Influence::new(&equations);
         let mut joints = sliding_joints(mechanism, configuration, &equations);
-        let units = set_units(mechanism, &influence, &equations, &mut joints);
+        let mut ahead = Vec::new();
+        let now = Some(configuration);
+        let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut ahead));
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);
         let shift = DVector::zeros(outputs.base.len());
         let contacts = contacts(mechanism, configuration, &equations)?;
-        Ok(Self { mechanism, contacts, equations, influence, joints, units, outputs, shift, groups })
+        Ok(Self { mechanism, contacts, equations, influence, joints, units, ahead, outputs, shift, groups })
     }
 
     /// Takes over the loads at another time, where nothing has moved.
@@ -126,7 +131,8 @@ impl<'m> Instant<'m> {
     pub(super) fn change_loads(&mut self, configuration: &Configuration) -> Result<(), Faults> {
         self.equations.change_loads(self.mechanism, configuration)?;
         self.influence.frictionless = self.equations.without_noise(&self.equations.frictionless());
-        self.units = set_units(self.mechanism, &self.influence, &self.equations, &mut self.joints);
+        let forces = (&self.influence, &self.equations);
+        self.units = set_units(self.mechanism, forces, None, (&mut self.joints, &mut self.ahead));
         self.outputs = outputs(self.mechanism, &self.influence, &self.joints);
         Ok(())
     }
@@ -367,24 +373,40 @@ fn sliding_joints(
 }
 
 /// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is
-/// small; the units of the whole.
+/// small; the units of the whole. With a configuration the scale of the loads ahead is found anew; else that of before remains.
 fn set_units(
     mechanism: &Mechanism,
-    influence: &Influence,
-    equations: &KineticEquations,
-    joints: &mut [SlidingJoint],
+    (influence, equations): (&Influence, &KineticEquations),
+    configuration: Option<&Configuration>,
+    (joints, ahead): (&mut [SlidingJoint], &mut Vec<f64>),
 ) -> Units {
     let connected = connected(mechanism);
-    let units =
-        |counts: &dyn Fn(BodyId) -> bool, least: f64| units(mechanism, (influence, equations), counts, least);
-    let whole = units(&|_| true, 1.0);
-    for joint in joints {
+    let mut one = |counts: &dyn Fn(BodyId) -> bool, place: usize, otherwise: f64| {
+        let (force, mass) = greatest(mechanism, (influence, equations), counts);
+        if let Some(configuration) = configuration {
+            ahead.truncate(place);
+            ahead.push(scale(mechanism, configuration, Share { counts, mass, force }));
+        }
+        units(mechanism.size, (force.max(ahead[place]), mass), otherwise)
+    };
+    let whole = one(&|_| true, 0, 1.0);
+    for (index, joint) in joints.iter_mut().enumerate() {
         let slider = mechanism.slider(joint.id);
         let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
         let part = body.map(|body| connected[body.index()]);
-        joint.units = units(&|other| Some(connected[other.index()]) == part, whole.force);
+        joint.units = one(&|other| Some(connected[other.index()]) == part, index + 1, whole.force);
     }
     whole
+}
+
+/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N where there never is any.
+pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+    let length = mechanism.size;
+    let masses = mechanism.bodies.iter();
+    let masses = masses.map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
+    let mass = masses.fold(0.0, f64::max);
+    let force = scale(mechanism, configuration, Share { counts: &|_| true, mass, force: 0.0 });
+    units(length, (force, mass), 1.0).force
 }
 
 /// For each body a number that it shares with the bodies that are connected with it by joints.
@@ -439,14 +461,12 @@ fn groups(joints: &[SlidingJoint], outputs: &Outputs) -> Vec<Group> {
     groups
 }
 
-/// The greatest of the loads, preloads and forces of inertia of some bodies, and the acceleration that it gives the greatest
-/// of their masses; where there is no force, the given one.
-fn units(
+/// The greatest of the loads, preloads and forces of inertia of some bodies (N), and the greatest of their masses (kg).
+fn greatest(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),
     counts: &dyn Fn(BodyId) -> bool,
-    otherwise: f64,
-) -> Units {
+) -> (f64, f64) {
     let length = mechanism.size;
     let bodies = || mechanism.bodies.iter().enumerate().filter(|(index, _)| counts(BodyId(*index)));
     let masses = bodies().map(|(_, body)| body.mass.max(body.moment_of_inertia / length.powi(2)));
@@ -462,7 +482,11 @@ fn units(
         let [x, y, turn] = [0, 1, 2].map(|part| influence.frictionless[3 * index + part]);
         [body.mass * x, body.mass * y, body.moment_of_inertia * turn / length]
     });
-    let force = loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max);
+    (loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max), mass)
+}
+
+/// Units in which the given force is one; where there is none, the other one.
+fn units(length: f64, (force, mass): (f64, f64), otherwise: f64) -> Units {
     let force = if force > 0.0 && force.is_finite() { force } else { otherwise };
     Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }
 }

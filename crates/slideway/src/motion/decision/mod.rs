@@ -28,7 +28,8 @@
 //! says so, [`Standing::Undecided`].
 //!
 //! # Accuracy
-//! Slacks are in units of the greatest force (load, preload or inertia) on the bodies that joints connect with one another, or of
+//! Slacks are in units of the greatest force (load, preload or inertia) on the bodies that joints connect with one another, now or
+//! within the time in which the loads take them through the size of the mechanism, or of
 //! the acceleration that it gives the greatest of their masses. A slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6
 //! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
 
@@ -42,6 +43,7 @@ mod instant;
 mod jam;
 mod parts;
 mod program;
+mod scale;
 mod sieve;
 mod state;
 mod sticking;
@@ -50,6 +52,7 @@ mod system;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
+pub(super) use instant::scale_of_forces;
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};

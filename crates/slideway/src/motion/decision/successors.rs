@@ -247,20 +247,27 @@ fn severity(verdict: Verdict) -> u8 {
 }
 
 /// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as far as can be
-/// seen.
+/// seen, or in joints that stick in the one and do not begin to move in the other. Beside the previous phase, which may be at its
+/// end, those are left.
 fn without_copies(search: &Search<'_>, list: &mut Vec<Successor>) {
-    let stays_zero = |one: &Successor, k: usize| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&Limit::NormalForce(ContactId(k))));
+    let stays = |one: &Successor, limit: Limit| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&limit));
+    let instant = search.instant;
     let is_copy = |one: &Successor, other: &Successor| {
-        let same = |k: usize| {
-            one.phase.contacts[k] == other.phase.contacts[k] || (stays_zero(one, k) && stays_zero(other, k))
+        let rests = |joint: usize| {
+            !one.is_present
+                && one.phase.joints[joint] == JointPhase::Sticking
+                && stays(other, Limit::Slip(instant.joints[joint].id))
         };
-        one.phase.joints == other.phase.joints
-            && (0..one.phase.contacts.len()).all(same)
-            && search
-                .instant
-                .groups
-                .iter()
-                .all(|group| search.is_same_motion(group, [&one.state, &other.state]))
+        let same_joint = |joint: usize| one.phase.joints[joint] == other.phase.joints[joint] || rests(joint);
+        let same_contact = |k: usize| {
+            let zero = Limit::NormalForce(ContactId(k));
+            one.phase.contacts[k] == other.phase.contacts[k]
+                || (stays(one, zero) && stays(other, zero))
+                || instant.joint_of(k).is_some_and(rests)
+        };
+        (0..one.phase.joints.len()).all(same_joint)
+            && (0..one.phase.contacts.len()).all(same_contact)
+            && instant.groups.iter().all(|group| search.is_same_motion(group, [&one.state, &other.state]))
     };
     let mut index = 1;
     while index < list.len() {

@@ -98,7 +98,7 @@ impl Equations<'_> {
                     }
                 }
                 // d = share d^+ + (1 - share) d^-
-                Rubbing::Gap { preload: [positive, negative], sign } => {
+                Rubbing::Gap { preload: [positive, negative], sign, share: column } => {
                     self.system.clear_column(column);
                     let at_negative = forces(preload_face(-1.0), negative * sign);
                     for wrench in &at_negative {

@@ -9,7 +9,9 @@
 //!
 //! Coulomb friction of a contact that is pressed against a known side is linear in its normal force (eq. (2)), so it
 //! joins the column of that force: one matrix, not symmetric, is factored for all unknowns. In a preload gap `N_k = 0`,
-//! and the share of the face of positive normal force takes the place of `N_k` among the unknowns (theory, section 3).
+//! and the share of the face of positive normal force takes the place of `N_k` among the unknowns (theory, section 3). In that of a
+//! guided slider with height `C = 0`, too, and the share, which acts like a couple, takes its place; that `N_k` is zero without it is
+//! watched.
 //! A joint that sticks adds the row that its sliding acceleration is zero, and the tangential force `t_j` on its centre
 //! line, block against guide. (At another line of the same joint it would shift normal force between the two ends of
 //! the block, and nothing else.)
@@ -45,8 +47,8 @@ pub(super) enum Failure {
 enum Rubbing {
     /// F = (mu sigma N + preload) sign, at the face of `sigma`.
     Pressed { sigma: f64, mu: f64, preload: f64, sign: f64 },
-    /// N = 0, F = (share preload[0] + (1 - share) preload[1]) sign.
-    Gap { preload: [f64; 2], sign: f64 },
+    /// N = 0, F = (share preload[0] + (1 - share) preload[1]) sign; the share stands in this column of the unknowns.
+    Gap { preload: [f64; 2], sign: f64, share: usize },
     /// The joint sticks: its tangential force stands for all its contacts.
     Sticking,
 }
@@ -214,27 +216,42 @@ impl<'m> Equations<'m> {
     pub(super) fn reaction(&self, reaction: Reaction) -> f64 {
         match reaction {
             Reaction::Normal(contact) => self.normal_force(contact.index()),
+            Reaction::Couple(joint) if self.is_between_faces(joint) => 0.0,
             _ => self.layout.reaction(reaction).map_or(0.0, |index| self.unknowns[index]),
         }
     }
 
-    /// The normal force of a contact; for the ends of a block that sticks as if friction acted on the centre line.
+    /// The normal force of a contact; for the ends of a block that sticks as if friction acted on the centre line. In the preload
+    /// gap of a guided slider it is what would have to be zero.
     pub(super) fn normal_force(&self, k: usize) -> f64 {
-        if matches!(self.rubbing[k], Rubbing::Gap { .. }) { 0.0 } else { self.unknowns[self.normal[k]] }
+        let normal = self.normal[k];
+        let is_taken = matches!(self.rubbing[k], Rubbing::Gap { share, .. } if share == normal);
+        if is_taken { 0.0 } else { self.unknowns[normal] }
     }
 
     /// For a contact in a preload gap the share of the face of positive normal force.
     pub(super) fn share(&self, k: usize) -> Option<f64> {
-        matches!(self.rubbing[k], Rubbing::Gap { .. }).then(|| self.unknowns[self.normal[k]])
+        match self.rubbing[k] {
+            Rubbing::Gap { share, .. } => Some(self.unknowns[share]),
+            _ => None,
+        }
+    }
+
+    /// Whether the share of a guided slider that is between its faces stands in place of its couple.
+    fn is_between_faces(&self, joint: JointId) -> bool {
+        let couple = self.layout.reaction(Reaction::Couple(joint));
+        self.rubbing.iter().any(|law| matches!(law, Rubbing::Gap { share, .. } if Some(*share) == couple))
     }
 
     /// Friction force of a contact whose joint slides, eq. (2).
     pub(super) fn friction_force(&self, k: usize) -> Option<f64> {
-        let value = self.unknowns[self.normal[k]];
         match self.rubbing[k] {
-            Rubbing::Pressed { sigma, mu, preload, sign } => Some((mu * sigma * value + preload) * sign),
-            Rubbing::Gap { preload: [positive, negative], sign } => {
-                Some((value * positive + (1.0 - value) * negative) * sign)
+            Rubbing::Pressed { sigma, mu, preload, sign } => {
+                Some((mu * sigma * self.normal_force(k) + preload) * sign)
+            }
+            Rubbing::Gap { preload: [positive, negative], sign, share } => {
+                let share = self.unknowns[share];
+                Some((share * positive + (1.0 - share) * negative) * sign)
             }
             Rubbing::Sticking => None,
         }

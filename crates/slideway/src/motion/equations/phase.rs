@@ -1,7 +1,7 @@
 //! What a phase makes of the equations: friction of every contact, rows of the joints that stick.
 
 use super::{Equations, Rubbing, Stuck};
-use crate::kinetics::ConstraintRow;
+use crate::kinetics::{ConstraintRow, Reaction};
 use crate::mechanism::CoordinateKind;
 use crate::modes::Side;
 use crate::motion::phase::{ContactPhase, JointPhase, Phase};
@@ -24,7 +24,10 @@ impl Equations<'_> {
                         Rubbing::Pressed { sigma: side.sign(), mu, preload, sign }
                     }
                     (JointPhase::Sliding(sign), ContactPhase::PreloadGap) => {
-                        Rubbing::Gap { preload: law.preload, sign }
+                        let couple = self.layout.reaction(Reaction::Couple(*joint));
+                        let couple = couple.filter(|_| self.mechanism.preload_changes_face(*contact));
+                        let share = couple.unwrap_or(self.normal[k]);
+                        Rubbing::Gap { preload: law.preload, sign, share }
                     }
                 };
             }

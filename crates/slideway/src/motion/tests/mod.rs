@@ -5,6 +5,7 @@ mod agreement;
 mod closed_forms;
 mod continuations;
 mod friction_laws;
+mod gaps;
 mod layers;
 mod limits;
 mod mechanisms;
