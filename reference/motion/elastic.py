@@ -2,38 +2,38 @@
 
     python elastic.py
 
-The cart of `families.py` without heights. Where the rigid mechanism could go on in several ways, on elastic guides
+A cart of `families.py` without heights. At 0.735 s the cart stops while the block rests on it, and with rigid guides two phases can follow: both joints stick, or the
+cart goes on in the other direction at once. On elastic guides the normal forces are known from the state,
 
-    N_k = -K g_k - C g_k',        C = sqrt(K m),
+    N_k = -K g_k - C g_k',        C = d sqrt(K m),
 
-are known from the state, and so is what friction can hold: mu_static (|N_front| + |N_rear|). There is nothing to choose but whether
-joints stick. Friction along the guides is Coulomb's without smoothing. Radau's method of order 5, from event to event.
+and so is what friction can hold, mu_static (|N_front| + |N_rear|): there is nothing to choose. Friction along the guides is Coulomb's without
+smoothing. Radau's method of order 5, from event to event.
 """
 
 import itertools
 import json
 import math
 import random
-import sys
 from pathlib import Path
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from families import Cart, rounded
-from generate import motion
 from simulator import Simulator
 
 HERE = Path(__file__).parent
-MEMBERS = (13,)
+MEMBER = 33
+UNTIL = 1.0
 RTOL = 1e-9
 
 
 class Elastic(Simulator):
-    def __init__(self, mechanism, stiffness):
+    def __init__(self, mechanism, stiffness, damping):
         super().__init__(mechanism)
         self.k = stiffness
-        self.c = math.sqrt(stiffness * min(body.mass for body in mechanism.bodies))
+        self.c = damping * math.sqrt(stiffness * min(body.mass for body in mechanism.bodies))
 
     def normal_forces(self, q, v):
         """Of every slider (N_front, N_rear)."""
@@ -162,16 +162,22 @@ class Elastic(Simulator):
         return (x - inverse * (w.T @ np.linalg.solve((w * inverse) @ w.T, w @ x))).reshape(-1, 3)
 
 
-def scenario(name, rates, parameters, until):
-    """The motion of one cart on guides of each stiffness."""
-    family = Cart(1)
-    mechanism = family.mechanism(parameters)
+def main():
+    parameters = rounded(Cart(1).numbers(random.Random(f"cart-1 {MEMBER}"))) | {"h": 0.0, "h_a": 0.0}
+    mechanism = Cart(1).mechanism(parameters)
     q = np.array([[*body.place, 0.0] for body in mechanism.bodies])
-    v = np.array(rates(parameters), dtype=float)
+    v = np.array(Cart(1).rates(parameters), dtype=float)
     runs = []
-    for stiffness in (1e5, 1e6, 1e7, 1e8):
-        elastic = Elastic(mechanism, stiffness)
-        log, places, speeds, several = elastic.follow(elastic.pressed(q, v), v, until)
-        runs.append({"stiffness": stiffness, "several": several, "joints": log, "last": list(map(list, zip(places, speeds)))})
-        print(name, f"{stiffness:.0e}", several, log, places, file=sys.stderr, flush=True)
-    return {"name": name, "until": until, "parameters": parameters, "runs": runs}
+    for damping, stiffness in itertools.product((1.0, 6.0), (1e5, 3e5, 1e6)):
+        elastic = Elastic(mechanism, stiffness, damping)
+        log, places, speeds, several = elastic.follow(elastic.pressed(q, v), v, UNTIL)
+        run = {"damping": damping, "stiffness": stiffness, "several": several, "joints": [[[float(t), s] for t, s in entries] for entries in log]}
+        runs.append(run | {"last": [[float(x), float(rate)] for x, rate in zip(places, speeds)]})
+        print(json.dumps(runs[-1]), flush=True)
+    lines = ",\n".join(json.dumps(run) for run in runs)
+    head = json.dumps({"model": "cart-1", "until": UNTIL, "parameters": parameters})[:-1]
+    (HERE / "elastic.json").write_text(f'{head}, "runs": [\n{lines}\n]}}\n')
+
+
+if __name__ == "__main__":
+    main()
