@@ -175,13 +175,14 @@ fn drawers_under_loads_that_grow_from_zero() {
 
 /// `reference/motion/elastic.py`: a cart stops while a block on it rests, and both can stick, or the cart turns back at once. With a damping of
 /// sqrt(K m) across the guides the normal forces swing so far after the stop that the cart is let go, within a time of order
-/// 1/sqrt(K): elastic guides come to the phase of `prefers_sliding`. With six times that damping they come to the one of the rule.
+/// 1/sqrt(K): elastic guides come to the phase of `prefers_sliding`, with order 1/2 in 1/K. With six times that damping they come to the one of the rule; at these
+/// stiffnesses with no order that would be theirs.
 #[test]
 fn elastic_guides_take_either_phase() {
     let (data, model) = read("elastic");
     let model = with_parameters(&model, &data);
     let until = data["until"].as_f64().unwrap();
-    for (damping, prefers_sliding) in [(1.0, true), (6.0, false)] {
+    for (damping, prefers_sliding, orders_within) in [(1.0, true, 0.4..0.6), (6.0, false, 0.6..1.4)] {
         let options =
             SimulateOptions { tolerance: TOLERANCE, prefers_sliding, ..SimulateOptions::new(until) };
         let history = simulate(&model, &options).unwrap();
@@ -200,7 +201,7 @@ fn elastic_guides_take_either_phase() {
             (softer.1 / stiffer.1).ln() / (stiffer.0 / softer.0).ln()
         };
         let orders: Vec<f64> = differences.iter().zip(&differences[1..]).map(order).collect();
-        assert!(orders.iter().all(|order| (0.4..0.6).contains(order)), "{orders:?} {differences:?}");
+        assert!(orders.iter().all(|order| orders_within.contains(order)), "{orders:?} {differences:?}");
     }
 }
 
