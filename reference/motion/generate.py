@@ -18,10 +18,11 @@ COUNT = 40
 RTOL = 1e-12
 
 
-def motion(family, seed, rtol=RTOL):
-    """One model of the family: {seed, parameters, joints, last, rate} or {seed, parameters, left_out}."""
+def motion(family, seed, rtol=RTOL, steps=1):
+    """One model of the family: {seed, parameters, joints, last, rate} or {seed, parameters, left_out}; in steps that are so many times shorter."""
     numbers = rounded(family.numbers(random.Random(f"{family.name} {seed}")))
     simulator = Simulator(family.mechanism(numbers))
+    simulator.longest_step /= steps
     model = {"seed": seed, "until": family.until(numbers), "parameters": numbers}
     try:
         log, t, y, choices = simulator.run(family.rates(numbers), family.until(numbers), rtol)

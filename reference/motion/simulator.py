@@ -119,6 +119,7 @@ class Simulator:
         self.m = mechanism
         self.n = len(mechanism.bodies)
         self.piece = 0
+        self.longest_step = mechanism.time_scale / 4
         self.groups = self.find_groups()
 
     def find_groups(self):
@@ -472,8 +473,7 @@ class Simulator:
 
     def until_event(self, t, y, states, end, rtol):
         """Integrates until something has to be decided, or to the end: time, state, [(kind, slider)] or None."""
-        longest = self.m.time_scale / 4
-        solver = DOP853(lambda t, y: self.rates(t, y, states), t, y, end, rtol=rtol, atol=rtol * 0.1, max_step=longest)
+        solver = DOP853(lambda t, y: self.rates(t, y, states), t, y, end, rtol=rtol, atol=rtol * 0.1, max_step=self.longest_step)
         first = True
         while solver.status == "running":
             before = solver.y.copy()
