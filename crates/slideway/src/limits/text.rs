@@ -112,7 +112,7 @@ fn known(count: &CountLimits) -> String {
     let rest = match (count.known, count.spacing) {
         (Known::Proven, _) => {
             let left_out = count.left_out();
-            let except = format!("proven but within {} of ends of modes", at_most(left_out));
+            let except = format!("proven except within {} of ends", at_most(left_out));
             return if left_out > 0.0 { except } else { "proven".to_owned() };
         }
         (Known::Undecided, _) => return "not decided".to_owned(),
