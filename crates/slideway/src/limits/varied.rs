@@ -250,14 +250,12 @@ impl Varied {
         value: f64,
         question: impl Fn(&Stages, f64) -> Result<R, Faults>,
     ) -> Result<R, Faults> {
-        match &self.stages {
-            Some(stages) => question(stages, value),
-            None => {
-                let mechanism = Mechanism::new(&self.model_at(value)?.0)?;
-                let stages = Stages::following(&mut self.follower(), mechanism)?;
-                question(&stages, 1.0)
-            }
+        if let Some(stages) = &self.stages {
+            return question(stages, value);
         }
+        let mechanism = Mechanism::new(&self.model_at(value)?.0)?;
+        let stages = Stages::following(&mut self.follower(), mechanism)?;
+        question(&stages, 1.0)
     }
 
     /// The line of mode problems from no friction (`t = 0`) to the friction at a value (`t = 1`).

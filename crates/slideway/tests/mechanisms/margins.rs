@@ -21,11 +21,10 @@ fn a_drawer_has_the_textbook_s_margin() {
     assert!((mode.factor.expect("finite") - wanted).abs() < 1e-12);
 }
 
-/// Klepp's bar with all coefficients multiplied.
-fn with(factor: f64, list: &[(&str, &str)]) -> Report {
-    let scaled = [("mu_1", 0.3), ("mu_2", 0.1), ("mu_3", 0.1)];
+/// Klepp's bar with all these coefficients multiplied.
+fn with_friction(coefficients: [f64; 3], factor: f64, list: &[(&str, &str)]) -> Report {
+    let scaled = ["mu_1", "mu_2", "mu_3"].into_iter().zip(coefficients);
     let settings = scaled
-        .iter()
         .fold(parameters(list), |settings, (name, mu)| settings.parameter(name, &(mu * factor).to_string()));
     solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound")
 }
@@ -34,6 +33,7 @@ fn with(factor: f64, list: &[(&str, &str)]) -> Report {
 #[test]
 fn where_solutions_come_back_the_margin_says_just_beyond() {
     let to_the_left = [("F_20", "0"), ("direction", "-1")];
+    let with = |factor: f64, list: &[(&str, &str)]| with_friction([0.25, 0.05, 0.05], factor, list);
     let now = with(1.0, &to_the_left);
     let jams = margins(&now).no_solution.expect("it jams");
     let again = margins(&now).solutions_again.expect("solutions come back");
@@ -62,6 +62,7 @@ fn where_solutions_come_back_the_margin_says_just_beyond() {
 
 #[test]
 fn the_number_of_solutions_changes_at_the_margin_and_not_before() {
+    let with = |factor: f64, list: &[(&str, &str)]| with_friction([0.3, 0.1, 0.1], factor, list);
     for list in [&[("F_20", "0")][..], &[("F_20", "0"), ("direction", "-1")], &[]] {
         let now = with(1.0, list);
         let factor = margins(&now).another_count.expect("it changes");
