@@ -1,6 +1,7 @@
 //! Limits as text for people.
 
 use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem};
+use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -124,7 +125,7 @@ fn known(count: &CountLimits) -> String {
         Some([from, to]) => {
             let further = match count.proven.len() {
                 1 => String::new(),
-                many => format!(" and in {} shorter stretches", many - 1),
+                many => format!(" and in {}", count_of(many - 1, "shorter stretch", "shorter stretches")),
             };
             format!("proven from {} to {}{further}, else {rest}", precise(*from), precise(*to))
         }
