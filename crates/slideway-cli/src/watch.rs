@@ -64,6 +64,20 @@ pub(crate) fn outcome(halt: Option<Halt>, of_answer: Outcome) -> Outcome {
     if halt == Some(Halt::Interrupted) { Outcome::Interrupted } else { of_answer }
 }
 
+/// Says when work is to end, to any thread.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Alarm {
+    start: Instant,
+    limit: Option<Duration>,
+}
+
+impl Alarm {
+    /// Whether time is up or someone has interrupted.
+    pub(crate) fn rings(&self) -> bool {
+        INTERRUPTED.load(Ordering::Relaxed) || self.limit.is_some_and(|limit| self.start.elapsed() >= limit)
+    }
+}
+
 /// Watches over work: tells how far it is, and ends it in time or when it is interrupted.
 pub(crate) struct Watch {
     start: Instant,
@@ -106,6 +120,11 @@ impl Watch {
         }
         self.tell(progress);
         if self.halt.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// What else tells that the work is to end.
+    pub(crate) fn alarm(&self) -> Alarm {
+        Alarm { start: self.start, limit: self.limit }
     }
 
     /// Tells of the progress, if a line is due.

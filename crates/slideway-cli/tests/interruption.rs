@@ -30,6 +30,7 @@ fn long_commands(folder: &Path) -> Vec<(Vec<String>, Option<String>)> {
     vec![
         (words(&["limits", &seven, "--vary", "friction"]), None),
         (words(&["limits", &seven, "--vary", range, "--plot", &plot]), Some(plot.clone())),
+        (words(&["sweep", &seven, "--vary", "overlap=0.3 m..0.9 m:101"]), None),
         (words(&["hold", &four, "--load", "W"]), None),
         (words(&["size", &four, "--vary", range, "--margin", "2", "--against", "hold", "--load", "W"]), None),
         (words(&["size", &four, "--vary", "overlap=0.3..0.9", "--margin", "2"]), None),

@@ -368,10 +368,12 @@ fn attainability_is_that_of_the_theory() {
     }
 }
 
-/// Values that make no sense refuse their points, not the sweep; all others are computed.
+/// Values from which a negative coefficient is computed refuse their points, not the sweep; all others are computed.
 #[test]
 fn negative_friction_is_refused_point_by_point() {
-    let sweep = Sweep::new(&model("drawer"), &options(&["mu=-0.2,0.2"])).unwrap();
+    let text =
+        slideway::gallery::find("drawer").unwrap().text.replace("\nmu = 0.3", "\nk = 3\nmu = \"0.1*k\"");
+    let sweep = Sweep::new(&Model::parse(&text).unwrap(), &options(&["k=-2,2"])).unwrap();
     let tally = sweep.tally();
     assert_eq!((tally.with_status(PointStatus::Refused), tally.with_status(PointStatus::One)), (1, 1));
     assert!(tally.refusals[&PointStatus::Refused].1.contains("at least zero"), "{tally:?}");
@@ -391,6 +393,9 @@ fn negative_friction_is_refused_point_by_point() {
 #[case("mu=normal(0.3, 0.1)", "no samples")]
 #[case("nu=0..1:11", "named `nu`")]
 #[case("friction=-1..1:11", "cannot be negative")]
+#[case("mu=-1..1:5", "from -1 to 0 they are")]
+#[case("mu=-1..-0.5:5", "from -1 to -0.5 they are")]
+#[case("mu=-0.2,0.2", "cannot be negative, but -0.2 is")]
 #[case("mu=0..1:99999999999999", "more than")]
 fn faults_of_axes(#[case] axis: &str, #[case] part: &str) {
     let faults = Sweep::new(&model("drawer"), &options(&[axis])).unwrap_err();
@@ -399,6 +404,7 @@ fn faults_of_axes(#[case] axis: &str, #[case] part: &str) {
 
 #[rstest]
 #[case("mu=0..0.8:11", "distribution or from a plain range")]
+#[case("mu=-1..1", "from -1 to 0 they are")]
 #[case("mu=normal(0.3)", "its mean and its standard deviation")]
 #[case("mu=normal(0.3, 0)", "standard deviation must be positive")]
 #[case("mu=lognormal(-0.3, 0.1)", "median must be positive")]

@@ -7,7 +7,7 @@ use crate::input::Input;
 use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
-use crate::watch::{Halt, Watch};
+use crate::watch::{Alarm, Halt, Watch};
 use slideway::progress::Progress;
 use slideway::sweep::{Rows, Sweep, SweepState, to_text};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
@@ -24,7 +24,13 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let options = arguments.options();
-    let sweep = Sweep::new(&model, &options).map_err(|faults| input.refused(faults))?;
+    let path = destination.path().filter(|path| !is_special(path));
+    let limit = arguments.time.time_limit;
+    let mut watch = if path.is_some() { Watch::new(limit) } else { Watch::beside_rows(limit) };
+    let sweep = Sweep::new_with(&model, &options, &mut |progress| watch.look(progress));
+    let Some(sweep) = sweep.map_err(|faults| input.refused(faults))? else {
+        return watch.whole(None);
+    };
     let plot = match picture {
         Some(file) => Some(Plotting::new(&sweep, arguments, file, model.title.as_deref())?),
         None => None,
@@ -32,9 +38,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let layout = Layout::of(&sweep, options.vary.len(), options.attainability);
     let encoder = Encoder::new(format, layout, Metadata::of(&input));
     let work = Work { sweep: &sweep, encoder, plot };
-    match destination.path().filter(|path| !is_special(path)) {
-        Some(path) => to_file(arguments, work, &path, &destination),
-        None if format == TableFormat::Csv => stream(arguments, work, &destination),
+    match path {
+        Some(path) => to_file(arguments, work, (&path, &destination), watch),
+        None if format == TableFormat::Csv => stream(work, &destination, watch),
         None => Err(Failure::NoStream),
     }
 }
@@ -123,7 +129,7 @@ type Take<'t> = dyn FnMut(Vec<Vec<u8>>, &SweepState) -> ControlFlow<()> + Send +
 
 impl Work<'_> {
     /// Computes what is not done yet; `take` gets the rows as bytes and says whether to go on.
-    fn run(&mut self, state: &mut SweepState, take: &mut Take<'_>) {
+    fn run(&mut self, alarm: Alarm, state: &mut SweepState, take: &mut Take<'_>) {
         let Self { sweep, encoder, plot } = self;
         let (extractor, mut plot) = match plot {
             Some(Plotting { extractor, plot, .. }) => (Some(extractor.clone()), Some(plot)),
@@ -133,7 +139,7 @@ impl Work<'_> {
             let part = extractor.as_ref().map(|extractor| extractor.rows(rows));
             (encoder.rows(rows), part)
         };
-        sweep.run(state, &encode, &mut |parts, state| {
+        sweep.run_while(&|| !alarm.rings(), state, &encode, &mut |parts, state| {
             let (rows, parts): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
             if let Some(plot) = &mut plot {
                 parts.into_iter().flatten().for_each(|part| plot.add(part));
@@ -146,19 +152,18 @@ impl Work<'_> {
 fn to_file(
     arguments: &SweepArguments,
     mut work: Work<'_>,
-    path: &Path,
-    output: &Output,
+    (path, output): (&Path, &Output),
+    mut watch: Watch,
 ) -> Result<Outcome, Failure> {
     let sweep = work.sweep;
     let how = (arguments.resume, arguments.destination.force);
     let Continued { mut file, mut state } =
         PartialFile::open(path, work.encoder.clone(), how, sweep.start())?;
-    let mut watch = Watch::new(arguments.time.time_limit);
     let mut failure = None;
     if let Some(plot) = &mut work.plot {
         plot.repeat(sweep, state.done);
     }
-    work.run(&mut state, &mut |rows, state| {
+    work.run(watch.alarm(), &mut state, &mut |rows, state| {
         if let Err(error) = file.add(&rows, state) {
             failure = Some(error);
             return ControlFlow::Break(());
@@ -186,20 +191,21 @@ fn to_file(
 }
 
 /// That the sweep was ended before it was done.
-fn unswept(watch: Watch, state: &SweepState, sweep: &Sweep, path: Option<PathBuf>) -> Failure {
+fn unswept(mut watch: Watch, state: &SweepState, sweep: &Sweep, path: Option<PathBuf>) -> Failure {
+    // The alarm may have ended it.
+    let _ = watch.look(&Progress::of("points", state.done, sweep.points()));
     let halt = watch.finish().unwrap_or(Halt::Interrupted);
     Failure::Unswept { halt, done: state.done, points: sweep.points(), path }
 }
 
 /// Writes the table to standard output, or to a device or a pipe; what it comes to goes to standard error.
-fn stream(arguments: &SweepArguments, mut work: Work<'_>, output: &Output) -> Result<Outcome, Failure> {
+fn stream(mut work: Work<'_>, output: &Output, mut watch: Watch) -> Result<Outcome, Failure> {
     let mut target = output.stream()?;
     let mut result = target.write_all(&work.encoder.head());
     let mut state = work.sweep.start();
     let points = work.sweep.points();
-    let mut watch = Watch::beside_rows(arguments.time.time_limit);
     if result.is_ok() {
-        work.run(&mut state, &mut |rows, state| {
+        work.run(watch.alarm(), &mut state, &mut |rows, state| {
             result = rows.iter().try_for_each(|rows| target.write_all(rows));
             if result.is_err() {
                 return ControlFlow::Break(());

@@ -162,7 +162,7 @@ impl<'v> Examiner<'v> {
             return None;
         }
         let greatest = self.options.greatest_normal_force;
-        let (counts, nodes) = self.varied.certain_counts(part, greatest, &self.solve);
+        let (counts, nodes) = self.varied.certain_counts(part, greatest, &self.solve, self.work);
         self.left = self.left.saturating_sub(1 + nodes / NODES);
         counts
     }

@@ -16,9 +16,9 @@ pub(crate) fn guarantee(found: &Found) -> String {
                 .to_owned()
         }
         Method::Bracketing => format!(
-            "{} values were tried, and what changes between them was bisected to machine precision; ends nearer to each other than {} are one.",
+            "{} values were tried, and what changes between them was bisected to machine precision; ends nearer to each other than {:.1e} are one.",
             found.tried.len(),
-            at_most(found.same_end)
+            found.same_end
         ),
     }];
     sentences.extend(knowledge(found));

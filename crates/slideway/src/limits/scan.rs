@@ -109,7 +109,9 @@ impl Scanner<'_> {
 
     fn place(&self, at: f64) -> Result<Place, TooManyModes> {
         let line = self.varied.parts(at).map(|parts| parts.line_to(&parts));
-        let present = line.as_ref().map_or(Ok(Vec::new()), |line| line.present(0.0, &self.options))?;
+        let goes_on = || !self.work.is_over();
+        let present =
+            line.as_ref().map_or(Ok(Vec::new()), |line| line.present(0.0, &self.options, &goes_on))?;
         Ok(Place { at, line, present })
     }
 
@@ -135,6 +137,7 @@ impl Scanner<'_> {
                 continue;
             }
             let is_inside = |at: f64| match self.varied.parts(at) {
+                _ if self.work.is_over() => false,
                 Ok(_) => inside.line.is_ok(),
                 Err(found) => inside.line.is_err() && kind(&found) != kind(faults),
             };

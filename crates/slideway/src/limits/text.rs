@@ -1,6 +1,7 @@
 //! Limits as text for people.
 
 use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem};
+use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -112,7 +113,7 @@ fn known(count: &CountLimits) -> String {
     let rest = match (count.known, count.spacing) {
         (Known::Proven, _) => {
             let left_out = count.left_out();
-            let except = format!("proven but within {} of ends of modes", at_most(left_out));
+            let except = format!("proven except within {} of ends", at_most(left_out));
             return if left_out > 0.0 { except } else { "proven".to_owned() };
         }
         (Known::Undecided, _) => return "not decided".to_owned(),
@@ -124,7 +125,7 @@ fn known(count: &CountLimits) -> String {
         Some([from, to]) => {
             let further = match count.proven.len() {
                 1 => String::new(),
-                many => format!(" and in {} shorter stretches", many - 1),
+                many => format!(" and in {}", count_of(many - 1, "shorter stretch", "shorter stretches")),
             };
             format!("proven from {} to {}{further}, else {rest}", precise(*from), precise(*to))
         }

@@ -9,6 +9,7 @@ use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::{Dependence, Model, Setting, SettingKind, Settings};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
+use crate::progress::{Progress, Work};
 use crate::solve::{Parts, SolveOptions, Stages, certain_counts};
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -143,12 +144,13 @@ impl Varied {
     }
 
     /// The numbers of solutions and of preload-gap states that are proven for all values between two, if they are, and
-    /// what that took: nodes of the search. States with a normal force above `greatest` do not count.
+    /// what that took: nodes of the search, which ends with the work. States with a normal force above `greatest` do not count.
     pub(crate) fn certain_counts(
         &self,
         [from, to]: [f64; 2],
         greatest: Option<f64>,
         options: &SolveOptions,
+        work: Work<'_>,
     ) -> (Option<[usize; 2]>, u64) {
         let enclosed = || {
             let bounds = Interval::new(from, to)?;
@@ -167,7 +169,9 @@ impl Varied {
             enclosure(&model, &uncertain, &mechanism, &configuration).ok()
         };
         let Some(enclosed) = enclosed() else { return (None, 1) };
-        match search(&enclosed.problem, &options.search, &mut |_| ControlFlow::Continue(())) {
+        let mut goes_on =
+            |_: &Progress| if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        match search(&enclosed.problem, &options.search, &mut goes_on) {
             Ok(result) => (certain_counts(&enclosed, &result, options, greatest), result.nodes()),
             Err(_) => (None, 1),
         }

@@ -7,6 +7,8 @@ use rayon::prelude::*;
 const AT_ONCE: usize = 512;
 /// Points that are solved one after another.
 const RUN: usize = 32;
+/// Points or cells that are looked through between two calls of the callback.
+const UNTOLD: usize = 1024;
 /// Points are solved in rows of so many pixels' height, from left to right, so that successive ones are neighbours.
 const BAND: usize = 16;
 
@@ -75,9 +77,28 @@ impl<K: PartialEq + Send> Work<'_, K> {
         j * self.grid.width + i
     }
 
-    /// Solves the points among these that are not solved yet, in parallel, and enters them in their order.
-    fn solve(&mut self, mut points: Vec<[usize; 2]>) -> Option<()> {
-        points.sort_unstable_by_key(|&[i, j]| [j / BAND, i, j]);
+    /// Tells how many points are solved; none if the work is to end.
+    fn tell(&mut self) -> Option<()> {
+        // How many points a boundary takes is not known before.
+        let progress = Progress { counted: "points", done: self.solved as u64, fraction: None, found: None };
+        (self.progress)(&progress).is_continue().then_some(())
+    }
+
+    /// Solves the points among these that are not solved yet, band by band.
+    fn solve(&mut self, points: impl Iterator<Item = [usize; 2]>) -> Option<()> {
+        let mut bands = vec![Vec::new(); self.grid.height.div_ceil(BAND)];
+        for (number, point) in points.enumerate() {
+            bands[point[1] / BAND].push(point);
+            if number % UNTOLD == 0 {
+                self.tell()?;
+            }
+        }
+        bands.into_iter().try_for_each(|points| self.solve_band(points))
+    }
+
+    /// Solves the points of a band that are not solved yet, in parallel, and enters them in their order.
+    fn solve_band(&mut self, mut points: Vec<[usize; 2]>) -> Option<()> {
+        points.sort_unstable();
         points.dedup();
         points.retain(|&point| !self.is_solved[self.index(point)]);
         for chunk in points.chunks(AT_ONCE) {
@@ -93,12 +114,7 @@ impl<K: PartialEq + Send> Work<'_, K> {
                 self.is_solved[index] = true;
             }
             self.solved += chunk.len();
-            // How many points a boundary takes is not known before.
-            let progress =
-                Progress { counted: "points", done: self.solved as u64, fraction: None, found: None };
-            if (self.progress)(&progress).is_break() {
-                return None;
-            }
+            self.tell()?;
         }
         Some(())
     }
@@ -113,20 +129,27 @@ impl<K: PartialEq + Send> Work<'_, K> {
             stops
         };
         let (columns, rows) = (stops(self.grid.width), stops(self.grid.height));
-        let mut probes: Vec<[usize; 2]> =
-            rows.iter().flat_map(|&j| columns.iter().map(move |&i| [i, j])).collect();
         let mut cells: Vec<Cell> = Vec::new();
         for pair in spans(&rows) {
             cells.extend(spans(&columns).into_iter().map(|[left, right]| [left, right, pair[0], pair[1]]));
+            self.tell()?;
         }
-        probes.extend(cells.iter().map(middle));
-        self.solve(probes)?;
+        let probes = rows.iter().flat_map(|&j| columns.iter().map(move |&i| [i, j]));
+        self.solve(probes.chain(cells.iter().map(middle)))?;
         while !cells.is_empty() {
-            let (alike, mixed): (Vec<Cell>, Vec<Cell>) =
-                cells.into_iter().partition(|cell| self.is_alike(cell));
-            alike.iter().for_each(|cell| self.fill(cell));
-            cells = mixed.iter().flat_map(parts).collect();
-            self.solve(cells.iter().flat_map(corners).collect())?;
+            let mut mixed = Vec::new();
+            for (number, cell) in cells.iter().enumerate() {
+                if self.is_alike(cell) {
+                    self.fill(cell);
+                } else {
+                    mixed.extend(parts(cell));
+                }
+                if number % UNTOLD == 0 {
+                    self.tell()?;
+                }
+            }
+            cells = mixed;
+            self.solve(cells.iter().flat_map(corners))?;
         }
         Some(())
     }
@@ -154,20 +177,20 @@ impl<K: PartialEq + Send> Work<'_, K> {
     /// Solves filled pixels beside solved ones of another class, until there are none: boundaries are followed into cells
     /// whose corners agree.
     fn follow(&mut self) -> Option<()> {
-        let mut suspects: Vec<[usize; 2]> =
-            (0..self.grid.height).flat_map(|j| (0..self.grid.width).map(move |i| [i, j])).collect();
-        loop {
-            suspects.retain(|&point| self.is_suspect(point));
-            if suspects.is_empty() {
-                return Some(());
-            }
-            let solved = suspects.clone();
-            self.solve(solved)?;
+        let mut suspects: Vec<[usize; 2]> = Vec::new();
+        for j in 0..self.grid.height {
+            suspects.extend((0..self.grid.width).map(|i| [i, j]).filter(|&point| self.is_suspect(point)));
+            self.tell()?;
+        }
+        while !suspects.is_empty() {
+            self.solve(suspects.iter().copied())?;
             let grid = self.grid;
             suspects = suspects.iter().flat_map(|&point| neighbours(grid, point)).collect();
             suspects.sort_unstable();
             suspects.dedup();
+            suspects.retain(|&point| self.is_suspect(point));
         }
+        Some(())
     }
 
     fn is_suspect(&self, point: [usize; 2]) -> bool {

@@ -2,8 +2,9 @@
 
 use super::axis::Axis;
 use super::rows::Breakpoint;
-use crate::limits::{LimitsOptions, ModeLimits, limits};
+use crate::limits::{LimitsOptions, ModeLimits, limits_with};
 use crate::model::Model;
+use crate::progress::Callback;
 
 /// Ends that are nearer to each other than this part of the range are one.
 const SAME: f64 = 1e-12;
@@ -19,14 +20,19 @@ pub(super) struct Inserted {
     pub(super) own: bool,
 }
 
-/// The ends of modes on an axis in their order, or why there are none.
-pub(super) fn between(model: &Model, axis: &Axis) -> (Vec<Inserted>, Option<String>) {
+/// The ends of modes on an axis in their order, or why there are none; nothing if the callback breaks.
+pub(super) fn between(
+    model: &Model,
+    axis: &Axis,
+    callback: &mut Callback<'_>,
+) -> Option<(Vec<Inserted>, Option<String>)> {
     // Listed values are those that are wanted.
-    let Some([from, to]) = axis.values.range() else { return (Vec::new(), None) };
+    let Some([from, to]) = axis.values.range() else { return Some((Vec::new(), None)) };
     let vary = format!("{}={from:e}..{to:e}", axis.quantity.name);
-    let report = match limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of(&vary) }) {
-        Ok(report) => report,
-        Err(faults) => return (Vec::new(), Some(faults.to_string())),
+    let options = LimitsOptions { effort: 0, ..LimitsOptions::of(&vary) };
+    let report = match limits_with(model, &options, callback) {
+        Ok(report) => report?,
+        Err(faults) => return Some((Vec::new(), Some(faults.to_string()))),
     };
     let mut ends: Vec<(f64, Breakpoint)> = report.modes.iter().flat_map(ends).collect();
     ends.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -43,7 +49,7 @@ pub(super) fn between(model: &Model, axis: &Axis) -> (Vec<Inserted>, Option<Stri
         let own = axis.values.at(low) != at;
         inserted.push(Inserted { number: low + before, at, breakpoint, own });
     }
-    (inserted, None)
+    Some((inserted, None))
 }
 
 /// Both ends of a mode, unless they are those of the range.

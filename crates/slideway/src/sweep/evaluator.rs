@@ -135,8 +135,13 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// Adds the rows of points in their order.
-    pub(super) fn evaluate_all(&mut self, points: &Points, rows: &mut Rows) {
+    /// Adds the rows of points in their order; says whether all were computed, or `goes_on` said no.
+    pub(super) fn evaluate_all(
+        &mut self,
+        points: &Points,
+        rows: &mut Rows,
+        goes_on: &(dyn Fn() -> bool + Sync),
+    ) -> bool {
         let found = self.plan.together.as_ref().map(|together| {
             let mut found = together.points(points.len());
             for index in 0..points.len() {
@@ -151,10 +156,14 @@ impl<'p> Evaluator<'p> {
             let point = points.get(index);
             let written = found.as_ref().is_some_and(|found| self.write_found(found, index, point, rows));
             if !written {
+                if !goes_on() {
+                    return false;
+                }
                 self.evaluate(point, rows);
             }
             rows.points += 1;
         }
+        true
     }
 
     /// Adds the rows of a point.

@@ -57,6 +57,7 @@ pub use text::to_text;
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::progress::Callback;
 use crate::solve::check_size;
 use axis::{Axis, Values};
 use breakpoints::Inserted;
@@ -135,6 +136,19 @@ impl Sweep {
     /// # Errors
     /// Every axis that makes no sense; values of the model that are not allowed.
     pub fn new(model: &Model, options: &SweepOptions) -> Result<Self, Faults> {
+        // Nothing breaks, so that there is one.
+        Self::new_with(model, options, &mut |_| ControlFlow::Continue(()))?.ok_or_else(Faults::default)
+    }
+
+    /// [`Sweep::new`] with a callback that is called now and then; nothing if it breaks.
+    ///
+    /// # Errors
+    /// As [`Sweep::new`].
+    pub fn new_with(
+        model: &Model,
+        options: &SweepOptions,
+        callback: &mut Callback<'_>,
+    ) -> Result<Option<Self>, Faults> {
         let mechanism = Mechanism::new(model)?;
         check_size(&mechanism)?;
         let axes = axes(model, options)?;
@@ -158,12 +172,15 @@ impl Sweep {
             .map_or_else(|| axes.iter().map(|axis| axis.values.len()).product(), |samples| samples.count);
         let (inserted, without_breakpoints) = match &axes[..] {
             [axis] if !options.without_breakpoints && options.samples.is_none() => {
-                breakpoints::between(model, axis)
+                match breakpoints::between(model, axis, callback) {
+                    Some(found) => found,
+                    None => return Ok(None),
+                }
             }
             _ => (Vec::new(), None),
         };
         let points = own + inserted.iter().filter(|breakpoint| breakpoint.own).count() as u64;
-        Ok(Self { plan, axes, samples: options.samples, inserted, without_breakpoints, points })
+        Ok(Some(Self { plan, axes, samples: options.samples, inserted, without_breakpoints, points }))
     }
 
     /// Number of points, inserted ones included.
@@ -222,7 +239,19 @@ impl Sweep {
         encode: &(dyn Fn(&Rows) -> E + Sync),
         take: &mut (dyn FnMut(Vec<E>, &SweepState) -> ControlFlow<()> + Send),
     ) {
-        let mut ready = self.compute(state.done);
+        self.run_while(&|| true, state, encode, take);
+    }
+
+    /// [`Sweep::run`] that also ends once `goes_on`, which is asked by any thread before points that take long, says so: with
+    /// the chunks of points that are done by then.
+    pub fn run_while<E: Send>(
+        &self,
+        goes_on: &(dyn Fn() -> bool + Sync),
+        state: &mut SweepState,
+        encode: &(dyn Fn(&Rows) -> E + Sync),
+        take: &mut (dyn FnMut(Vec<E>, &SweepState) -> ControlFlow<()> + Send),
+    ) {
+        let mut ready = self.compute(state.done, goes_on);
         while !ready.is_empty() {
             for rows in &mut ready {
                 self.number(rows, &mut state.branches);
@@ -232,7 +261,7 @@ impl Sweep {
             let encoded: Vec<E> = ready.par_iter().map(encode).collect();
             let next = state.done;
             // The next rows are computed while these are taken.
-            let (computed, flow) = rayon::join(|| self.compute(next), || take(encoded, state));
+            let (computed, flow) = rayon::join(|| self.compute(next, goes_on), || take(encoded, state));
             if flow.is_break() {
                 return;
             }
@@ -240,18 +269,20 @@ impl Sweep {
         }
     }
 
-    /// The rows of some chunks of points, from this one on.
-    fn compute(&self, from: u64) -> Vec<Rows> {
+    /// The rows of some chunks of points, from this one on; fewer, or none, where they were not all to be computed.
+    fn compute(&self, from: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Rows> {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
         let first = from.div_ceil(CHUNK);
         let starts: Vec<u64> = (first..first + chunks as u64)
             .map(|chunk| chunk * CHUNK)
             .filter(|start| *start < self.points)
             .collect();
-        starts.into_par_iter().map(|start| self.chunk(start)).collect()
+        let chunks: Vec<Option<Rows>> =
+            starts.into_par_iter().map(|start| self.chunk(start, goes_on)).collect();
+        chunks.into_iter().map_while(|rows| rows).collect()
     }
 
-    fn chunk(&self, start: u64) -> Rows {
+    fn chunk(&self, start: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Option<Rows> {
         let columns = &self.plan.columns;
         let mut rows = Rows::new(columns.contacts, columns.varied, columns.width());
         let numbers = start..(start + CHUNK).min(self.points);
@@ -260,8 +291,7 @@ impl Sweep {
             points.push(number, |values| self.values(number, values));
         }
         rows.reserve(points.len());
-        Evaluator::new(&self.plan).evaluate_all(&points, &mut rows);
-        rows
+        Evaluator::new(&self.plan).evaluate_all(&points, &mut rows, goes_on).then_some(rows)
     }
 
     /// The values of a point, and what is exact about it.

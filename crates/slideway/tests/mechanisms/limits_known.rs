@@ -226,8 +226,16 @@ fn ranges_that_make_no_sense_are_refused() {
     let negative = fault("friction=-1..1");
     assert!(matches!(negative, FaultKind::Axis { problem: AxisProblem::NegativeFriction { .. }, .. }));
     assert!(matches!(fault("h=-1e308..1e308"), FaultKind::Overflow { .. }));
-    let report = of(&drawer, "mu=-1..1");
-    assert!(report.without_mode_problem[0].reason.contains("at least zero"), "{report:#?}");
+    // The part that makes no sense is named; a coefficient that is computed from what is varied is refused where it is negative.
+    let negative = AxisProblem::NegativeCoefficients { from: -1.0, to: 0.0 };
+    for (vary, text) in [("mu=-1..1", "mu=-1..1"), ("mu = -1 .. 0", "mu=-1 .. 0")] {
+        assert_eq!(fault(vary), FaultKind::Axis { text: text.to_owned(), problem: negative.clone() });
+    }
+    let text = gallery::find("drawer").expect("in the gallery").text;
+    let computed = Model::parse(&text.replace("\nmu = 0.3", "\nk = 3\nmu = \"0.1*k\"")).expect("sound");
+    let report = of(&computed, "k=-10..10");
+    let [gap] = &report.without_mode_problem[..] else { panic!("{report:#?}") };
+    assert!((gap.from, gap.to) == (-10.0, 0.0) && gap.reason.contains("at least zero"), "{gap:?}");
     assert_eq!(report.counts[0].from, 0.0);
 }
 

@@ -2,7 +2,7 @@
 
 use crate::answers::{model, parameters, report};
 use slideway::model::Settings;
-use slideway::report::{Margins, Report};
+use slideway::report::{Margins, Report, Style, to_text};
 use slideway::solve::solve;
 
 fn margins(report: &Report) -> &Margins {
@@ -21,15 +21,48 @@ fn a_drawer_has_the_textbook_s_margin() {
     assert!((mode.factor.expect("finite") - wanted).abs() < 1e-12);
 }
 
+/// Klepp's bar with all these coefficients multiplied.
+fn with_friction(coefficients: [f64; 3], factor: f64, list: &[(&str, &str)]) -> Report {
+    let scaled = ["mu_1", "mu_2", "mu_3"].into_iter().zip(coefficients);
+    let settings = scaled
+        .fold(parameters(list), |settings, (name, mu)| settings.parameter(name, &(mu * factor).to_string()));
+    solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound")
+}
+
+/// Between the two factors nothing moves, beyond the second one it does again: the words must not say "none beyond".
+#[test]
+fn where_solutions_come_back_the_margin_says_just_beyond() {
+    let to_the_left = [("F_20", "0"), ("direction", "-1")];
+    let with = |factor: f64, list: &[(&str, &str)]| with_friction([0.25, 0.05, 0.05], factor, list);
+    let now = with(1.0, &to_the_left);
+    let jams = margins(&now).no_solution.expect("it jams");
+    let again = margins(&now).solutions_again.expect("solutions come back");
+    let moves = |factor: f64| {
+        let report = with(factor, &to_the_left);
+        !(report.solutions.is_empty() && report.preload_gap_states.is_empty())
+    };
+    let little = 1e-6;
+    let around =
+        [1.0, jams * (1.0 - little), jams * (1.0 + little), again * (1.0 - little), again * (1.0 + little)];
+    assert_eq!(around.map(moves), [true, true, false, false, true]);
+    assert!((1..40).map(|step| jams + (again - jams) * f64::from(step) / 40.0).all(|factor| !moves(factor)));
+    let words = |report: &Report| to_text(report, Style::Plain);
+    let told = words(&now);
+    assert!(
+        told.contains("there is no solution just beyond") && told.contains("times, but again from"),
+        "{told}"
+    );
+    // The drawer never moves again: B / (2 x) = 2/3 is exceeded for good.
+    let for_good = words(&crate::answers::report("drawer", &[]));
+    assert!(
+        for_good.contains("there is no solution beyond") && !for_good.contains("just beyond"),
+        "{for_good}"
+    );
+}
+
 #[test]
 fn the_number_of_solutions_changes_at_the_margin_and_not_before() {
-    let with = |factor: f64, list: &[(&str, &str)]| {
-        let scaled = [("mu_1", 0.3), ("mu_2", 0.1), ("mu_3", 0.1)];
-        let settings = scaled.iter().fold(parameters(list), |settings, (name, mu)| {
-            settings.parameter(name, &(mu * factor).to_string())
-        });
-        solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound")
-    };
+    let with = |factor: f64, list: &[(&str, &str)]| with_friction([0.3, 0.1, 0.1], factor, list);
     for list in [&[("F_20", "0")][..], &[("F_20", "0"), ("direction", "-1")], &[]] {
         let now = with(1.0, list);
         let factor = margins(&now).another_count.expect("it changes");

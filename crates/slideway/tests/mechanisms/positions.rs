@@ -262,6 +262,73 @@ fn a_grid_of_two_coordinates_is_what_each_way_gives() {
     }
 }
 
+/// Around both folds of the branch, in an order that jumps: a follower refuses what the way from the drawing does not reach, and no
+/// more, whatever it has seen before. (Folds from `limits`, at -0.2518411567 and 0.0090867515.)
+#[test]
+fn a_follower_ends_where_the_way_from_the_drawing_does() {
+    let model = Model::parse(BRANCH).unwrap();
+    let mut follower = Follower::default();
+    let mut reached = 0;
+    let places =
+        [0.3, -0.2518, 0.009086, 0.0091, -0.2519, -0.1, 0.00908675, -0.25184115, -0.251841157, 0.0, -0.4];
+    for offset in [0.0, 3e-9, -4e-7, 1e-5] {
+        for place in places {
+            let mechanism = at(&model, &[("q0", place + offset)]);
+            let (along, direct) = (follower.configuration(&mechanism), Configuration::new(&mechanism));
+            assert_eq!(along.is_ok(), direct.is_ok(), "{place} + {offset}");
+            let (Ok(along), Ok(direct)) = (along, direct) else { continue };
+            reached += 1;
+            // Rounding is magnified by |J^-1|, some 1e4 next to a fold.
+            for (one, other) in along.poses.iter().zip(&direct.poses) {
+                assert!(
+                    (one.position - other.position).norm() < 1e-10 && (one.angle - other.angle).abs() < 1e-10
+                );
+            }
+        }
+    }
+    assert!((16..40).contains(&reached), "{reached}");
+}
+
+/// The sentence of `solve` in every report on a state that was reached by following.
+#[test]
+fn every_report_says_that_a_state_was_followed() {
+    use slideway::limits::LimitsOptions;
+    use slideway::motion::{SimulateOptions, simulate};
+    use slideway::report::{Style, followed};
+    use slideway::standstill::HoldOptions;
+    use slideway::{check, limits, motion, standstill};
+    let drawer = crate::answers::model("drawer");
+    let moved = drawer.with(&Settings::default().position("x", "0.05")).unwrap();
+    let told = |model: &Model| {
+        let checked = check::check(model).unwrap();
+        let held = standstill::hold(model, &HoldOptions::default()).unwrap();
+        let options = SimulateOptions::new(0.01);
+        let simulated = motion::report(&simulate(model, &options).unwrap(), &options);
+        let found =
+            limits::limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of("mu=0..1") }).unwrap();
+        let along =
+            limits::limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0..0.1") }).unwrap();
+        assert!(
+            along.guarantee.contains("Each position was followed from the drawing"),
+            "{}",
+            along.guarantee
+        );
+        [
+            (checked.steps_from_drawing, check::to_text(&checked, Style::Plain)),
+            (held.steps_from_drawing, standstill::to_text(&held, Style::Plain)),
+            (simulated.steps_from_drawing, motion::to_text(&simulated, Style::Plain, false)),
+            (found.steps_from_drawing, limits::to_text(&found, Style::Plain)),
+        ]
+    };
+    for (steps, text) in told(&moved) {
+        let sentence = followed(steps.expect("it was followed"));
+        assert!(text.contains(&sentence), "{sentence}: {text}");
+    }
+    for (steps, text) in told(&drawer) {
+        assert!(steps.is_none() && !text.contains("followed from the drawing in"), "{text}");
+    }
+}
+
 /// Steps of the finer way.
 const STEPS: u32 = 100;
 

@@ -258,7 +258,8 @@ impl ModeProblemLine {
         Ok(first)
     }
 
-    /// The patterns that have a solution at one parameter, in the order of enumeration.
+    /// The patterns that have a solution at one parameter, in the order of enumeration; those that `goes_on`, which is asked before
+    /// each, lets be tried.
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than the options allow.
@@ -266,9 +267,10 @@ impl ModeProblemLine {
         &self,
         at: f64,
         options: &ExistenceOptions,
+        goes_on: &dyn Fn() -> bool,
     ) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
         let mut patterns = self.patterns(options.patterns)?;
-        patterns.retain(|pattern| self.exists(pattern, at, options));
+        patterns.retain(|pattern| goes_on() && self.exists(pattern, at, options));
         Ok(patterns)
     }
 
