@@ -37,7 +37,7 @@ impl Random {
     }
 
     fn within(&mut self, least: i32, greatest: i32) -> i32 {
-        least + i32::try_from(self.next() % (greatest - least + 1).unsigned_abs() as u64).unwrap()
+        least + i32::try_from(self.next() % u64::from((greatest - least + 1).unsigned_abs())).unwrap()
     }
 
     fn one_of<T: Copy>(&mut self, list: &[T]) -> T {
