@@ -309,12 +309,6 @@ fn places_that_are_not_finite_are_refused() {
     limits.panels[0].x.range = Some([-f64::MAX, f64::MAX]);
     assert_eq!(plot::to_svg(&limits, &LIGHT), Err(NotFinite));
 
-    let options = MapOptions { width: 20, height: 20, ..MapOptions::of("mu=0..1", "a=0..1 m") };
-    let mut plane = map(&model("drawer", &[]), &options).expect("a map");
-    assert!(slideway_pictures::map::to_svg(&plane, &LIGHT).is_ok());
-    (plane.x.from, plane.x.value) = (f64::NEG_INFINITY, 0.0);
-    assert_eq!(slideway_pictures::map::to_svg(&plane, &LIGHT), Err(NotFinite));
-
     // Frames of a motion in slow motion: they stand longer than there are numbers for.
     let history = simulate(&model("drawer", &[]), &SimulateOptions::new(20.0)).expect("a motion");
     let shown =

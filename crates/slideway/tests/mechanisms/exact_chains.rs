@@ -20,7 +20,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 /// How many chains are tried.
-const CHAINS: u64 = 400;
+const CHAINS: u64 = 800;
 /// Directions with rational sines and cosines: x, y, length.
 const DIRECTIONS: [[i32; 3]; 8] =
     [[1, 0, 1], [4, 3, 5], [3, 4, 5], [0, 1, 1], [-5, 12, 13], [12, -5, 13], [-1, 0, 1], [15, 8, 17]];
@@ -37,7 +37,7 @@ impl Random {
     }
 
     fn within(&mut self, least: i32, greatest: i32) -> i32 {
-        least + i32::try_from(self.next() % (greatest - least + 1).unsigned_abs() as u64).unwrap()
+        least + i32::try_from(self.next() % u64::from((greatest - least + 1).unsigned_abs())).unwrap()
     }
 
     fn one_of<T: Copy>(&mut self, list: &[T]) -> T {
@@ -374,5 +374,5 @@ fn random_chains_have_the_states_that_rational_equations_of_motion_have() {
         gaps += usize::from(expected.keys().any(|pattern| pattern.contains('0')));
         several += usize::from(expected.len() > 1);
     }
-    assert!(gaps > 40 && clear > 200 && several > 10, "{gaps} {clear} {several}");
+    assert!(gaps > 15 && clear > 700 && several > 50, "{gaps} {clear} {several}");
 }

@@ -119,8 +119,8 @@ fn missing_fraction(
     Some(most)
 }
 
-/// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of
-/// its size, or negative.
+/// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of its size, or negative; also those
+/// that have nothing in the equations that count, which weights that are moved would not leave at zero.
 fn nearly_zero_columns<'a>(
     problem: ProblemView<'a>,
     partial: &[Option<ContactState>],
@@ -129,7 +129,9 @@ fn nearly_zero_columns<'a>(
 ) -> Vec<Column<'a>> {
     let is_nearly_zero = |column: &Column<'_>| {
         let product = inner_product(weights, column.centre, column.radius);
-        product.lower() < fraction * product_size(weights, *column)
+        let is_zero = column.centre.iter().all(|entry| *entry == 0.0)
+            && column.radius.is_none_or(|radius| radius.iter().all(|entry| *entry == 0.0));
+        !is_zero && product.lower() <= fraction * product_size(weights, *column)
     };
     usable_columns(problem, partial).filter(is_nearly_zero).collect()
 }
@@ -146,14 +148,19 @@ fn exact_where_possible(weights: &[f64], column: Column<'_>) -> Interval {
     (0..weights.len()).map(|row| Interval::point(weights[row]) * column.entry(row)).sum()
 }
 
-/// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns; none if they depend on each
-/// other.
+/// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns, of that of all their entries where these
+/// terms are all zero; none if they depend on each other.
 fn direction_inwards(columns: &[Column<'_>], weights: &[f64]) -> Option<Vec<f64>> {
     let rows = weights.len();
     if columns.len() > rows {
         return None;
     }
-    let sizes = columns.iter().map(|&column| product_size(weights, column));
+    let greatest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let size = |column: Column<'_>| match product_size(weights, column) {
+        0.0 => greatest(weights) * greatest(column.centre),
+        size => size,
+    };
+    let sizes = columns.iter().map(|&column| size(column));
     let sizes = DVector::from_iterator(columns.len(), sizes);
     let factors = DMatrix::from_fn(rows, columns.len(), |row, column| columns[column].centre[row]).qr();
     // C = Q R: v = Q R^-T sizes.
