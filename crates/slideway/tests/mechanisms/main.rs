@@ -12,6 +12,7 @@ mod attainability;
 mod configuration;
 mod design;
 mod enclosure;
+mod friction_laws;
 mod gallery;
 mod gallery_frictionless;
 mod gap_states;

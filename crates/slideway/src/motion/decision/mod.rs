@@ -37,6 +37,7 @@ mod bounds;
 mod elastic;
 mod growth;
 mod holding;
+mod impact;
 mod instant;
 mod jam;
 mod parts;
@@ -48,6 +49,8 @@ mod successors;
 mod system;
 
 pub(super) use holding::Holding;
+pub use impact::{Impact, impact};
+pub(super) use instant::TOUCHES;
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
