@@ -470,9 +470,7 @@ impl FaultKind {
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction has to be finite and not negative at every speed that occurs, zero included",
             ),
-            Self::StaticBelowKinetic { .. } => Some(
-                "leave `mu_static` out to make it equal to `mu`, at the sliding speed zero if that depends on it",
-            ),
+            Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
             Self::SeveralStops { .. } => Some("change the travel of one of them a little"),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),

@@ -235,3 +235,84 @@ fn stops_without_sense_are_refused() {
     let faults = Model::parse(&without_travel).unwrap_err();
     assert!(matches!(&faults.sorted()[0].kind, FaultKind::MissingKey { key, .. } if key == "travel"));
 }
+
+/// A slab of 3 kg with a block of 2 kg that sticks on it runs into its stop at 2 m/s, after 0.5 m. Nothing presses the block on the slab
+/// during the impact, so that no friction takes it along: the slab comes back at -1 m/s, the block goes on at 2 m/s, and
+/// mu = 0.5 brings them together from there: -1 + 10/3 t and 2 - 5 t, g = 10 m/s^2, meet after 3/(25/3) = 0.36 s at 0.2 m/s.
+/// A second block beside them, which static friction holds, stays at rest.
+#[test]
+fn an_impact_takes_along_what_friction_can_and_leaves_what_rests() {
+    let text = r#"
+gravity = "10 m/s^2"
+[points]
+C = [0, 0]
+D = [0, -2]
+[bodies.slab]
+mass = "3 kg"
+centre_of_mass = "C"
+moment_of_inertia = "1 kg m^2"
+[bodies.top]
+mass = "2 kg"
+centre_of_mass = "C"
+moment_of_inertia = "1 kg m^2"
+[bodies.aside]
+points = ["D"]
+mass = "1 kg"
+centre_of_mass = "D"
+moment_of_inertia = "1 kg m^2"
+[joints.below]
+type = "block_slider"
+block = "slab"
+at = "C"
+along = "0 deg"
+length = "6 m"
+mu = 0
+travel = ["-3 m", "0.5 m"]
+stop = { restitution = 0.5 }
+[joints.between]
+type = "block_slider"
+block = "top"
+guide = "slab"
+at = "C"
+along = "0 deg"
+length = "1 m"
+mu = 0.5
+[joints.aside]
+type = "block_slider"
+block = "aside"
+at = "D"
+along = "0 deg"
+length = "1 m"
+mu = 0.1
+mu_static = 0.3
+[loads.pull]
+type = "force"
+at = "aside.D"
+components = ["2 N", 0]
+[coordinates.x]
+slide = "below"
+rate = 2
+[coordinates.s]
+slide = "between"
+[coordinates.y]
+slide = "aside"
+"#;
+    let history = run(text, 0.9);
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    let (time, lost) = hits(&history)[0];
+    assert!((time - 0.25).abs() < 1e-9 && (lost - 0.5 * 3.0 * (4.0 - 1.0)).abs() < 1e-9, "{time} {lost}");
+    let mut reader = history.reader();
+    let after = reader.at(0.25 + 0.1).unwrap().configuration.rates;
+    assert!(
+        (after[0] + 1.0 - 1.0 / 3.0).abs() < 1e-9 && (after[1] - 3.0 + 2.5 / 3.0).abs() < 1e-9,
+        "{after:?}"
+    );
+    let together = reader.at(0.8).unwrap().configuration;
+    assert!(
+        (together.rates[0] - 0.2).abs() < 1e-9 && together.rates[1].abs() < 1e-12,
+        "{:?}",
+        together.rates
+    );
+    assert_eq!((together.coordinates[2], together.rates[2]), (0.0, 0.0));
+    assert!(history.energy_error < 1e-9, "{:e}", history.energy_error);
+}
