@@ -65,32 +65,14 @@ pub fn impact(
     let push = -before.signum();
     let outputs = pushed(&instant, hit, push);
     let process = Process { instant: &instant, outputs: &outputs, group, hit, push };
-    let mut velocities: Vec<f64> = instant.joints.iter().map(|joint| joint.velocity).collect();
-    let speed = velocities.iter().fold(0.0, |speed: f64, velocity| speed.max(velocity.abs()));
-    let mut jumps: Option<DVector<f64>> = None;
-    let mut impulse = 0.0;
+    let velocities = instant.joints.iter().map(|joint| joint.velocity).collect();
+    let mut course = Course { velocities, jumps: None, impulse: 0.0 };
     for target in [0.0, -restitution * before] {
-        // Every part but the last brings a joint to rest, or sets one going that was.
-        let mut parts = 0..=4 * velocities.len();
-        while velocities[hit] != target {
-            velocities.iter_mut().filter(|v| v.abs() <= AT_REST * speed).for_each(|v| *v = 0.0);
-            let change = process.change(&velocities)?.ok_or_else(wedges)?;
-            let rates = process.sliding_rates(&change);
-            let whole = (target - velocities[hit]) / rates[hit];
-            if !(rates[hit] * push > 0.0 && whole.is_finite()) || parts.next().is_none() {
-                return Err(wedges());
-            }
-            let (length, stops) = process.until_one_stops(&velocities, &rates, whole);
-            velocities.iter_mut().zip(&rates).for_each(|(velocity, rate)| *velocity += length * rate);
-            match stops {
-                Some(other) => velocities[other] = 0.0,
-                None => velocities[hit] = target,
-            }
-            impulse += length * process.unit();
-            let added = change.jumps * length;
-            jumps = Some(jumps.map_or_else(|| added.clone(), |jumps| jumps + &added));
+        if !process.follow(&mut course, target)? {
+            return Err(wedges());
         }
     }
+    let Course { jumps, impulse, .. } = course;
     let after = jumps.map_or_else(|| configuration.clone(), |jumps| moved(&instant, configuration, &jumps));
     let energy_lost = kinetic(mechanism, configuration) - kinetic(mechanism, &after);
     Ok(Impact { after, impulse, energy_lost })
@@ -111,6 +93,16 @@ struct Change {
     jumps: DVector<f64>,
 }
 
+/// How far an impact has gone.
+struct Course {
+    /// The sliding velocities (m/s), exactly zero where a joint has stopped.
+    velocities: Vec<f64>,
+    /// The jumps of all velocities so far.
+    jumps: Option<DVector<f64>>,
+    /// Of the stop (N s).
+    impulse: f64,
+}
+
 struct Process<'s> {
     instant: &'s Instant<'s>,
     outputs: &'s Outputs,
@@ -123,6 +115,33 @@ impl Process<'_> {
     /// The unit of the stop's impulse (N s).
     fn unit(&self) -> f64 {
         self.instant.units_of(self.instant.joints[self.hit].contacts[0]).force
+    }
+
+    /// Follows an impact until the joint at the stop has a velocity; `false` if no impulse leads there. Every part but the last
+    /// brings another joint to rest.
+    fn follow(&self, course: &mut Course, target: f64) -> Result<bool, Faults> {
+        let velocities = &mut course.velocities;
+        let speed = velocities.iter().fold(0.0, |speed: f64, velocity| speed.max(velocity.abs()));
+        let mut parts = 0..=4 * velocities.len();
+        while velocities[self.hit] != target {
+            velocities.iter_mut().filter(|v| v.abs() <= AT_REST * speed).for_each(|v| *v = 0.0);
+            let Some(change) = self.change(velocities)? else { return Ok(false) };
+            let rates = self.sliding_rates(&change);
+            let whole = (target - velocities[self.hit]) / rates[self.hit];
+            if !(rates[self.hit] * self.push > 0.0 && whole.is_finite()) || parts.next().is_none() {
+                return Ok(false);
+            }
+            let (length, stops) = self.until_one_stops(velocities, &rates, whole);
+            velocities.iter_mut().zip(&rates).for_each(|(velocity, rate)| *velocity += length * rate);
+            match stops {
+                Some(other) => velocities[other] = 0.0,
+                None => velocities[self.hit] = target,
+            }
+            course.impulse += length * self.unit();
+            let added = change.jumps * length;
+            course.jumps = Some(course.jumps.take().map_or_else(|| added.clone(), |jumps| jumps + &added));
+        }
+        Ok(true)
     }
 
     /// What a unit of the impulse does at these sliding velocities; nothing if no state is admissible.

@@ -316,3 +316,26 @@ slide = "aside"
     assert_eq!((together.coordinates[2], together.rates[2]), (0.0, 0.0));
     assert!(history.energy_error < 1e-9, "{:e}", history.energy_error);
 }
+
+/// A pad is a load that only pushes: k d + c d' beyond x = 0.5 m while that is positive. With a = c/(2 m) and w^2 = k/m - a^2 the block of
+/// 2 kg that comes at v = 2 m/s is at d = (v/w) e^(-a t) sin(w t), and the pad lets go where k d + c d' = 0: at
+/// w t = atan2(c w, c a - k), still with d > 0.
+#[test]
+fn a_pad_is_a_load_that_only_pushes() {
+    let (mass, stiffness, damping, speed) = (2.0, 2e4, 80.0, 2.0);
+    let pad = "[loads.pad]\ntype = \"force\"\nat = \"block.C\"\ncomponents = [\
+        \"-step(x - 0.5 m)*max(0 N, (2e4 N/m)*(x - 0.5 m) + (80 N s/m)*rate(x))\", 0]\n";
+    let history = run(&block("0", "rate = 2", pad), 0.5);
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    let decay = damping / (2.0 * mass);
+    let frequency = f64::sqrt(stiffness / mass - decay * decay);
+    let angle = f64::atan2(damping * frequency, damping * decay - stiffness);
+    let (lasts, (sin, cos)) = (angle / frequency, angle.sin_cos());
+    let back = speed * (-decay * lasts).exp() * (cos - decay / frequency * sin);
+    assert!(back < 0.0 && back > -speed);
+    let found = history.reader().at(0.5).unwrap().configuration;
+    assert!((found.rates[0] - back).abs() < 1e-7, "{} {back}", found.rates[0]);
+    let place = 0.5 + speed / frequency * (-decay * lasts).exp() * sin;
+    let expected = place + back * (0.5 - 0.25 - lasts);
+    assert!((found.coordinates[0] - expected).abs() < 1e-8, "{} {expected}", found.coordinates[0]);
+}
