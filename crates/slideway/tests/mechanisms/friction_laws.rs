@@ -76,7 +76,7 @@ fn limits_follow_friction_over_whatever_changes_it() {
     assert_close(v, (2.0 / 3.0 - 0.3) / 0.5, 0.0, 1e-9);
     let (factor, _) = locks("friction=0..4");
     assert_close(factor, 2.0 / 3.0 / 0.35, 0.0, 1e-12);
-    let report = size(&drawer(), &SizeOptions::against_locking("c", 1.5)).unwrap();
+    let report = size(&drawer(), &SizeOptions::against_locking("c=0..10", 1.5)).unwrap();
     assert_close(report.met[0].to, (2.0 / 3.0 / 1.5 - 0.3) / 0.1, 0.0, 1e-9);
     let efforts = drive(&drawer(), &DriveOptions::default()).unwrap();
     assert_close(efforts.directions[0].solutions[0].efforts[0], push(0.35), 0.0, 1e-12);
@@ -141,7 +141,8 @@ fn uncertain_laws_and_speeds_are_enclosed() {
 #[test]
 fn laws_without_sense_are_refused() {
     let law = |law: &str| fault(&text(law));
-    assert!(matches!(law("mu = \"0.3 + sliding_speed\""), FaultKind::Expression(_)));
+    // A bare number takes the dimension of the other term.
+    assert!(matches!(law("mu = \"0.3 + sliding_speed\""), FaultKind::WrongDimension { .. }));
     assert!(matches!(law("mu = \"c*sliding_speed*(1 m)\""), FaultKind::WrongDimension { .. }));
     assert!(
         matches!(law(&format!("{LAW}\nmu_static = 0.2")), FaultKind::StaticBelowKinetic { mu, .. } if mu == 0.3)
