@@ -49,6 +49,7 @@ fn only_fault(text: &str) -> ExpressionFault {
 
 #[rstest]
 #[case("1", 1.0)]
+#[case("2*sliding_speed", 0.25)]
 #[case("1.5", 1.5)]
 #[case(".5", 0.5)]
 #[case("2.", 2.0)]
@@ -170,9 +171,8 @@ fn of(symbol: Symbol) -> Inferred {
         Symbol::Parameter(3) => Inferred::Known(Dimension::ACCELERATION),
         Symbol::Parameter(_) => Inferred::Any,
         Symbol::Coordinate(_) => Inferred::Known(Dimension::ANGLE),
-        Symbol::Rate(_) => Inferred::Known(Dimension::VELOCITY),
+        Symbol::Rate(_) | Symbol::SlidingSpeed => Inferred::Known(Dimension::VELOCITY),
         Symbol::Time => Inferred::Known(Dimension::TIME),
-        Symbol::SlidingSpeed => Inferred::Known(Dimension::VELOCITY),
     }
 }
 
