@@ -268,6 +268,10 @@ pub enum FaultKind {
     NotFinite { what: String },
     #[error("the loads or drives grow beyond all bounds")]
     LoadsWithoutBounds,
+    #[error("{} reach their stops at the same instant: in which order decides what follows", joints.join(" and "))]
+    SeveralStops { joints: Vec<String> },
+    #[error("the impact of {joint} on its stop has no impulse: friction wedges it in its guide before")]
+    ImpactWedges { joint: String },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
     StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
     #[error("the points `{first}` and `{second}` coincide: they give no direction")]
@@ -466,9 +470,8 @@ impl FaultKind {
             Self::AtSlidingSpeed { .. } => Some(
                 "a coefficient of friction has to be finite and not negative at every speed that occurs, zero included",
             ),
-            Self::StaticBelowKinetic { .. } => Some(
-                "leave `mu_static` out to make it equal to `mu`, at the sliding speed zero if that depends on it",
-            ),
+            Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
+            Self::SeveralStops { .. } => Some("change the travel of one of them a little"),
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some(

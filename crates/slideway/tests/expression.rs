@@ -49,6 +49,7 @@ fn only_fault(text: &str) -> ExpressionFault {
 
 #[rstest]
 #[case("1", 1.0)]
+#[case("2*sliding_speed", 0.25)]
 #[case("1.5", 1.5)]
 #[case(".5", 0.5)]
 #[case("2.", 2.0)]

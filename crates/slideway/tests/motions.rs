@@ -113,6 +113,41 @@ fn the_slider_crank_agrees_with_an_independent_integration() {
     }
 }
 
+/// reference/stribeck_belt.py: the block on the belt with friction that falls with the sliding speed, by SciPy's DOP853 at a
+/// relative tolerance of 1e-13.
+#[test]
+fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/stribeck-belt.toml");
+    let reference: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
+    let law = "mu = \"0.25 + 0.15*exp(-(sliding_speed/(0.1 m/s))^2) + 0.1*sliding_speed/(1 m/s)\"";
+    let text = gallery::find("stick-slip").unwrap().text;
+    let text = text.replace("mu = \"mu\"\nmu_static = \"mu_static\"", law);
+    assert!(text.contains("sliding_speed"));
+    for run in reference["run"].as_array().unwrap() {
+        let settings = Settings::default().parameter("v", &run["belt"].as_float().unwrap().to_string());
+        let model = Model::parse(&text).unwrap().with(&settings).unwrap();
+        let options = SimulateOptions { tolerance: 1e-10, ..SimulateOptions::new(4.0) };
+        let history = simulate(&model, &options).unwrap();
+        assert_eq!(history.end, End::Finished);
+        let expected = run["events"].as_array().unwrap();
+        assert_eq!(history.events.len() - 1, expected.len(), "{:#?}", words(&history));
+        for (event, expected) in history.events[1..].iter().zip(expected) {
+            let late = event.time - expected[0].as_float().unwrap();
+            assert!(late.abs() < 1e-7, "{late:e} {expected:?}");
+            let slips = event.causes.contains(&Cause::Slips);
+            assert_eq!(slips, expected[1].as_str().unwrap() == "slips", "{}", event.words);
+        }
+        let mut reader = history.reader();
+        for sample in run["samples"].as_array().unwrap() {
+            let [time, x, v] = [0, 1, 2].map(|index| sample[index].as_float().unwrap());
+            let found = reader.configuration(time).unwrap();
+            let (dx, dv) = (found.coordinates[1] - x, found.rates[1] - v);
+            assert!(dx.abs() < 1e-8 && dv.abs() < 1e-7, "{time} {dx:e} {dv:e}");
+        }
+        assert!(history.energy_error < 1e-8 * history.energy_scale, "{:e}", history.energy_error);
+    }
+}
+
 /// At a dead centre the piston stands while the crank turns on, however loose the tolerance: nothing may be taken from it.
 #[test]
 fn a_dead_centre_takes_no_energy_at_any_tolerance() {

@@ -138,6 +138,9 @@ pub struct JointSummary {
     pub displacement: Option<f64>,
     /// Supported length of a block slider (m).
     pub overlap: Option<f64>,
+    /// Restitution of the stops at the least and at the greatest displacement, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stops: Option<[Option<f64>; 2]>,
 }
 
 /// A contact.
@@ -147,6 +150,9 @@ pub struct ContactSummary {
     pub name: String,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
     pub mu: [f64; 2],
+    /// Whether it depends on the sliding speed; it is told at that of the state.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub mu_depends_on_speed: bool,
     /// Static friction coefficient, likewise.
     pub mu_static: [f64; 2],
     /// Preload (N), likewise.
@@ -308,6 +314,7 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             constraints,
             displacement: slider.map(|slider| configuration.slide(mechanism, slider).displacement),
             overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
+            stops: slider.map(|slider| slider.restitution).filter(|stops| *stops != [None; 2]),
         }
     };
     mechanism.joints.iter().map(one).collect()
@@ -317,6 +324,7 @@ fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: boo
     let one = |(index, contact): (usize, &crate::mechanism::Contact)| ContactSummary {
         name: contact.name.to_string(),
         mu: contact.mu,
+        mu_depends_on_speed: contact.depends_on_speed(),
         mu_static: contact.mu_static,
         preload: contact.preload,
         sliding_velocity: assembled

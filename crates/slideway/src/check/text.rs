@@ -126,6 +126,7 @@ impl Text<'_> {
         let contacts = report.contacts.iter().map(contact_row);
         let header = ["contact", "mu", "mu_static", "preload in N", "sliding in m/s"];
         self.table(&header, &contacts.collect::<Vec<_>>(), 1);
+        self.speeds_and_stops();
         let coordinates = report.coordinates.iter().map(|coordinate| {
             vec![
                 coordinate.name.clone(),
@@ -136,6 +137,30 @@ impl Text<'_> {
             ]
         });
         self.table(&["coordinate", "kind", "drive", "value", "rate"], &coordinates.collect::<Vec<_>>(), 3);
+    }
+
+    /// What the tables do not show: friction over velocity, end stops.
+    fn speeds_and_stops(&mut self) {
+        let report = self.report;
+        let depends = report.contacts.iter().filter(|contact| contact.mu_depends_on_speed);
+        let names: Vec<&str> = depends.map(|contact| &*contact.name).collect();
+        if !names.is_empty() {
+            self.line(&format!(
+                "mu depends on the sliding speed at {}; it is that of this state.",
+                names.join(", ")
+            ));
+        }
+        for joint in &report.joints {
+            let ends = joint.stops.into_iter().flatten().zip(["least", "greatest"]);
+            let told: Vec<String> = ends
+                .filter_map(|(restitution, end)| {
+                    Some(format!("{} at its {end} displacement", number(restitution?)))
+                })
+                .collect();
+            if !told.is_empty() {
+                self.line(&format!("{} has end stops with the restitution {}.", joint.name, told.join(", ")));
+            }
+        }
     }
 
     fn table(&mut self, header: &[&str], rows: &[Vec<String>], words: usize) {

@@ -160,9 +160,11 @@ pub(super) fn reason(faults: &Faults) -> &'static str {
             "beyond the travel of a joint"
         }
         Some(FaultKind::ZeroSlidingVelocity { .. }) => "a contact with friction does not slide",
-        Some(FaultKind::OutOfRange { .. } | FaultKind::StaticBelowKinetic { .. }) => {
-            "values that the model does not allow"
-        }
+        Some(
+            FaultKind::OutOfRange { .. }
+            | FaultKind::StaticBelowKinetic { .. }
+            | FaultKind::AtSlidingSpeed { .. },
+        ) => "values that the model does not allow",
         _ => "cannot be solved",
     }
 }

@@ -176,6 +176,7 @@ impl<T: Real> Evaluation<'_, T> {
             height: if slider.around { -height } else { height },
             around: slider.around,
             travel: slider.travel.map(|travel| travel.map(|limit| self.value(limit))),
+            restitution: slider.restitution.map(|restitution| restitution.map(|value| self.value(value))),
             contacts: (first..contacts.len()).map(ContactId).collect(),
         }
     }

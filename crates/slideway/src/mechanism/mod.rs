@@ -128,6 +128,8 @@ pub struct Slider<T = f64> {
     pub around: bool,
     /// Limits of the displacement (m).
     pub travel: Option<[T; 2]>,
+    /// Coefficients of restitution of the stops at the least and at the greatest displacement; without, the motion ends there.
+    pub restitution: [Option<T>; 2],
     /// Its contacts: front and rear of a block slider, else the only one.
     pub contacts: Vec<ContactId>,
 }
@@ -465,11 +467,6 @@ impl<T: Real> Mechanism<T> {
         };
         let positive = at(0)?;
         Ok([positive, if law[1].is_some() && law[1] == law[0] { positive } else { at(1)? }])
-    }
-
-    /// Whether some kinetic friction depends on a sliding speed.
-    pub fn has_friction_laws(&self) -> bool {
-        self.contacts.iter().any(Contact::depends_on_speed)
     }
 
     /// Name of a frame.

@@ -314,6 +314,14 @@ impl Model {
             let JointKind::Slider(slider) = &joint.kind else { continue };
             self.check_static_friction(slider, &value, faults);
             check_direction(&slider.along, &joint.place, &value, faults);
+            for restitution in slider.restitution.into_iter().flatten() {
+                let formula = self.formula(restitution);
+                if let Some(value) = value(restitution).filter(|value| *value > 1.0) {
+                    let what = formula.what.to_string();
+                    let kind = FaultKind::OutOfRange { what, wanted: "at most one", value };
+                    faults.push(Fault::new(kind, formula.origin.place()));
+                }
+            }
             if let Some([Some(least), Some(greatest)]) = slider.travel.map(|travel| travel.map(value))
                 && least >= greatest
             {

@@ -176,11 +176,14 @@ impl Places<'_> {
     fn conditions(&mut self) -> Degree {
         let stiffness: Vec<FormulaId> =
             self.model.contacts().filter_map(|contact| contact.stiffness).collect();
-        let travel = self.model.joints.iter().filter_map(|joint| match &joint.kind {
-            JointKind::Slider(slider) => slider.travel,
-            JointKind::Hinge(_) => None,
+        let travel = self.model.joints.iter().flat_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => {
+                let stops = slider.restitution.into_iter().flatten();
+                slider.travel.into_iter().flatten().chain(stops).collect()
+            }
+            JointKind::Hinge(_) => Vec::new(),
         });
-        let travel: Vec<FormulaId> = travel.flatten().collect();
+        let travel: Vec<FormulaId> = travel.collect();
         let events = self.model.events.iter().map(|event| event.zero_of);
         self.greatest(stiffness.into_iter().chain(travel).chain(events).collect::<Vec<_>>())
     }

@@ -172,6 +172,8 @@ pub(super) struct BlockSliderTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
+    /// What stops the block at the ends of its travel: { restitution = .. }. Default: the motion ends there.
+    pub(super) stop: Option<StopTable>,
     /// The contact at the end in the direction of `along`.
     pub(super) front: Option<EndTable>,
     /// The contact at the other end.
@@ -226,6 +228,8 @@ pub(super) struct GuidedSliderTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
+    /// What stops the block at the ends of its travel: { restitution = .. }. Default: the motion ends there.
+    pub(super) stop: Option<StopTable>,
 }
 
 /// A pin in a slot.
@@ -250,6 +254,28 @@ pub(super) struct PinInSlotTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
+    /// What stops the block at the ends of its travel: { restitution = .. }. Default: the motion ends there.
+    pub(super) stop: Option<StopTable>,
+}
+
+/// What stops a block at both ends of its travel, or at one.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct StopTable {
+    /// Coefficient of restitution at both ends, from 0 to 1: the part of the velocity with which the block comes back.
+    pub(super) restitution: Option<Quantity>,
+    /// The stop at the least displacement.
+    pub(super) least: Option<StopAtEndTable>,
+    /// The stop at the greatest displacement.
+    pub(super) greatest: Option<StopAtEndTable>,
+}
+
+/// What stops a block at one end of its travel.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct StopAtEndTable {
+    /// Coefficient of restitution, from 0 to 1.
+    pub(super) restitution: Quantity,
 }
 
 /// How block and guide lie in each other.

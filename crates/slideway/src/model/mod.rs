@@ -220,6 +220,8 @@ pub struct Slider {
     pub around: bool,
     /// Limits of the displacement.
     pub travel: Option<[FormulaId; 2]>,
+    /// Coefficients of restitution of the stops at the least and at the greatest displacement; without, the motion ends there.
+    pub restitution: [Option<FormulaId>; 2],
     /// Its contacts: front and rear of a block slider, else the only one.
     pub contacts: Vec<Contact>,
 }

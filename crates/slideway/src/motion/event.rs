@@ -43,6 +43,15 @@ pub enum Cause {
         /// Whether it is the greatest displacement.
         greatest: bool,
     },
+    /// A sliding joint hits the stop at an end of its travel.
+    Hits {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the stop at the greatest displacement.
+        greatest: bool,
+        /// Kinetic energy that is lost (J).
+        energy_lost: f64,
+    },
     /// A load or drive jumps: a relation in its formula, or a table, passes to its next piece.
     LoadJumps(String),
     /// A function of the user has passed zero; its number and its name.
@@ -88,6 +97,7 @@ impl Cause {
             Self::Tips(_) => "tips",
             Self::OverlapVanishes(_) => "overlap_vanishes",
             Self::TravelLimit { .. } => "travel_limit",
+            Self::Hits { .. } => "hits",
             Self::LoadJumps(_) => "load_jumps",
             Self::User(..) => "user",
             Self::Jams { .. } => "jams",
@@ -103,7 +113,8 @@ impl Cause {
             Self::Stops(joint)
             | Self::Tips(joint)
             | Self::OverlapVanishes(joint)
-            | Self::TravelLimit { joint, .. } => Some(&mechanism.joints[joint.index()].name),
+            | Self::TravelLimit { joint, .. }
+            | Self::Hits { joint, .. } => Some(&mechanism.joints[joint.index()].name),
             Self::User(_, name) | Self::LoadJumps(name) => Some(name),
             Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
         }
@@ -187,6 +198,14 @@ impl Words<'_> {
             Cause::TravelLimit { joint, greatest } => {
                 let end = if *greatest { "greatest" } else { "least" };
                 format!("{} reaches the {end} displacement of its travel", self.name(*joint))
+            }
+            Cause::Hits { joint, greatest, energy_lost } => {
+                let end = if *greatest { "greatest" } else { "least" };
+                let name = self.name(*joint);
+                format!(
+                    "{name} hits the stop at its {end} displacement, which takes {} J",
+                    number(*energy_lost)
+                )
             }
             Cause::LoadJumps(name) => format!("{name} jumps"),
             Cause::User(_, name) => format!("{name} passes zero"),

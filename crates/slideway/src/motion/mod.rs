@@ -39,6 +39,7 @@ mod run;
 mod series;
 mod smooth;
 mod stepper;
+mod stop;
 mod switching;
 mod text;
 mod tree;

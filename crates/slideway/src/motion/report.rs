@@ -82,7 +82,7 @@ pub struct EventReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CauseReport {
     /// `start`, `normal_force_zero`, `preload_gap_ends`, `stops`, `slips`, `locks`, `reaction_limit`, `tips`,
-    /// `overlap_vanishes`, `travel_limit`, `user`, `jams`.
+    /// `overlap_vanishes`, `travel_limit`, `hits`, `user`, `jams`.
     pub kind: &'static str,
     /// The joint, contact or function.
     pub of: Option<String>,
@@ -264,7 +264,7 @@ fn event_report(history: &History, event: &Event) -> EventReport {
     };
     let several = event.successors.len() > 1;
     let lost = event.causes.iter().map(|cause| match cause {
-        super::Cause::Jams { energy_lost } => *energy_lost,
+        super::Cause::Jams { energy_lost } | super::Cause::Hits { energy_lost, .. } => *energy_lost,
         _ => 0.0,
     });
     EventReport {

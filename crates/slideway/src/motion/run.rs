@@ -7,6 +7,7 @@ use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
 use super::rules::{Decisions, Instant, Successor};
 use super::smooth::{Ended, Smooth};
+use super::stop;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
@@ -175,7 +176,11 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Why the simulation ends with these causes, if it does.
     fn terminal(&self, causes: &[Cause]) -> Option<End> {
         causes.iter().find_map(|cause| match cause {
-            Cause::TravelLimit { joint, .. } => Some(End::TravelLimit(*joint)),
+            Cause::TravelLimit { joint, greatest } => {
+                let mechanism = self.smooth.equations.mechanism;
+                let stops = stop::of_limit(mechanism, *joint, *greatest).is_some();
+                (!stops).then_some(End::TravelLimit(*joint))
+            }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
             Cause::ReactionLimit(contact) => Some(End::ReactionLimit(*contact)),
             Cause::User(index, _) => self.options.events[*index].ends.then_some(End::UserEvent(*index)),
@@ -186,6 +191,9 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Decides how the motion goes on, after impulses if it must; returns why it ends, if it does.
     fn decide(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.clone();
+        if self.hit(&mut causes)? {
+            previous = None;
+        }
         for _ in 0..MOST_IMPULSES {
             let stopped = self.stopped(&causes, previous.as_ref());
             if let Some(previous) = &previous {
@@ -225,14 +233,39 @@ impl<'a, 'm> Run<'a, 'm> {
             }
             let Some(jam) = self.decisions.jam(&instant)? else { break };
             self.smooth.set_velocities(&jam.velocities);
-            let before = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
-            self.history.impulses.push((time, before + jam.energy_lost));
+            self.note_impulse(jam.energy_lost);
             causes.retain(|cause| !matches!(cause, Cause::Stops(_)));
             causes.push(Cause::Jams { energy_lost: jam.energy_lost });
             previous = None;
         }
         self.tell(causes, Vec::new(), None);
         Ok(Some(End::Jammed))
+    }
+
+    /// The impact of a joint on its stop, if the causes tell of one.
+    fn hit(&mut self, causes: &mut Vec<Cause>) -> Result<bool, Faults> {
+        let mechanism = self.smooth.equations.mechanism;
+        let Some(hit) = stop::only_hit(mechanism, causes)? else { return Ok(false) };
+        if let Some(phase) = self.phase.clone() {
+            self.smooth.put_at(&phase, hit.joint, hit.displacement);
+        }
+        self.smooth.equations.place(self.smooth.time, &self.smooth.state);
+        let configuration = self.smooth.equations.configuration.clone();
+        let impact = stop::impact_of(hit, mechanism, &configuration, self.decisions)?;
+        self.smooth.set_velocities(&impact.after.velocities);
+        self.note_impulse(impact.energy_lost);
+        causes.retain(|cause| !matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_)));
+        causes.push(Cause::Hits {
+            joint: hit.joint,
+            greatest: hit.greatest,
+            energy_lost: impact.energy_lost,
+        });
+        Ok(true)
+    }
+
+    fn note_impulse(&mut self, energy_lost: f64) {
+        let before = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
+        self.history.impulses.push((self.smooth.time, before + energy_lost));
     }
 
     /// The number of the phase that is taken; nothing where the branch that is wanted does not exist.
@@ -320,11 +353,13 @@ impl<'a, 'm> Run<'a, 'm> {
         self.phase = phase;
     }
 
-    /// Whether the last events came within a very short time.
+    /// Whether the last events came within a very short time; bouncing at a stop comes to rest by itself.
     fn accumulates(&self) -> bool {
         let events = &self.history.events;
         let Some(first) = events.len().checked_sub(CROWD) else { return false };
-        self.smooth.time - events[first].time < SHORT * self.options.duration
+        let hits = |cause: &Cause| matches!(cause, Cause::Hits { .. });
+        let bounces = events[first..].iter().any(|event| event.causes.iter().any(hits));
+        !bounces && self.smooth.time - events[first].time < SHORT * self.options.duration
     }
 }
 

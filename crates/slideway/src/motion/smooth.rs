@@ -681,6 +681,21 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.equations.configuration.pieces = self.switching.pieces();
     }
 
+    /// Brings a joint exactly to a displacement at which an event has found it, within errors of steps, as reactions would.
+    pub(super) fn put_at(&mut self, phase: &Phase, joint: JointId, displacement: f64) {
+        let mut held = phase.clone();
+        let sliders = self.equations.sliders.iter().zip(&mut held.joints);
+        sliders.filter(|(id, _)| **id == joint).for_each(|(_, state)| *state = JointPhase::Sticking);
+        if self.equations.enter(&held, self.time, &self.state).is_err() {
+            return;
+        }
+        self.equations.hold_at(joint, displacement);
+        let mut moved = self.state.clone();
+        self.equations.project(&mut moved);
+        let places = 3 * self.equations.mechanism.bodies.len();
+        self.state[..places].copy_from_slice(&moved[..places]);
+    }
+
     /// Velocities after an impulse.
     pub(super) fn set_velocities(&mut self, velocities: &[Velocity]) {
         let bodies = 3 * velocities.len();

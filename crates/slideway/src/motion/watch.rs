@@ -136,7 +136,7 @@ impl<'o> Watch<'o> {
             if slider.kind == SliderKind::Block {
                 self.list.push(Watched::Overlap(*joint));
             }
-            if slider.travel.is_some() {
+            if slider.travel.is_some() && phase.joints[index] != JointPhase::Sticking {
                 self.list.extend([Watched::Travel(*joint, -1.0), Watched::Travel(*joint, 1.0)]);
             }
         }

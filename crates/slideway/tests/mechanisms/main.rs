@@ -13,6 +13,7 @@ mod configuration;
 mod design;
 mod enclosure;
 mod exact_chains;
+mod friction_laws;
 mod gallery;
 mod gallery_frictionless;
 mod gap_states;

@@ -2,6 +2,7 @@
 
 use super::super::file::{
     BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PinInSlotTable, PreloadLine,
+    StopTable,
 };
 use super::super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
 use super::super::sections::JointContents;
@@ -73,6 +74,7 @@ struct WrittenSlider<'a> {
     height: Option<&'a Quantity>,
     fit: Option<Fit>,
     travel: Option<&'a Components>,
+    stop: Option<&'a StopTable>,
     friction: WrittenFriction<'a>,
 }
 
@@ -88,6 +90,7 @@ impl<'a> From<&'a BlockSliderTable> for WrittenSlider<'a> {
             height: table.height.as_ref(),
             fit: table.fit,
             travel: table.travel.as_ref(),
+            stop: table.stop.as_ref(),
             friction: WrittenFriction {
                 mu: table.mu.as_ref(),
                 mu_static: table.mu_static.as_ref(),
@@ -112,6 +115,7 @@ impl<'a> From<&'a GuidedSliderTable> for WrittenSlider<'a> {
             height: table.height.as_ref(),
             fit: table.fit,
             travel: table.travel.as_ref(),
+            stop: table.stop.as_ref(),
             friction: WrittenFriction {
                 mu: table.mu.as_ref(),
                 mu_static: table.mu_static.as_ref(),
@@ -136,6 +140,7 @@ impl<'a> From<&'a PinInSlotTable> for WrittenSlider<'a> {
             height: None,
             fit: None,
             travel: table.travel.as_ref(),
+            stop: table.stop.as_ref(),
             friction: WrittenFriction {
                 mu: table.mu.as_ref(),
                 mu_static: table.mu_static.as_ref(),
@@ -180,16 +185,22 @@ impl Reader<'_> {
                 let friction = self.friction(WrittenFriction::at_end(table), &contact).or(both);
                 self.contact(friction, contact, name, span)
             });
-        self.slider(&written, Vec::from(contacts), name)
+        self.slider(&written, Vec::from(contacts), name, span)
     }
 
     fn slider_of_one_contact(&mut self, written: &WrittenSlider<'_>, name: &str, span: &Span) -> JointKind {
         let friction = self.friction(written.friction, name);
         let contact = self.contact(friction, name.to_owned(), name, span);
-        self.slider(written, vec![contact], name)
+        self.slider(written, vec![contact], name, span)
     }
 
-    fn slider(&mut self, written: &WrittenSlider<'_>, contacts: Vec<Contact>, name: &str) -> JointKind {
+    fn slider(
+        &mut self,
+        written: &WrittenSlider<'_>,
+        contacts: Vec<Contact>,
+        name: &str,
+        span: &Span,
+    ) -> JointKind {
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         JointKind::Slider(Box::new(Slider {
             kind: written.kind,
@@ -201,6 +212,7 @@ impl Reader<'_> {
             height: self.height(written.height, name),
             around: written.fit == Some(Fit::Around),
             travel: self.travel(written.travel, name),
+            restitution: self.stops(written, name, span),
             contacts,
         }))
     }
@@ -216,6 +228,27 @@ impl Reader<'_> {
             limits
                 .each_ref()
                 .map(|limit| self.formula(limit, Wanted::constant(what.clone(), Dimension::LENGTH)))
+        })
+    }
+
+    /// The restitution at both ends: what stands at an end wins over what stands for both.
+    fn stops(&mut self, written: &WrittenSlider<'_>, name: &str, span: &Span) -> [Option<FormulaId>; 2] {
+        let Some(stop) = written.stop else { return [None; 2] };
+        let ends = [&stop.least, &stop.greatest].map(|end| end.as_ref().map(|end| &end.restitution));
+        let missing = if written.travel.is_none() {
+            Some(("travel", format!("joints.{name}")))
+        } else if stop.restitution.is_none() && ends.iter().all(Option::is_none) {
+            Some(("restitution", format!("joints.{name}.stop")))
+        } else {
+            None
+        };
+        if let Some((key, table)) = missing {
+            self.fault(FaultKind::MissingKey { key: key.into(), table }, span);
+        }
+        let what = format!("the restitution of the stop of {name}");
+        ends.map(|end| {
+            let quantity = end.or(stop.restitution.as_ref())?;
+            Some(self.formula(quantity, Wanted::constant(what.clone(), Dimension::NONE).not_negative()))
         })
     }
 

@@ -19,7 +19,9 @@ const ENLARGED: f64 = 1.01;
 /// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section 4).
 pub(super) fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let contacts = 0..instant.mechanism.contacts.len();
-    let change = greatest_changes(instant);
+    // A stop pushes with any force.
+    let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0);
+    let change = if is_free { greatest_changes(instant) } else { None };
     contacts
         .map(|j| {
             let all = side_options(instant, j);

@@ -9,7 +9,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
-use crate::mechanism::{Contact, JointKind, Mechanism};
+use crate::mechanism::{Contact, JointKind, Mechanism, Slider};
 use crate::model::{PreloadLine, SliderKind};
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
@@ -25,6 +25,8 @@ const DEPENDENT: f64 = 1e-10;
 /// Accelerations below this, in units, are zero.
 const NO_ACCELERATION: f64 = 1e-10;
 
+/// A joint nearer to its end stop than this, in sizes of the mechanism, touches it: rounding of places.
+pub(in crate::motion) const TOUCHES: f64 = 1e-11;
 /// A joint that only a force greater than this, in units, could keep from sliding cannot stick.
 const GREATEST_FORCE: f64 = 1e8;
 /// What is left of a normal force, in units, or of a share, where an event has found it to be zero; it is greater only where it
@@ -55,8 +57,10 @@ pub(super) struct SlidingJoint {
     pub(super) row: SlidingRow,
     /// Its sliding velocity (m/s).
     pub(super) velocity: f64,
-    /// Whether any friction could make it stick.
+    /// Whether any friction, or an end stop, could hold it.
     pub(super) has_friction: bool,
+    /// The end stop that it touches: 1 at its greatest displacement, -1 at its least one, else 0.
+    pub(super) stop: f64,
     /// Units of the bodies that joints connect with it.
     pub(super) units: Units,
 }
@@ -359,17 +363,37 @@ fn sliding_joints(
             let contact = &mechanism.contacts[k];
             !contact.is_frictionless() || contact.mu_static != [0.0; 2]
         });
+        let stop = touched_stop(mechanism, configuration, slider);
         Some(SlidingJoint {
             id,
             contacts,
             couple: place.map(|place| (slider.length / 2.0, place)),
             row: SlidingRow::new(mechanism, configuration, slider),
             velocity: first.unwrap_or(0.0),
-            has_friction,
+            has_friction: has_friction || stop != 0.0,
+            stop,
             units: Units { force: 1.0, length: mechanism.size, acceleration: 1.0 },
         })
     };
     mechanism.joints.iter().enumerate().filter_map(one).collect()
+}
+
+/// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least one, else 0.
+fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
+    let Some([least, greatest]) = slider.travel.filter(|_| slider.restitution != [None; 2]) else {
+        return 0.0;
+    };
+    let displacement = configuration.slide(mechanism, slider).displacement;
+    let touches = |end: usize, limit: f64| {
+        slider.restitution[end].is_some() && (displacement - limit).abs() <= TOUCHES * mechanism.size
+    };
+    if touches(1, greatest) {
+        1.0
+    } else if touches(0, least) {
+        -1.0
+    } else {
+        0.0
+    }
 }
 
 /// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is

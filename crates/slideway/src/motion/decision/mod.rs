@@ -39,6 +39,7 @@ mod determined;
 mod elastic;
 mod growth;
 mod holding;
+mod impact;
 mod instant;
 mod jam;
 mod parts;
@@ -52,7 +53,8 @@ mod system;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
-pub(super) use instant::scale_of_forces;
+pub use impact::{Impact, impact};
+pub(super) use instant::{TOUCHES, scale_of_forces};
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};

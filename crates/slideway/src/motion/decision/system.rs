@@ -1,6 +1,6 @@
 //! One pattern of sticking and slipping joints and of sides as linear equations and inequalities.
 
-use super::instant::{Group, Instant, Outputs};
+use super::instant::{Group, Instant, Outputs, SlidingJoint};
 use super::program::Affine;
 use crate::ids::ContactId;
 use crate::influence::ContactFriction;
@@ -92,6 +92,8 @@ pub(super) struct System<'s> {
     sticking: Vec<[Option<usize>; 3]>,
     /// Share of the positive face in a preload gap that slips.
     share: Vec<Option<usize>>,
+    /// Forces of the end stops at which joints rest: the joint, and the unknown.
+    stops: Vec<(usize, usize)>,
     unknowns: usize,
     solutions: AffineSet,
 }
@@ -114,11 +116,16 @@ impl<'s> System<'s> {
             pressure: vec![None; contacts],
             sticking: vec![[None; 3]; contacts],
             share: vec![None; contacts],
+            stops: Vec::new(),
             unknowns: 0,
             solutions: AffineSet { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) },
         };
         for &k in &group.contacts {
             system.friction[k] = system.friction_of(k);
+        }
+        for joint in system.stuck_joints().into_iter().filter(|&joint| instant.joints[joint].stop != 0.0) {
+            let unknown = system.new_unknown();
+            system.stops.push((joint, unknown));
         }
         let (matrix, right_hand_side) = system.equations();
         system.solutions = AffineSet::of(matrix, right_hand_side)?;
@@ -253,6 +260,12 @@ impl<'s> System<'s> {
                 }
             }
         }
+        for &(joint, force) in &self.stops {
+            // It pushes the block away from the stop, along the centre line as friction in the middle between both faces does.
+            let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
+            let [plus, minus] = [0, 1].map(|face| outputs.columns[face][(row, contacts[0])]);
+            expression = expression.plus(stop * f64::midpoint(plus, minus), &Expression::unknown(force, 1.0));
+        }
         expression
     }
 
@@ -328,6 +341,9 @@ impl<'s> System<'s> {
                 add(Subject::Friction(k), slack);
             }
         }
+        for &(joint, force) in &self.stops {
+            add(Subject::Friction(self.instant.joints[joint].contacts[0]), Expression::unknown(force, 1.0));
+        }
         for (row, joint) in self.instant.couple_outputs() {
             let (Some((half, _)), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
             if !self.group.contacts.contains(k) {
@@ -347,6 +363,10 @@ impl<'s> System<'s> {
             {
                 let acceleration = self.output(self.instant.sliding_output(joint));
                 add(Subject::Slip(joint), Expression::default().plus(sign, &acceleration));
+                if sign == self.instant.joints[joint].stop {
+                    // Nothing slides into its stop.
+                    add(Subject::Slip(joint), Expression::default().shifted(-1.0));
+                }
             }
         }
         all
@@ -413,6 +433,12 @@ impl<'s> System<'s> {
             forces.frictions[k] = ContactFriction { positive_face, negative_face };
             forces.normal[k] = self.value(&self.normal_force(k), z);
             forces.shares[k] = self.share[k].map(|share| self.value(&Expression::unknown(share, 1.0), z));
+        }
+        for &(joint, force) in &self.stops {
+            let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
+            let half = stop * self.value(&Expression::unknown(force, 1.0), z) / 2.0;
+            forces.frictions[contacts[0]].positive_face += half;
+            forces.frictions[contacts[0]].negative_face += half;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a phase makes of the equations: friction of every contact, rows of the joints that stick.
 
 use super::{Equations, Rubbing, Stuck};
+use crate::ids::JointId;
 use crate::kinetics::{ConstraintRow, Reaction};
 use crate::mechanism::CoordinateKind;
 use crate::modes::Side;
@@ -82,6 +83,14 @@ impl Equations<'_> {
                 }
             }
         }
+    }
+}
+
+impl Equations<'_> {
+    /// Sets where a joint that sticks by an equation of its own does so (m).
+    pub(in crate::motion) fn hold_at(&mut self, joint: JointId, displacement: f64) {
+        let stuck = self.stuck.iter_mut().filter(|stuck| stuck.joint == joint);
+        stuck.for_each(|stuck| stuck.displacement = displacement);
     }
 }
 

@@ -4,6 +4,7 @@
 mod agreement;
 mod closed_forms;
 mod continuations;
+mod end_stops;
 mod friction_laws;
 mod gaps;
 mod layers;

@@ -1,0 +1,86 @@
+//! End stops along a motion: impacts, and when bouncing has come to rest.
+
+use super::decision::{Impact, TOUCHES, impact, phase_state};
+use super::event::Cause;
+use super::rules::{Decisions, Instant};
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::JointId;
+use crate::mechanism::Mechanism;
+
+/// A joint that has reached an end stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hit {
+    pub(super) joint: JointId,
+    /// Whether it is the stop at the greatest displacement.
+    pub(super) greatest: bool,
+    restitution: f64,
+    /// Where the stop is (m).
+    pub(super) displacement: f64,
+}
+
+/// The stop that a joint has at an end of its travel.
+pub(super) fn of_limit(mechanism: &Mechanism, joint: JointId, greatest: bool) -> Option<Hit> {
+    let slider = mechanism.slider(joint)?;
+    let end = usize::from(greatest);
+    let (restitution, displacement) = (slider.restitution[end]?, slider.travel?[end]);
+    Some(Hit { joint, greatest, restitution, displacement })
+}
+
+/// The only stop that is reached with these causes, if one is.
+///
+/// # Errors
+/// Several at once: in which order they act would decide what follows.
+pub(super) fn only_hit(mechanism: &Mechanism, causes: &[Cause]) -> Result<Option<Hit>, Faults> {
+    let hits: Vec<Hit> = causes
+        .iter()
+        .filter_map(|cause| match cause {
+            Cause::TravelLimit { joint, greatest } => of_limit(mechanism, *joint, *greatest),
+            _ => None,
+        })
+        .collect();
+    if hits.len() > 1 {
+        let joints = hits.iter().map(|hit| mechanism.joints[hit.joint.index()].name.to_string()).collect();
+        return Err(Fault::general(FaultKind::SeveralStops { joints }).into());
+    }
+    Ok(hits.first().copied())
+}
+
+/// The impact on a stop: with its restitution, or without where the next flight would be within the rounding of places, so
+/// that what bounces has come to rest at the stop.
+///
+/// # Errors
+/// As [`impact`], and whatever keeps the next flight from being decided.
+pub(super) fn impact_of(
+    hit: Hit,
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    decisions: &mut dyn Decisions,
+) -> Result<Impact, Faults> {
+    let rebound = impact(mechanism, configuration, hit.joint, hit.restitution)?;
+    if hit.restitution > 0.0 && !flies(hit, mechanism, &rebound.after, decisions)? {
+        return impact(mechanism, configuration, hit.joint, 0.0);
+    }
+    Ok(rebound)
+}
+
+/// Whether the way of the flight after an impact can be told from rounding: `u^2/(2 a)` with the velocity `u` away from the stop and the
+/// acceleration `a` towards it.
+fn flies(
+    hit: Hit,
+    mechanism: &Mechanism,
+    after: &Configuration,
+    decisions: &mut dyn Decisions,
+) -> Result<bool, Faults> {
+    let joints = super::equations::sliding_joints(mechanism);
+    let sliders = joints.iter().filter_map(|joint| mechanism.slider(*joint));
+    let velocities: Vec<f64> = sliders.map(|slider| after.sliding(mechanism, slider).1).collect();
+    let Some(index) = joints.iter().position(|joint| *joint == hit.joint) else { return Ok(true) };
+    let signs: Vec<f64> =
+        velocities.iter().map(|velocity| if *velocity == 0.0 { 0.0 } else { velocity.signum() }).collect();
+    let instant = Instant { mechanism, configuration: after, signs: &signs, zero: &[], previous: None };
+    let Some(next) = decisions.successors(&instant)?.into_iter().next() else { return Ok(true) };
+    let Some(state) = phase_state(mechanism, after, &next.phase)? else { return Ok(true) };
+    let towards = state.sliding_accelerations[index] * if hit.greatest { 1.0 } else { -1.0 };
+    Ok(towards <= 0.0 || velocities[index].powi(2) > 2.0 * towards * TOUCHES * mechanism.size)
+}
