@@ -11,6 +11,7 @@ mod mechanisms;
 mod rest;
 mod simple;
 mod stops;
+mod zero_force;
 
 use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
 use crate::configuration::Configuration;
