@@ -145,6 +145,8 @@ pub struct Event {
     pub phase: Option<Phase>,
     /// All phases that were possible, in their order.
     pub successors: Vec<Successor>,
+    /// Whether some in which fewer joints stick may be missing: there are too many states to try all.
+    pub left_out: bool,
     /// Which of them was taken.
     pub taken: Option<usize>,
     /// What happened, in words.

@@ -57,7 +57,7 @@ pub use report::{
     BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
     SimulateReport, StatisticsReport, report, to_json,
 };
-pub use rules::{Decisions, Hold, Instant, Jam, Successor, Thorough};
+pub use rules::{Decisions, Hold, Instant, Jam, Successor, Successors, Thorough};
 pub use series::{Column, Series};
 pub use text::{to_text, tree_to_text};
 pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report, tree_to_json};

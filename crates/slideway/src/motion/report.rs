@@ -74,6 +74,9 @@ pub struct EventReport {
     pub mode: Option<String>,
     /// All modes that were possible, in the order of preference, if there were several.
     pub branches: Vec<BranchReport>,
+    /// Whether further modes, in which fewer joints stick, may be possible: there are too many states to try all.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub branches_left_out: bool,
     /// Energy lost in impulses (J).
     pub energy_lost: f64,
 }
@@ -284,6 +287,7 @@ fn event_report(history: &History, event: &Event) -> EventReport {
         } else {
             Vec::new()
         },
+        branches_left_out: event.left_out,
         energy_lost: lost.sum(),
     }
 }

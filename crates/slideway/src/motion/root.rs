@@ -46,15 +46,15 @@ const NARROWEST: f64 = 4.0;
 
 /// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to the left of it, but
 /// for times at which it cannot be told from zero.
-pub(super) fn first_fall<E>(
+pub(super) fn first_fall(
     [from, until]: [f64; 2],
-    mut function: impl FnMut(Interval) -> Result<Interval, E>,
-) -> Result<Option<f64>, E> {
+    mut function: impl FnMut(Interval) -> Interval,
+) -> Option<f64> {
     let narrowest = |time: f64| NARROWEST * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE / f64::EPSILON);
     let (mut time, mut cell) = (from, until - from);
     while time < until {
         let end = (time + cell).min(until);
-        let range = Interval::new(time, end).map_or(Ok(Interval::REAL_LINE), &mut function)?;
+        let range = Interval::new(time, end).map_or(Interval::REAL_LINE, &mut function);
         if range.lower() > 0.0 {
             (time, cell) = (end, 2.0 * cell);
         } else if cell > narrowest(time) {
@@ -63,11 +63,11 @@ pub(super) fn first_fall<E>(
             // Neighbouring times: on to the first at which the sign can be told.
             loop {
                 if time + cell > until {
-                    return Ok(None);
+                    return None;
                 }
-                let value = function(Interval::point(time + cell))?;
+                let value = function(Interval::point(time + cell));
                 if value.upper() < 0.0 {
-                    return falling_point([time, time + cell], function).map(Some);
+                    return Some(falling_point([time, time + cell], function));
                 }
                 if value.lower() > 0.0 {
                     time += cell;
@@ -77,23 +77,20 @@ pub(super) fn first_fall<E>(
             }
         }
     }
-    Ok(None)
+    None
 }
 
 /// A value counts as below zero if it is by more than this part of the width of its bounds: bounds of rounding are wide.
 const CLEARLY: f64 = 0.005;
 
 /// The first number at which a function whose sign can be told at the right end is below zero, as far as rounding lets it.
-fn falling_point<E>(
-    [mut left, mut right]: [f64; 2],
-    mut function: impl FnMut(Interval) -> Result<Interval, E>,
-) -> Result<f64, E> {
+fn falling_point([mut left, mut right]: [f64; 2], mut function: impl FnMut(Interval) -> Interval) -> f64 {
     loop {
         let middle = f64::midpoint(left, right);
         if middle <= left || middle >= right {
-            return Ok(right);
+            return right;
         }
-        let value = function(Interval::point(middle))?;
+        let value = function(Interval::point(middle));
         if value.middle() < -CLEARLY * value.width() { right = middle } else { left = middle }
     }
 }
@@ -186,10 +183,7 @@ mod tests {
 
     #[test]
     fn the_first_fall_is_found_however_long_the_range_is() {
-        let fall = |ends: [f64; 2], function: &dyn Fn(Interval) -> Interval| {
-            let Ok(found) = first_fall::<Infallible>(ends, |time| Ok(function(time)));
-            found
-        };
+        let fall = |ends: [f64; 2], function: &dyn Fn(Interval) -> Interval| first_fall(ends, function);
         let sine = |time: Interval| (time * Interval::point(2.0)).sin();
         let found = fall([0.0, 1e4], &sine).expect("sin(2 t) falls at pi/2");
         assert!((found - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{found}");

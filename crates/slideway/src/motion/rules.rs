@@ -34,6 +34,15 @@ pub struct Successor {
     pub continues: bool,
 }
 
+/// The phases in which the motion can go on.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Successors {
+    /// The one to be taken first, and so on; none if there is none.
+    pub list: Vec<Successor>,
+    /// Whether some in which fewer joints stick may be missing.
+    pub left_out: bool,
+}
+
 /// An impulse that ends a dynamic jam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Jam {
@@ -45,11 +54,11 @@ pub struct Jam {
 
 /// Decides how a motion goes on (theory, section 8).
 pub trait Decisions {
-    /// The phases in which the motion can go on, the one to be taken first; none if there is none.
+    /// The phases in which the motion can go on.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults>;
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Successors, Faults>;
 
     /// Where nothing can follow, the guided sliders that would tip.
     ///
@@ -111,14 +120,14 @@ impl Hold for decision::Holding<'_> {
 pub struct Thorough;
 
 impl Decisions for Thorough {
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Successors, Faults> {
         let found = decision::continuations(instant)?;
         let one = |successor: decision::Successor| Successor {
             phase: successor.phase,
             verdict: successor.attainability.verdict,
             continues: successor.continues,
         };
-        Ok(found.list.into_iter().map(one).collect())
+        Ok(Successors { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
     }
 
     fn tipping(&mut self, instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {

@@ -5,7 +5,7 @@ use super::event::{Cause, Event, Words};
 use super::history::{End, Energy, History, PhaseInterval, Statistics, Step};
 use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
-use super::rules::{Decisions, Instant, Successor};
+use super::rules::{Decisions, Instant, Successor, Successors};
 use super::smooth::{Ended, Smooth};
 use super::stop;
 use crate::configuration::Configuration;
@@ -21,8 +21,8 @@ const AT_REST: f64 = 1e-10;
 const MOST_IMPULSES: usize = 16;
 /// So many events in a row within a short time are an accumulation, ...
 const CROWD: usize = 40;
-/// ... and this part of the duration is a short time.
-const SHORT: f64 = 1e-7;
+/// ... and this part of the time in which the mechanism moves through its own size is a short time.
+const SHORT: f64 = 5e-5;
 
 /// A simulation under way.
 pub(super) struct Run<'a, 'm> {
@@ -94,7 +94,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 Ended::End(end) => return end,
             };
             if let Some(end) = self.terminal(&causes) {
-                self.tell(causes, Vec::new(), None);
+                self.tell(causes, Successors::default(), None);
                 return end;
             }
             if causes.iter().any(Cause::ends_phase) {
@@ -104,7 +104,7 @@ impl<'a, 'm> Run<'a, 'm> {
                     Err(faults) => return End::Undecided(faults),
                 }
             } else {
-                self.note(causes, Some(phase), Vec::new(), None);
+                self.note(causes, Some(phase), Successors::default(), None);
             }
             if self.history.events.len() >= self.options.most_events {
                 return End::EventLimit;
@@ -204,18 +204,18 @@ impl<'a, 'm> Run<'a, 'm> {
             let (time, state) = (self.smooth.time, &self.smooth.state);
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
+            let mechanism = self.smooth.equations.mechanism;
             let instant = Instant {
-                mechanism: self.smooth.equations.mechanism,
+                mechanism,
                 configuration: &configuration,
                 signs: &signs,
                 zero: &zero,
                 previous: previous.as_ref(),
             };
-            let successors = self.decisions.successors(&instant)?;
-            let mechanism = self.smooth.equations.mechanism;
-            let successors = without_ended(mechanism, successors, &causes, previous.as_ref());
-            if !successors.is_empty() {
-                let taken = self.choose(&successors)?;
+            let mut successors = self.decisions.successors(&instant)?;
+            without_ended(mechanism, &mut successors.list, &causes, previous.as_ref());
+            if !successors.list.is_empty() {
+                let taken = self.choose(&successors.list)?;
                 self.tell(causes, successors, taken);
                 let branching = self.branchings;
                 return Ok(if taken.is_some() { None } else { Some(End::NoSuchBranch { branching }) });
@@ -224,11 +224,11 @@ impl<'a, 'm> Run<'a, 'm> {
                 if !causes.contains(&Cause::Tips(joint)) {
                     causes.push(Cause::Tips(joint));
                 }
-                self.tell(causes, Vec::new(), None);
+                self.tell(causes, Successors::default(), None);
                 return Ok(Some(End::Tips(joint)));
             }
             if stopped.iter().all(|stopped| *stopped) {
-                self.tell(causes, Vec::new(), None);
+                self.tell(causes, Successors::default(), None);
                 return Ok(Some(End::NoContinuation));
             }
             let Some(jam) = self.decisions.jam(&instant)? else { break };
@@ -238,7 +238,7 @@ impl<'a, 'm> Run<'a, 'm> {
             causes.push(Cause::Jams { energy_lost: jam.energy_lost });
             previous = None;
         }
-        self.tell(causes, Vec::new(), None);
+        self.tell(causes, Successors::default(), None);
         Ok(Some(End::Jammed))
     }
 
@@ -320,8 +320,8 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.
-    fn tell(&mut self, causes: Vec<Cause>, successors: Vec<Successor>, taken: Option<usize>) {
-        let phase = taken.map(|taken| successors[taken].phase.clone());
+    fn tell(&mut self, causes: Vec<Cause>, successors: Successors, taken: Option<usize>) {
+        let phase = taken.map(|taken| successors.list[taken].phase.clone());
         self.note(causes, phase, successors, taken);
     }
 
@@ -329,7 +329,7 @@ impl<'a, 'm> Run<'a, 'm> {
         &mut self,
         causes: Vec<Cause>,
         phase: Option<Phase>,
-        successors: Vec<Successor>,
+        successors: Successors,
         taken: Option<usize>,
     ) {
         let time = self.smooth.time;
@@ -340,7 +340,9 @@ impl<'a, 'm> Run<'a, 'm> {
             sliders: &equations.sliders,
         };
         let words = words.event(&causes, self.phase.as_ref(), phase.as_ref());
-        self.history.events.push(Event { time, causes, phase: phase.clone(), successors, taken, words });
+        let Successors { list: successors, left_out } = successors;
+        let event = Event { time, causes, phase: phase.clone(), successors, left_out, taken, words };
+        self.history.events.push(event);
         if phase != self.phase {
             if let Some(interval) = self.history.phases.last_mut() {
                 interval.to = time;
@@ -359,7 +361,7 @@ impl<'a, 'm> Run<'a, 'm> {
         let Some(first) = events.len().checked_sub(CROWD) else { return false };
         let hits = |cause: &Cause| matches!(cause, Cause::Hits { .. });
         let bounces = events[first..].iter().any(|event| event.causes.iter().any(hits));
-        !bounces && self.smooth.time - events[first].time < SHORT * self.options.duration
+        !bounces && self.smooth.time - events[first].time < SHORT * self.smooth.time_scale()
     }
 }
 
@@ -367,11 +369,11 @@ impl<'a, 'm> Run<'a, 'm> {
 /// determinant vanishes.
 fn without_ended(
     mechanism: &Mechanism,
-    mut successors: Vec<Successor>,
+    successors: &mut Vec<Successor>,
     causes: &[Cause],
     previous: Option<&Phase>,
-) -> Vec<Successor> {
-    let Some(previous) = previous else { return successors };
+) {
+    let Some(previous) = previous else { return };
     if causes.contains(&Cause::Slips) {
         successors.retain(|successor| successor.phase.joints != previous.joints);
     }
@@ -381,7 +383,6 @@ fn without_ended(
             phase.joints != previous.joints || phase.pattern(mechanism) != pattern
         });
     }
-    successors
 }
 
 /// The first of the phases in which the fewest joints stick.

@@ -108,7 +108,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             state,
             equations,
         };
-        smooth.equations.configuration.pieces = smooth.switching.pieces();
+        smooth.equations.hold(&smooth.switching);
         smooth.watch.magnitudes.force =
             scale_of_forces(smooth.equations.mechanism, &smooth.equations.configuration);
         smooth.notice_velocity();
@@ -123,6 +123,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// The greatest velocity so far (m/s), rotations times the size of the mechanism.
     pub(super) fn greatest_velocity(&self) -> f64 {
         self.watch.magnitudes.velocity
+    }
+
+    /// The time in which the greatest velocity so far goes through the mechanism (s).
+    pub(super) fn time_scale(&self) -> f64 {
+        self.equations.mechanism.size / self.greatest_velocity()
     }
 
     /// Enters a phase.
@@ -285,7 +290,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Puts relations on their next pieces; the loads and drives that jump there are causes of the event.
     fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
         causes.extend(self.switching.switch(switches).into_iter().map(Cause::LoadJumps));
-        self.equations.configuration.pieces = self.switching.pieces();
+        self.equations.hold(&self.switching);
         Ended::Event(causes)
     }
 
@@ -678,7 +683,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let sliders = self.equations.sliders.iter().zip(stopped);
         let stops = |joint: JointId| sliders.clone().any(|(slider, stopped)| *slider == joint && *stopped);
         self.switching.settle(&self.equations.configuration, &stops);
-        self.equations.configuration.pieces = self.switching.pieces();
+        self.equations.hold(&self.switching);
     }
 
     /// Brings a joint exactly to a displacement at which an event has found it, within errors of steps, as reactions would.
@@ -703,7 +708,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
         self.equations.place(self.time, &self.state);
         self.switching.jump(&self.equations.configuration);
-        self.equations.configuration.pieces = self.switching.pieces();
+        self.equations.hold(&self.switching);
     }
 }
 

@@ -12,7 +12,6 @@ use crate::expression::{End, Expression, Piece, Values};
 use crate::ids::JointId;
 use crate::interval::Interval;
 use crate::mechanism::{Mechanism, Pieces, Relation};
-use std::convert::Infallible;
 use std::sync::Arc;
 
 /// The first look ahead, in units in the last place of the time.
@@ -207,8 +206,6 @@ impl<'m> Switching<'m> {
             expression.margin(&values, pieces, (number, end))
         };
         margin(Interval::point(from))?;
-        let Ok(fall) =
-            first_fall::<Infallible>([from, until], |time| Ok(margin(time).unwrap_or(Interval::ZERO)));
-        fall
+        first_fall([from, until], |time| margin(time).unwrap_or(Interval::ZERO))
     }
 }

@@ -134,6 +134,11 @@ impl Page<'_, SimulateReport> {
             );
             self.line(&format!("  {:time$}   {:mode$}     {text}", "", ""));
         }
+        if event.branches_left_out {
+            let text =
+                "there may be further ways to go on, in which fewer joints stick: not all states were tried";
+            self.line(&format!("  {:time$}   {:mode$}     {text}", "", ""));
+        }
     }
 
     fn energy(&mut self) {

@@ -82,6 +82,7 @@ pub fn simulate_all(
             flow
         };
         let history = simulate_with(mechanism, configuration, &options, decisions, &mut watched)?;
+        tree.complete &= !history.events.iter().any(|event| event.left_out);
         let (taken, counts) = branchings(&history, options.initial.is_some());
         for (index, count) in counts.iter().enumerate().skip(fixed) {
             for other in (0..*count).filter(|other| *other != taken[index]) {

@@ -182,7 +182,7 @@ impl Flow<'_> {
     }
 
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
-        let mut instant = Instant::new(self.mechanism, configuration)?;
+        let mut instant = Instant::looking_ahead(self.mechanism, configuration)?;
         instant.change_base(self.shift);
         let question = instant.question(self.stopped);
         let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {

@@ -2,7 +2,7 @@
 
 use super::assessment::Assessment;
 use super::bounds::possible_sides;
-use super::scale::{Share, scale};
+use super::scale::{Scale, Share, rounding, scale};
 use super::system::Question;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -99,8 +99,8 @@ pub(super) struct Instant<'m> {
     pub(super) joints: Vec<SlidingJoint>,
     /// Units of the whole.
     pub(super) units: Units,
-    /// What the loads come to (N), of the whole and of what is connected with each joint, see [`scale`].
-    ahead: Vec<f64>,
+    /// The least units of force (N), of the whole and of what is connected with each joint.
+    least_forces: Vec<f64>,
     /// What is asked of forces and accelerations.
     pub(super) outputs: Outputs,
     /// By how much these differ from the loads, see [`Self::vanish`].
@@ -110,22 +110,48 @@ pub(super) struct Instant<'m> {
 }
 
 impl<'m> Instant<'m> {
-    /// A mechanism in a configuration.
+    /// A mechanism in a configuration, in units of its forces there.
     ///
     /// # Errors
     /// Whatever [`KineticEquations::new`] refuses, friction without a value.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
+        Self::of(mechanism, configuration, rounding)
+    }
+
+    /// The same in units of what the forces come to: those of the instant may vanish, and what they do next decides.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn looking_ahead(
+        mechanism: &'m Mechanism,
+        configuration: &Configuration,
+    ) -> Result<Self, Faults> {
+        Self::of(mechanism, configuration, scale)
+    }
+
+    fn of(mechanism: &'m Mechanism, configuration: &Configuration, least: Scale) -> Result<Self, Faults> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         let influence = Influence::new(&equations);
         let mut joints = sliding_joints(mechanism, configuration, &equations);
-        let mut ahead = Vec::new();
-        let now = Some(configuration);
-        let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut ahead));
+        let mut least_forces = Vec::new();
+        let now = Some((configuration, least));
+        let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut least_forces));
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);
         let shift = DVector::zeros(outputs.base.len());
         let contacts = contacts(mechanism, configuration, &equations)?;
-        Ok(Self { mechanism, contacts, equations, influence, joints, units, ahead, outputs, shift, groups })
+        Ok(Self {
+            mechanism,
+            contacts,
+            equations,
+            influence,
+            joints,
+            units,
+            least_forces,
+            outputs,
+            shift,
+            groups,
+        })
     }
 
     /// Takes over the loads at another time, where nothing has moved.
@@ -136,7 +162,7 @@ impl<'m> Instant<'m> {
         self.equations.change_loads(self.mechanism, configuration)?;
         self.influence.frictionless = self.equations.without_noise(&self.equations.frictionless());
         let forces = (&self.influence, &self.equations);
-        self.units = set_units(self.mechanism, forces, None, (&mut self.joints, &mut self.ahead));
+        self.units = set_units(self.mechanism, forces, None, (&mut self.joints, &mut self.least_forces));
         self.outputs = outputs(self.mechanism, &self.influence, &self.joints);
         Ok(())
     }
@@ -397,21 +423,20 @@ fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &S
 }
 
 /// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is
-/// small; the units of the whole. With a configuration the scale of the loads ahead is found anew; else that of before remains.
+/// small; the units of the whole. Their least forces are found anew or remain.
 fn set_units(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),
-    configuration: Option<&Configuration>,
-    (joints, ahead): (&mut [SlidingJoint], &mut Vec<f64>),
+    least: Option<(&Configuration, Scale)>,
+    (joints, least_forces): (&mut [SlidingJoint], &mut Vec<f64>),
 ) -> Units {
     let connected = connected(mechanism);
     let mut one = |counts: &dyn Fn(BodyId) -> bool, place: usize, otherwise: f64| {
         let (force, mass) = greatest(mechanism, (influence, equations), counts);
-        if let Some(configuration) = configuration {
-            ahead.truncate(place);
-            ahead.push(scale(mechanism, configuration, Share { counts, mass, force }));
+        if let Some((configuration, least)) = least {
+            least_forces.push(least(mechanism, configuration, Share { counts, mass, force }));
         }
-        units(mechanism.size, (force.max(ahead[place]), mass), otherwise)
+        units(mechanism.size, (force.max(least_forces[place]), mass), otherwise)
     };
     let whole = one(&|_| true, 0, 1.0);
     for (index, joint) in joints.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! The scale of forces where those of the instant vanish: what the loads come to.
+//! The least units of forces where those of the instant vanish: what the loads come to, and what rounding is.
 
 use crate::configuration::{Configuration, Pose};
 use crate::ids::{BodyId, Frame};
@@ -22,16 +22,21 @@ pub(super) struct Share<'s> {
     pub(super) force: f64,
 }
 
+/// The least unit of force (N).
+pub(super) type Scale = fn(&Mechanism, &Configuration, Share<'_>) -> f64;
+
 /// The greatest force that the loads and drives come to while they could take the greatest mass through the size `L` of the mechanism (N):
 ///
 /// ```text
 /// max over s of min(F(s), m L/s^2)        F(s): the greatest load a time s ahead, the bodies going on as they move
 /// ```
 ///
-/// at powers of 4 s; at least the force of the instant, and at least what the rounding of positions makes of springs.
+/// at powers of 4 s. Where the force of the instant is not at the boundary beside that, it is the scale itself, or what the rounding of
+/// positions makes of springs.
 pub(super) fn scale(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
     let greatest_work = share.mass * mechanism.size;
-    let mut greatest = share.force.max(force_of_rounding(mechanism, configuration, share));
+    let now = share.force.max(rounding(mechanism, configuration, share));
+    let mut greatest = now;
     let mut ahead = configuration.clone();
     // Relations are on the pieces of their arguments there.
     ahead.pieces = None;
@@ -52,7 +57,7 @@ pub(super) fn scale(mechanism: &Mechanism, configuration: &Configuration, share:
             break;
         }
     }
-    greatest
+    if share.force > super::BOUNDARY * greatest { now } else { greatest }
 }
 
 /// The greatest of the loads on what counts (N), couples divided by the size of the mechanism.
@@ -80,8 +85,8 @@ fn force_of_drives(mechanism: &Mechanism, configuration: &Configuration, share: 
     forces.filter(|force| force.is_finite()).fold(0.0, f64::max)
 }
 
-/// The scale beside which forces of springs that come from the rounding of positions are at the boundary.
-fn force_of_rounding(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
+/// The scale beside which forces of springs that come from the rounding of positions are at the boundary (N).
+pub(super) fn rounding(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
     let length = mechanism.size;
     let stiffness = |load: &crate::mechanism::Load| {
         let (frames, stiffness, arm): ([Frame; 2], Quantity, f64) = match &load.kind {

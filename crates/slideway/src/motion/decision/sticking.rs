@@ -35,7 +35,7 @@ pub struct Sticking {
 /// ```
 ///
 /// at every contact of the joints that stick, `f` being the greatest force of the instant (load, preload or
-/// inertia). It is the greatest over all sides of these contacts and varies continuously with the state, as long as
+/// inertia), but at least so great that what the rounding of positions makes of springs counts as zero beside it. It is the greatest over all sides of these contacts and varies continuously with the state, as long as
 /// the sides of contacts that slide do not change; but if the sides of `phase` leave at least 0.01, others, which could
 /// leave more, are not tried. At an instant at which a contact of a joint that sticks is without
 /// load and preload the margin is zero without becoming negative. It is infinite where no joint sticks, and -1 where

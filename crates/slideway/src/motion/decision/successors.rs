@@ -105,7 +105,7 @@ pub fn successors(
     stopped: &[bool],
     previous: Option<&Phase>,
 ) -> Result<Successors, Faults> {
-    let instant = Instant::new(mechanism, configuration)?;
+    let instant = Instant::looking_ahead(mechanism, configuration)?;
     instant.check_joints(stopped.len())?;
     let sign = |(joint, stopped): (&super::instant::SlidingJoint, &bool)| match joint.velocity {
         0.0 => 0.0,
@@ -125,7 +125,7 @@ pub fn successors(
 /// # Errors
 /// As [`successors`].
 pub(crate) fn continuations(event: &motion::Instant<'_>) -> Result<Successors, Faults> {
-    let instant = Instant::new(event.mechanism, event.configuration)?;
+    let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
     at(instant, event, Detail::Order)
 }
 

@@ -23,6 +23,7 @@ mod projection;
 use super::linear::{Determinant, LinearSystem};
 use super::phase::Phase;
 use super::stepper::Derivative;
+use super::switching::Switching;
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::fault::Faults;
 use crate::ids::{ContactId, DriveId, JointId};
@@ -189,6 +190,11 @@ impl<'m> Equations<'m> {
         for (k, contact) in self.contacts.iter_mut().enumerate() {
             *contact = configuration.contact(self.mechanism, ContactId(k));
         }
+    }
+
+    /// Holds the relations of loads and drives on the pieces on which they are.
+    pub(super) fn hold(&mut self, switching: &Switching<'_>) {
+        self.configuration.pieces = switching.pieces();
     }
 
     /// Solves the equations in a state.

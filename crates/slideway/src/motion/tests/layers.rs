@@ -296,4 +296,8 @@ fn ten_blocks_on_one_another_at_rest_are_decided() {
     assert!(found.list.len() == 1 && !found.complete);
     assert!(found.list[0].phase.joints.iter().all(|joint| *joint == JointPhase::Sticking));
     assert!(found.unsolved.is_empty());
+    let history = simulate(&Model::parse(&text(&layers)).unwrap(), &SimulateOptions::new(1e-3)).unwrap();
+    assert!(history.events[0].left_out);
+    let told = crate::motion::report(&history, &SimulateOptions::new(1e-3));
+    assert!(told.events[0].branches_left_out);
 }

@@ -10,7 +10,7 @@ use crate::model::{Model, Settings};
 use crate::modes::Side;
 use crate::motion::{
     ContactPhase, Crossing, Decisions, End, EventFunction, Instant, Jam, JointPhase, Phase, SimulateOptions,
-    Successor, UserEvent, simulate,
+    Successor, Successors, UserEvent, simulate,
 };
 use crate::progress::Progress;
 use crate::report::Verdict;
@@ -144,10 +144,11 @@ fn a_contradictory_phase_is_refused() {
 struct Wrong;
 
 impl Decisions for Wrong {
-    fn successors(&mut self, _: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
+    fn successors(&mut self, _: &Instant<'_>) -> Result<Successors, Faults> {
         let contacts = vec![ContactPhase::Pressed(Side::Positive); 2];
         let phase = Phase { joints: vec![JointPhase::Sliding(1.0)], contacts };
-        Ok(vec![Successor { phase, verdict: Verdict::NotComputed, continues: false }])
+        let list = vec![Successor { phase, verdict: Verdict::NotComputed, continues: false }];
+        Ok(Successors { list, left_out: false })
     }
 
     fn jam(&mut self, _: &Instant<'_>) -> Result<Option<Jam>, Faults> {

@@ -13,6 +13,7 @@ mod mechanisms;
 mod rest;
 mod simple;
 mod stops;
+mod zero_force;
 
 use super::{Decisions, History, SimulateOptions, Thorough, simulate_with};
 use crate::configuration::Configuration;

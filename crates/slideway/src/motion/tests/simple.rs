@@ -6,7 +6,7 @@ use crate::kinetics::ConstraintRow;
 use crate::mechanism::{CoordinateKind, Mechanism};
 use crate::modes::Side;
 use crate::motion::equations::{Equations, sliding_joints};
-use crate::motion::{ContactPhase, Decisions, Instant, Jam, JointPhase, Phase, Successor};
+use crate::motion::{ContactPhase, Decisions, Instant, Jam, JointPhase, Phase, Successor, Successors};
 use crate::report::Verdict;
 use nalgebra::Vector2;
 
@@ -78,7 +78,7 @@ fn sliding_acceleration(equations: &Equations<'_>, index: usize) -> f64 {
 }
 
 impl Decisions for TryAll {
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Vec<Successor>, Faults> {
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Successors, Faults> {
         let mut equations = Equations::new(instant.mechanism, instant.configuration);
         let joints = sliding_joints(instant.mechanism);
         let choices: Vec<Vec<JointPhase>> = (0..joints.len())
@@ -112,7 +112,7 @@ impl Decisions for TryAll {
                 }
             }
         }
-        Ok(list)
+        Ok(Successors { list, left_out: false })
     }
 
     /// Brings everything to rest.

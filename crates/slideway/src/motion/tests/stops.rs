@@ -161,7 +161,7 @@ fn before_the_limit(history: &History) -> Vec<f64> {
 
 #[test]
 fn stops_that_accumulate_end_the_motion() {
-    // Events within 1e-7 of the duration, of which the errors of the steps must be a small part.
+    // Events within 5e-5 of the time in which it moves through its own size, of which the errors of the steps must be a small part.
     let mut options = SimulateOptions::new(50.0);
     (options.tolerance, options.longest_step) = (1e-12, Some(0.01));
     let history = swinging_ever_faster(&options);
@@ -176,7 +176,7 @@ fn stops_that_accumulate_end_the_motion() {
     assert!(*stops.last().unwrap() < 1e-6, "{:?}", stops.last());
 }
 
-/// At default options, too: over 50 s the stops are followed until 40 of them lie within 5e-6 s, where velocities are still above the errors
+/// At default options, too: over 50 s the stops are followed until 40 of them lie within 1e-5 s, where velocities are still above the errors
 /// of steps.
 #[test]
 fn accumulating_stops_are_followed_at_default_options() {
