@@ -2,9 +2,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::modes::ModeProblem;
 use slideway::modes::certificate::{Decision, decide};
 use slideway::modes::exhaustive::{self, Pattern};
-use slideway::modes::ModeProblem;
 use slideway_fuzz::{patterns, problem};
 
 /// Compares the proof of all patterns with their decisions one by one.

@@ -2,11 +2,11 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::check;
 use slideway::model::Model;
 use slideway::modes::{Limits, SearchOptions};
 use slideway::report::{self, Style};
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::check;
 use std::ops::ControlFlow;
 
 /// A search with many contacts ends early instead of taking long.
@@ -27,6 +27,7 @@ fuzz_target!(|text: &str| {
     let _ = check::check(&model);
     if let Ok(answer) = solve_with(&model, &options(), &mut |_| ControlFlow::Continue(())) {
         // JSON refuses numbers that are not finite by itself.
-        let _ = (report::to_text(&answer, Style::default()), report::to_csv(&answer), report::to_json(&answer));
+        let _ =
+            (report::to_text(&answer, Style::default()), report::to_csv(&answer), report::to_json(&answer));
     }
 });
