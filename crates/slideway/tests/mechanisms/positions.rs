@@ -269,8 +269,19 @@ fn a_follower_ends_where_the_way_from_the_drawing_does() {
     let model = Model::parse(BRANCH).unwrap();
     let mut follower = Follower::default();
     let mut reached = 0;
-    let places =
-        [0.3, -0.2518, 0.009086, 0.0091, -0.2519, -0.1, 0.00908675, -0.25184115, -0.251841157, 0.0, -0.4];
+    let places = [
+        0.3,
+        -0.2518,
+        0.009_086,
+        0.0091,
+        -0.2519,
+        -0.1,
+        0.009_086_75,
+        -0.251_841_15,
+        -0.251_841_157,
+        0.0,
+        -0.4,
+    ];
     for offset in [0.0, 3e-9, -4e-7, 1e-5] {
         for place in places {
             let mechanism = at(&model, &[("q0", place + offset)]);
