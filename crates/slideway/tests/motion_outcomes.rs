@@ -7,6 +7,9 @@ use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
 use slideway::motion::{End, SimulateOptions, simulate};
 
+/// Events closer to one another than this (s) are one.
+const SAME_INSTANT: f64 = 1e-12;
+
 /// A model: its text, the duration, and what to set.
 struct Case {
     name: &'static str,
@@ -65,8 +68,14 @@ impl Outcome {
             Some(phase) => phase.pattern(&mechanism),
             None => "ends".to_owned(),
         };
-        let events = history.events.iter().map(|event| (event.time - mechanism.time, mode(event)));
-        Self { events: events.collect(), end: history.end.clone() }
+        let mut events: Vec<(f64, String)> = Vec::new();
+        for event in &history.events {
+            let time = event.time - mechanism.time;
+            // Contacts that change at one instant do so one after the other or at once, as rounding has it.
+            events.pop_if(|before| time - before.0 < SAME_INSTANT);
+            events.push((time, mode(event)));
+        }
+        Self { events, end: history.end.clone() }
     }
 
     /// Whether the same happens in another motion, up to some time.
