@@ -197,6 +197,7 @@ fn cause_in_words(cause: &str, contacts: &[String]) -> Option<String> {
         "tipping" if plural => format!("{at} tip"),
         "tipping" => format!("{at} tips"),
         "greatest_reaction" => format!("{at} at the greatest reaction"),
+        "reversal" => "sliding reverses".to_owned(),
         "no_mode_problem" => "cannot be solved".to_owned(),
         _ => return None,
     })

@@ -95,8 +95,8 @@ pub struct ModeLimits {
     pub from: Option<f64>,
     /// Where it ends.
     pub to: Option<f64>,
-    /// Why it begins there: "range", "locking", "side_change", "gap_closes", "tipping", "greatest_reaction" or
-    /// "no_mode_problem".
+    /// Why it begins there: "range", "locking", "side_change", "gap_closes", "tipping", "greatest_reaction",
+    /// "reversal" or "no_mode_problem".
     pub from_is: &'static str,
     /// Why it ends there, likewise.
     pub to_is: &'static str,
@@ -273,6 +273,7 @@ impl Naming {
             EndCause::GapCloses(contacts) => ("gap_closes", self.contacts(contacts)),
             EndCause::OutputBound(bounds) => ("tipping", self.guided(bounds)),
             EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", self.contacts(contacts)),
+            EndCause::Reversal => ("reversal", Vec::new()),
             EndCause::NoProblem => ("no_mode_problem", Vec::new()),
         }
     }

@@ -6,7 +6,7 @@
 
 use super::find::{Elsewhere, Found, Gap, Knowledge, Method};
 use super::varied::Varied;
-use crate::fault::Faults;
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::ContactState;
 use crate::modes::existence::{
     EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine, TooManyModes,
@@ -213,18 +213,28 @@ impl Scanner<'_> {
         ModeEnd { at, cause: EndCause::Range, normal_force }
     }
 
+    /// A mode that ends because there is no mode problem beyond: where a sliding velocity vanishes it has no direction of friction.
+    fn lost(&self, at: f64, beyond: f64) -> ModeEnd {
+        let reverses = |fault: &Fault| matches!(fault.kind, FaultKind::ZeroSlidingVelocity { .. });
+        let cause = match self.varied.parts(beyond) {
+            Err(faults) if faults.sorted().into_iter().all(reverses) => EndCause::Reversal,
+            _ => EndCause::NoProblem,
+        };
+        ModeEnd { at, cause, normal_force: None }
+    }
+
     /// Where a mode ends between a place where it exists and one where it does not.
     fn end(&self, pattern: &[ContactState], inside: f64, outside: f64) -> ModeEnd {
         let exists = |at: f64| self.line(at).is_some_and(|line| line.exists(pattern, 0.0, &self.options));
         let (near, beyond) = bisect(inside, outside, exists);
         let (Some(line), Some(next)) = (self.line(near), self.line(beyond)) else {
-            return ModeEnd { at: near, cause: EndCause::NoProblem, normal_force: None };
+            return self.lost(near, beyond);
         };
         // Ends so close are one, and where the position is lost nothing else ends a mode.
         let [from, to] = self.options.range;
-        let further = near + (SAME * (to - from)).copysign(outside - inside);
-        if self.line(further.clamp(from, to)).is_none() {
-            return ModeEnd { at: near, cause: EndCause::NoProblem, normal_force: None };
+        let further = (near + (SAME * (to - from)).copysign(outside - inside)).clamp(from, to);
+        if self.line(further).is_none() {
+            return self.lost(near, further);
         }
         let cause = line.cause(&next, pattern, &self.options).unwrap_or(EndCause::Locking);
         // Rounding counts for the mode: what vanishes is followed without tolerance.

@@ -98,6 +98,7 @@ fn cause<'r>(is: &str, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>
         "tipping" if several => format!("{at} tip"),
         "tipping" => format!("{at} tips"),
         "greatest_reaction" => format!("{at} at the greatest reaction"),
+        "reversal" => "sliding reverses".to_owned(),
         _ => "no position".to_owned(),
     }
 }

@@ -133,7 +133,7 @@ fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval) -> report::ModeMargin
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
     let (ends_with, contacts) = match &mode.to.cause {
-        EndCause::Range | EndCause::NoProblem => ("nothing", Vec::new()),
+        EndCause::Range | EndCause::Reversal | EndCause::NoProblem => ("nothing", Vec::new()),
         EndCause::Locking => ("locking", Vec::new()),
         EndCause::SideChange(contacts) => ("side_change", names(contacts)),
         EndCause::GapCloses(contacts) => ("gap_closes", names(contacts)),

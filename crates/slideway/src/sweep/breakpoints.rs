@@ -59,7 +59,7 @@ fn ends(mode: &ModeLimits) -> impl Iterator<Item = (f64, Breakpoint)> {
         "side_change" => Some(Breakpoint::SideChange),
         "gap_closes" => Some(Breakpoint::GapCloses),
         "tipping" => Some(Breakpoint::Tipping),
-        "no_mode_problem" => Some(Breakpoint::NotSolved),
+        "reversal" | "no_mode_problem" => Some(Breakpoint::NotSolved),
         _ => None,
     };
     let ends = [(mode.from, cause(mode.from_is)), (mode.to, cause(mode.to_is))];

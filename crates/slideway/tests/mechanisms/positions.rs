@@ -8,6 +8,7 @@ use rstest::rstest;
 use slideway::configuration::{Configuration, Follower};
 use slideway::fault::{FaultKind, Faults};
 use slideway::ids::{BodyId, Frame};
+use slideway::limits::{LimitsOptions, limits};
 use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::{Model, Settings};
 use slideway::report::Status;
@@ -394,4 +395,24 @@ proptest! {
             prop_assert!((one.angle - other.angle).abs() < 1e-12);
         }
     }
+}
+
+/// Where a block turns round in its guide while the mechanism moves on, modes end because friction turns round, not for want of a position.
+#[test]
+fn modes_end_where_sliding_reverses() {
+    let model = Model::parse(BRANCH).unwrap();
+    let options = LimitsOptions { effort: 0, ..LimitsOptions::of("q0=-0.103..-0.1") };
+    let modes = limits(&model, &options).unwrap().modes;
+    let [ends, begins]: [_; 2] = modes.try_into().unwrap();
+    assert_eq!(
+        (&*ends.pattern, ends.to_is, &*begins.pattern, begins.from_is),
+        ("+-+", "reversal", "+--", "reversal")
+    );
+    let place = ends.to.unwrap();
+    assert_close(begins.from.unwrap(), place, place, 1e-7);
+    let sliding = |q0: f64| {
+        let report = report_with(&model, &Settings::default().position("q0", &q0.to_string()));
+        report.solutions[0].contacts[0].sliding_velocity
+    };
+    assert!(sliding(place - 1e-6) > 0.0 && sliding(place + 1e-6) < 0.0);
 }

@@ -85,6 +85,9 @@ pub enum EndCause {
     OutputBound(Vec<usize>),
     /// These contacts reach [`ExistenceOptions::greatest_normal_force`].
     GreatestNormalForce(Vec<usize>),
+    /// A sliding velocity vanishes, so that its friction has no direction and turns round beyond; only where the numbers do not
+    /// depend linearly on the parameter.
+    Reversal,
     /// Beyond it there is no mode problem; only where the numbers do not depend linearly on the parameter.
     NoProblem,
 }
