@@ -170,7 +170,6 @@ fn loads_exactly_at_the_limit() {
 
 /// Closed form: `drawer`. No force at the start.
 #[test]
-#[ignore = "known fault: where all forces vanish at the start the motion ends at once"]
 fn drawers_under_loads_that_grow_from_zero() {
     all("drawer");
 }
