@@ -169,10 +169,8 @@ impl<'p> Evaluator<'p> {
         for index in 0..points.len() {
             let point = points.get(index);
             let written = found.as_ref().is_some_and(|found| self.write_found(found, index, point, rows));
-            if !written {
-                if !goes_on() || self.evaluate(point, rows, goes_on).is_break() {
-                    return false;
-                }
+            if !written && (!goes_on() || self.evaluate(point, rows, goes_on).is_break()) {
+                return false;
             }
             rows.points += 1;
         }
