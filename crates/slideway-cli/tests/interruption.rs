@@ -122,6 +122,33 @@ fn an_interrupted_stream_of_rows_says_how_far_it_came() {
     assert!(said.starts_with("error: interrupted after ") && said.contains(" of 3000001 points"), "{said}");
 }
 
+/// Starts or goes on with a sweep of 24 contacts, a tenth of a second for each point, for two seconds; how many points are kept,
+/// and the lines of the table so far.
+fn swept_for_two_seconds(model: &str, output: &Path, more: &str) -> (u64, Vec<String>) {
+    let words =
+        ["sweep", model, "--vary", "friction=0.5..0.9:100001", "--no-breakpoints", "--time-limit", "2s"];
+    let begun = Instant::now();
+    let run = slideway(&[&words[..], &["--output", output.to_str().unwrap(), more]].concat());
+    assert!(begun.elapsed() < Duration::from_secs(20), "took {:?}", begun.elapsed());
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    let told = run.stderr.strip_prefix("error: ended by the time limit of 2 s after ");
+    let points = told.and_then(|told| told.split_once(" of 100001 points; they are kept in"));
+    let done = points.unwrap_or_else(|| panic!("{}", run.stderr)).0.parse().unwrap();
+    let table = fs::read_to_string(output.with_extension("csv.partial")).unwrap();
+    (done, table.lines().map(str::to_owned).collect())
+}
+
+#[test]
+fn slow_points_that_are_done_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, table) = (boom(folder.path(), 6), folder.path().join("table.csv"));
+    let (first, lines) = swept_for_two_seconds(&model, &table, "--force");
+    assert!(first > 0, "two seconds are enough for a point");
+    let (then, more) = swept_for_two_seconds(&model, &table, "--resume");
+    assert!(then > first && more.len() > lines.len(), "{then} points after {first}");
+    assert_eq!(more[..lines.len()], lines);
+}
+
 #[test]
 fn a_tolerance_below_the_accuracy_of_numbers_is_refused() {
     let run = slideway(&["simulate", "models/drawer.toml", "--until", "10ms", "--tolerance", "1e-30"]);

@@ -2,9 +2,10 @@
 
 use slideway::fault::{FaultKind, Faults};
 use slideway::gallery;
-use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map};
+use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map, map_with};
 use slideway::model::{Model, Settings};
 use slideway::solve::solve;
+use std::ops::ControlFlow;
 
 fn model(name: &str, settings: &[(&str, &str)]) -> Model {
     let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
@@ -173,4 +174,28 @@ fn nonsense_is_refused() {
     assert!(matches!(unknown, FaultKind::UnknownName { nearest: Some(_), .. }), "{unknown:?}");
     // Both axes are judged at once.
     assert_eq!(faults("mu_9=0..1", "mu_2=1..0").sorted().len(), 2);
+}
+
+/// A column of pixels of one class: once all are solved, rows are looked through for boundaries and then told, and before
+/// each of them the callback is asked.
+#[test]
+fn rows_that_are_told_can_be_the_last() {
+    let drawer = model("drawer", &[]);
+    let height = 2000;
+    let options = options("mu=0.1..0.2", "Q=1 N..2 N", [1, height], ColourBy::Solutions);
+    let mut asked = Vec::new();
+    let report = map_with(&drawer, &options, &mut |progress| {
+        asked.push(progress.done);
+        ControlFlow::Continue(())
+    });
+    let report = report.expect("a sound model").expect("nothing breaks");
+    assert_eq!((report.classes.len(), report.rows.len()), (1, height));
+    let after = asked.iter().rev().take_while(|done| **done == report.points as u64).count();
+    assert!(after >= 2 * height, "{after} times");
+    let mut left = asked.len() - height / 2;
+    let ended = map_with(&drawer, &options, &mut |_| {
+        left -= 1;
+        if left > 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    assert!(matches!(ended, Ok(None)), "{ended:?}");
 }

@@ -11,6 +11,7 @@ use slideway::sweep::{
     Breakpoint, PointStatus, RowKind, RowVerdict, Rows, Sampling, Spread, Sweep, SweepOptions,
 };
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn model(name: &str) -> Model {
     Model::parse(gallery::find(name).unwrap().text).unwrap()
@@ -426,4 +427,42 @@ fn logarithmic_axes() {
     values.dedup();
     assert_eq!((values[0], values[2], values.len()), (0.01, 1.0, 3));
     assert!((values[1] - 0.1).abs() < 1e-15);
+}
+
+/// Ten contacts are left to the search of `solve`, which is asked, too, whether it goes on: a point within which it does not
+/// is left out, whatever the search has found of it by then.
+#[test]
+fn what_is_ended_within_a_point_keeps_the_points_before_it() {
+    let boom = Model::parse(&gallery::telescopic_boom(5).unwrap()).unwrap();
+    let sweep = Sweep::new(
+        &boom,
+        &SweepOptions { without_breakpoints: true, ..options(&["overlap=0.3 m..0.9 m:6"]) },
+    )
+    .unwrap();
+    let whole = rows(&sweep);
+    let numbers = |rows: &Rows| (0..rows.len()).map(|row| bits(rows.numbers(row))).collect::<Vec<_>>();
+    // What comes if the sweep is to end at the so-manieth time of asking, and how many times it was asked.
+    let ended_at = |last: usize| {
+        let (asked, mut state, mut kept) = (AtomicUsize::new(0), sweep.start(), Vec::new());
+        let goes_on = || asked.fetch_add(1, Ordering::Relaxed) < last;
+        sweep.run_while(&goes_on, &mut state, &Rows::clone, &mut |rows, _| {
+            kept.extend(rows);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(state.done, kept.iter().map(|rows| rows.points).sum::<u64>());
+        for (kept, whole) in kept.iter().zip(&whole) {
+            assert_eq!((&kept.heads, numbers(kept)), (&whole.heads, numbers(whole)), "ended at {last}");
+        }
+        (state.done, asked.into_inner())
+    };
+    let (done, asked) = ended_at(usize::MAX);
+    assert_eq!(done, sweep.points());
+    assert!(asked as u64 > 2 * sweep.points(), "asked before each point and within it: {asked}");
+    let counts: Vec<u64> = (0..8).map(|part| ended_at(part * asked / 8).0).collect();
+    assert!(counts.iter().all(|done| *done < sweep.points()), "{counts:?}");
+    assert!(counts.iter().any(|done| *done > 0), "{counts:?}");
+}
+
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| number.to_bits()).collect()
 }

@@ -100,20 +100,24 @@ impl Plotting {
         Ok(Self { extractor: plot.extractor(), plot, title, theme, picture, file })
     }
 
-    /// Computes again what an interrupted run has done: the table does not hold all that a plot needs.
-    fn repeat(&mut self, sweep: &Sweep, done: u64) {
+    /// Computes again what an interrupted run has done: the table does not hold all that a plot needs. Where the time is up
+    /// before, it is up for the table, too.
+    fn repeat(&mut self, sweep: &Sweep, done: u64, watch: &mut Watch) {
         if done == 0 {
             return;
         }
         let Self { plot, extractor, .. } = self;
         let mut state = sweep.start();
-        sweep.run(
+        let alarm = watch.alarm();
+        sweep.run_while(
+            &|| !alarm.rings(),
             &mut state,
             &|rows| (rows.heads.first().map(|head| head.point), extractor.rows(rows)),
             &mut |parts, state| {
                 let wanted = parts.into_iter().filter(|(first, _)| first.is_some_and(|first| first < done));
                 wanted.for_each(|(_, part)| plot.add(part));
-                if state.done < done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                let flow = watch.look(&Progress::of("points", state.done, sweep.points()));
+                if state.done < done { flow } else { ControlFlow::Break(()) }
             },
         );
     }
@@ -161,7 +165,7 @@ fn to_file(
         PartialFile::open(path, work.encoder.clone(), how, sweep.start())?;
     let mut failure = None;
     if let Some(plot) = &mut work.plot {
-        plot.repeat(sweep, state.done);
+        plot.repeat(sweep, state.done, &mut watch);
     }
     work.run(watch.alarm(), &mut state, &mut |rows, state| {
         if let Err(error) = file.add(&rows, state) {

@@ -152,7 +152,7 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
     let grid = Grid { width, height, probe: options.probe.max(1) };
     let raster = Raster::<ClassKey>::new(grid, &classes, &mut |progress| work.tell(progress));
     let Some(raster) = raster else { return Ok(MapReport::default()) };
-    finite(report::report(model, options, &axes, &evaluator, &raster))
+    finite(report::report((model, options), &axes, &evaluator, &raster, work))
 }
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {

@@ -6,6 +6,7 @@ use super::refine::Raster;
 use super::{Axis, ColourBy, MapOptions};
 use crate::limits::Naming;
 use crate::model::Model;
+use crate::progress::Work;
 use crate::report::{indented_json, precise, spaced};
 use serde::Serialize;
 
@@ -96,12 +97,13 @@ pub fn to_json(report: &MapReport) -> String {
     empty.replace("\"rows\": []", &format!("\"rows\": [\n    {}\n  ]", rows.join(",\n    ")))
 }
 
+/// The report of a raster; its rows end where the work is to end.
 pub(super) fn report(
-    model: &Model,
-    options: &MapOptions,
+    (model, options): (&Model, &MapOptions),
     axes: &[Axis; 2],
     evaluator: &Evaluator<'_>,
     raster: &Raster<ClassKey>,
+    work: Work<'_>,
 ) -> MapReport {
     let names = Naming::new(model).ok();
     let mut order: Vec<usize> = (0..raster.classes.len()).collect();
@@ -111,9 +113,13 @@ pub(super) fn report(
     });
     let mut place = vec![0; order.len()];
     order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
-    let pixels: Vec<usize> = raster.pixels.iter().map(|&class| place[class as usize]).collect();
     let mut counts = vec![0; order.len()];
-    pixels.iter().for_each(|&class| counts[class] += 1);
+    let row = |classes: &[u32]| -> Vec<[usize; 2]> {
+        let row = runs(classes).into_iter().map(|[class, length]| [place[class], length]);
+        row.inspect(|&[class, length]| counts[class] += length).collect()
+    };
+    let lines = raster.pixels.chunks(raster.grid.width).take_while(|_| !work.is_over());
+    let rows = lines.map(row).collect();
     let classes = order
         .iter()
         .zip(&counts)
@@ -147,7 +153,7 @@ pub(super) fn report(
         classes,
         points: raster.solved,
         guarantee: guarantee(raster, evaluator.is_bilinear()),
-        rows: pixels.chunks(raster.grid.width).map(runs).collect(),
+        rows,
     }
 }
 
@@ -167,9 +173,9 @@ fn guarantee(raster: &Raster<ClassKey>, is_bilinear: bool) -> String {
 }
 
 /// Pairs of a class and a number of pixels.
-fn runs(row: &[usize]) -> Vec<[usize; 2]> {
+fn runs(row: &[u32]) -> Vec<[usize; 2]> {
     let runs = row.chunk_by(|one, next| one == next);
-    runs.map(|run| [run[0], run.len()]).collect()
+    runs.map(|run| [run[0] as usize, run.len()]).collect()
 }
 
 fn words(meaning: &ClassMeaning) -> String {

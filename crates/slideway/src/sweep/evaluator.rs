@@ -1,5 +1,6 @@
 //! All states of one point after another.
 
+use super::CHUNKS;
 use super::columns::Columns;
 use super::friction::{Friction, FrictionFormulas};
 use super::quantity::Kind;
@@ -14,6 +15,7 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
+use crate::progress::{Callback, Progress};
 use crate::report::Report;
 use crate::solve::{SolveOptions, Trail, careful_report, mode_problem, solve_with, velocity_signs};
 use std::borrow::Cow;
@@ -47,6 +49,18 @@ impl Plan {
         self.stages = Stages::along(&mut Trail::default(), &self.mechanism, &self.columns).ok();
         if let Some(stages) = self.stages.as_ref().filter(|_| !self.attainability) {
             self.together = Together::new(&self.mechanism, stages, formulas, &self.varied);
+        }
+    }
+
+    /// How many points are computed one after another.
+    pub(super) fn chunk(&self) -> u64 {
+        let [together, by_elimination, by_search] = CHUNKS;
+        if self.together.is_some() {
+            together
+        } else if self.mechanism.contacts.len() <= MOST_CONTACTS {
+            by_elimination
+        } else {
+            by_search
         }
     }
 
@@ -155,32 +169,42 @@ impl<'p> Evaluator<'p> {
         for index in 0..points.len() {
             let point = points.get(index);
             let written = found.as_ref().is_some_and(|found| self.write_found(found, index, point, rows));
-            if !written {
-                if !goes_on() {
-                    return false;
-                }
-                self.evaluate(point, rows);
+            if !written && (!goes_on() || self.evaluate(point, rows, goes_on).is_break()) {
+                return false;
             }
             rows.points += 1;
         }
         true
     }
 
-    /// Adds the rows of a point.
-    fn evaluate(&mut self, point: Point<'_>, rows: &mut Rows) {
+    /// Adds the rows of a point; breaks, with rows that mean nothing, if `goes_on` said no within it.
+    fn evaluate(
+        &mut self,
+        point: Point<'_>,
+        rows: &mut Rows,
+        goes_on: &(dyn Fn() -> bool + Sync),
+    ) -> ControlFlow<()> {
         let first = rows.len();
         // The equations may still be solved there, but to numbers without meaning.
         if point.breakpoint == Breakpoint::NotSolved {
             rows.push_empty(head(point, PointStatus::Refused), point.values);
-            return;
+            return ControlFlow::Continue(());
         }
-        let found = self.prepare(point.values).and_then(|()| self.solve(point, rows));
+        let mut flow = ControlFlow::Continue(());
+        let mut look = |_: &Progress| {
+            if !goes_on() {
+                flow = ControlFlow::Break(());
+            }
+            flow
+        };
+        let found = self.prepare(point.values).and_then(|()| self.solve(point, rows, &mut look));
         if let Err(faults) = found {
             rows.truncate(first);
             let status = refusal(&faults);
             rows.push_empty(head(point, status), point.values);
             rows.refusals.push((point.number, status, faults.to_string()));
         }
+        flow
     }
 
     /// Adds the rows of a point that was solved together with others; nothing, and `false`, if it was left in doubt.
@@ -244,7 +268,7 @@ impl<'p> Evaluator<'p> {
         Ok(())
     }
 
-    fn solve(&mut self, point: Point<'_>, rows: &mut Rows) -> Result<(), Faults> {
+    fn solve(&mut self, point: Point<'_>, rows: &mut Rows, look: &mut Callback<'_>) -> Result<(), Faults> {
         let Some(stages) = &self.stages else { return Ok(()) };
         let mut contacts = self.mechanism.contacts.iter().zip(&stages.signs);
         if contacts.any(|(contact, sign)| *sign == 0.0 && !contact.is_frictionless()) {
@@ -262,19 +286,19 @@ impl<'p> Evaluator<'p> {
             Some(settings) => {
                 let model = self.plan.model.with(&settings)?;
                 let options = SolveOptions { margins: false, ..SolveOptions::default() };
-                solve_with(&model, &options, &mut |_| ControlFlow::Continue(()))?
+                solve_with(&model, &options, look)?
             }
-            None => self.careful(stages)?,
+            None => self.careful(stages, look)?,
         };
         told::write(&report, self.plan, point, rows);
         Ok(())
     }
 
     /// The answer for a state that no model describes: with friction multiplied by a factor.
-    fn careful(&self, stages: &Stages) -> Result<Report, Faults> {
+    fn careful(&self, stages: &Stages, look: &mut Callback<'_>) -> Result<Report, Faults> {
         let equations = KineticEquations::new(&self.mechanism, &stages.configuration)?;
         let Stages { configuration, influence, signs, .. } = stages;
-        careful_report(&self.mechanism, configuration, &equations, influence, signs)
+        careful_report(&self.mechanism, configuration, &equations, (influence, signs), look)
     }
 }
 

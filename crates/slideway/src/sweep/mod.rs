@@ -26,8 +26,8 @@
 //! solutions are found together ([`crate::modes::batch`]); points near a boundary are left to elimination.
 //!
 //! # Order
-//! Points are numbered with the last quantity varying fastest. They are computed in chunks of a fixed size, so that nothing
-//! depends on the number of threads.
+//! Points are numbered with the last quantity varying fastest. They are computed in chunks whose size hangs on the model and on
+//! what is varied alone, so that nothing depends on the number of threads.
 
 mod axis;
 mod branches;
@@ -68,8 +68,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Points that are computed one after another: the unit of parallel work.
-const CHUNK: u64 = 1024;
+/// Points that are computed one after another: the unit of parallel work, and of what is lost where a sweep is ended. So
+/// that this is little, there are fewer where a point takes longer: points that are solved together, by elimination, by a search.
+const CHUNKS: [u64; 3] = [1024, 128, 1];
 /// Chunks of which each thread may hold the rows at a time.
 const CHUNKS_PER_THREAD: usize = 4;
 /// Less of a distribution than this is not worth telling.
@@ -242,8 +243,8 @@ impl Sweep {
         self.run_while(&|| true, state, encode, take);
     }
 
-    /// [`Sweep::run`] that also ends once `goes_on`, which is asked by any thread before points that take long, says so: with
-    /// the chunks of points that are done by then.
+    /// [`Sweep::run`] that also ends once `goes_on`, which is asked by any thread before points that take long and within them,
+    /// says so: with the chunks of points that are done by then.
     pub fn run_while<E: Send>(
         &self,
         goes_on: &(dyn Fn() -> bool + Sync),
@@ -272,9 +273,10 @@ impl Sweep {
     /// The rows of some chunks of points, from this one on; fewer, or none, where they were not all to be computed.
     fn compute(&self, from: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Rows> {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
-        let first = from.div_ceil(CHUNK);
+        let size = self.plan.chunk();
+        let first = from.div_ceil(size);
         let starts: Vec<u64> = (first..first + chunks as u64)
-            .map(|chunk| chunk * CHUNK)
+            .map(|chunk| chunk * size)
             .filter(|start| *start < self.points)
             .collect();
         let chunks: Vec<Option<Rows>> =
@@ -285,7 +287,7 @@ impl Sweep {
     fn chunk(&self, start: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Option<Rows> {
         let columns = &self.plan.columns;
         let mut rows = Rows::new(columns.contacts, columns.varied, columns.width());
-        let numbers = start..(start + CHUNK).min(self.points);
+        let numbers = start..(start + self.plan.chunk()).min(self.points);
         let mut points = Points::new(self.axes.len());
         for number in numbers {
             points.push(number, |values| self.values(number, values));
