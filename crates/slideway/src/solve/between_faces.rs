@@ -27,11 +27,11 @@ pub(crate) fn states_between_faces(
 ) -> Result<usize, Faults> {
     let Stages { configuration, influence, velocity_signs, .. } = stages;
     let mechanism = rougher(&stages.mechanism, &|_| friction);
-    let equations = KineticEquations::new(&mechanism, configuration)?;
     let jumps = mode_problem(&mechanism, influence, velocity_signs)?.jumps_of_contacts();
     if !may_be_between_faces(&mechanism, &jumps) {
         return Ok(0);
     }
+    let equations = KineticEquations::new(&mechanism, configuration)?;
     let uncertain = UncertainParameters::default().with_friction(Interval::point(friction));
     let enclosed = enclosure(model, &uncertain, &stages.mechanism, configuration);
     let (result, jumps) =
