@@ -182,6 +182,11 @@ fn stretches<'c>(cells: impl Iterator<Item = &'c Cell>) -> Vec<[f64; 2]> {
     stretches
 }
 
+/// What is left out at an end of an interval, at most.
+pub(super) fn margin_of([from, to]: [f64; 2]) -> f64 {
+    margin(from, [from, to]).max(margin(to, [from, to]))
+}
+
 /// How near to an end of an interval nothing is proven.
 fn margin(end: f64, [from, to]: [f64; 2]) -> f64 {
     let width = to - from;

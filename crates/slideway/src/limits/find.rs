@@ -1,6 +1,7 @@
 //! Where modes exist in a range, how many solutions there are in between, and how that is known.
 
 use super::LimitsOptions;
+use super::between_faces;
 use super::closed_form::closed_form;
 use super::examine::Examiner;
 use super::scan::Scanner;
@@ -127,6 +128,7 @@ fn found(
         places.extend(contradicted);
         found = scanner.scan(&places)?;
     }
+    between_faces::add(varied, options.greatest_normal_force, &mut found, work.part(1, 2));
     if varied.dependence().problem == Degree::Constant && found.method == Method::Bracketing {
         found.method = Method::Same { at_rest: varied.dependence().at_rest };
     }

@@ -15,6 +15,7 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
+mod between_faces;
 mod closed_form;
 mod conclusion;
 mod curves;

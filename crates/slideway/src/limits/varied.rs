@@ -10,7 +10,7 @@ use crate::model::{Dependence, Model, Setting, SettingKind, Settings};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::progress::{Progress, Work};
-use crate::solve::{Parts, SolveOptions, Stages, certain_counts};
+use crate::solve::{Parts, SolveOptions, Stages, certain_counts, states_between_faces};
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -175,6 +175,25 @@ impl Varied {
             Ok(result) => (certain_counts(&enclosed, &result, options, greatest), result.nodes()),
             Err(_) => (None, 1),
         }
+    }
+
+    /// The number of states with a guided slider between its faces that `solve` finds at a value, and no sign pattern tells; none where
+    /// there is no mode problem, and when the work is to end. States with a normal force above `greatest` do not count.
+    pub(crate) fn states_between_faces(&self, value: f64, greatest: Option<f64>, work: Work<'_>) -> usize {
+        if work.is_over() {
+            return 0;
+        }
+        let options = SolveOptions::default();
+        let count = |model: &Model, stages: &Stages, friction: f64| {
+            let mut goes_on = |_: &Progress| {
+                if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            states_between_faces(model, (stages, friction), greatest, &options, &mut goes_on)
+        };
+        let model = self.model_at(value);
+        let found =
+            model.and_then(|(model, _)| self.at(value, |stages, factor| count(&model, stages, factor)));
+        found.unwrap_or(0)
     }
 
     fn follower(&self) -> MutexGuard<'_, Follower> {

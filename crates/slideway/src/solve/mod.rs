@@ -19,6 +19,7 @@
 
 mod answer;
 mod attainability;
+mod between_faces;
 mod careful;
 mod continuum;
 mod distinct;
@@ -34,6 +35,7 @@ mod trail;
 mod uncertainty;
 mod words;
 
+pub(crate) use between_faces::states_between_faces;
 pub(crate) use careful::careful_report;
 pub(crate) use friction::friction;
 pub use mode_problem::mode_problem;
@@ -47,16 +49,17 @@ pub(crate) use uncertainty::certain_counts;
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;
-use crate::enclosure::{UncertainParameters, enclosure};
+use crate::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};
 use crate::fault::Faults;
 use crate::influence::Influence;
 use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
-use crate::modes::{SearchOptions, search};
+use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::Callback;
 use crate::report::{Report, finite};
+use nalgebra::DVector;
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -107,13 +110,8 @@ pub fn solve_with(
     let velocity_signs = velocity_signs(&mechanism, &configuration)?;
     let ranges = model.ranges()?;
     let enclosed = enclosure(model, &middle(&ranges), &mechanism, &configuration);
-    let (result, jumps) = if let Ok(enclosed) = &enclosed {
-        (search(&enclosed.problem, &options.search, progress), enclosed.problem.centre().jumps_of_contacts())
-    } else {
-        let problem = mode_problem(&mechanism, &influence, &velocity_signs)?;
-        (search(&problem, &options.search, progress), problem.jumps_of_contacts())
-    };
-    let result = result.map_err(|_| mode_problem::overflow())?;
+    let stated = (&mechanism, &influence, &velocity_signs);
+    let (result, jumps) = searched(&enclosed, stated, &options.search, progress)?;
     let answer = answer::Answer {
         mechanism: &mechanism,
         configuration: &configuration,
@@ -133,6 +131,26 @@ pub fn solve_with(
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
     finite(report)
+}
+
+/// The search for bounds of the exact numbers, else for rounded ones; and for each contact whether the right-hand side
+/// jumps with its side.
+///
+/// # Errors
+/// Numbers beyond the range of floating point.
+fn searched(
+    enclosed: &Result<EnclosedModeProblem, NotEnclosed>,
+    (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+) -> Result<(SearchResult, Vec<bool>), Faults> {
+    let (result, jumps) = if let Ok(enclosed) = enclosed {
+        (search(&enclosed.problem, options, progress), enclosed.problem.centre().jumps_of_contacts())
+    } else {
+        let problem = mode_problem(mechanism, influence, velocity_signs)?;
+        (search(&problem, options, progress), problem.jumps_of_contacts())
+    };
+    Ok((result.map_err(|_| mode_problem::overflow())?, jumps))
 }
 
 /// The middle of each range, as the only value.

@@ -93,7 +93,7 @@ impl Stages {
 }
 
 /// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
-fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
+pub(super) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
     let mut mechanism = mechanism.clone();
     for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
         contact.mu = contact.mu.map(|mu| mu * factor(k));

@@ -20,6 +20,7 @@ mod gap_states;
 mod guided_slider;
 mod klepp_2002;
 mod limits;
+mod limits_between_faces;
 mod limits_known;
 mod limits_properties;
 mod loads;

@@ -1,0 +1,106 @@
+//! States with a guided slider between its faces over a range: no normal force, no couple.
+//!
+//! They are on the boundary of sign patterns throughout, so that neither zeros of determinants nor proofs over intervals
+//! tell them. They are those of `solve` at evenly spaced values of what is not proven otherwise, and what changes between
+//! these is bisected. Those at single values, where a normal force passes through zero, are left out.
+
+use super::examine::margin_of;
+use super::find::{Elsewhere, Found, Knowledge};
+use super::scan::bisect;
+use super::varied::Varied;
+use crate::model::{Joint, JointKind, SliderKind};
+use crate::modes::existence::CountInterval;
+use crate::progress::Work;
+
+/// Values that are tried in each part of an interval that is not proven: a heuristic.
+const VALUES: usize = 32;
+
+/// A stretch with so many of these states throughout.
+struct Stretch {
+    bounds: [f64; 2],
+    states: usize,
+}
+
+/// Adds these states to the numbers of preload-gap states, and cuts intervals where they begin and end.
+pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, work: Work<'_>) {
+    if !varied.model().joints.iter().any(is_guided) {
+        return;
+    }
+    let mut counts = Vec::new();
+    let mut all_known = Vec::new();
+    for (interval, known) in found.counts.iter().zip(&found.known) {
+        let whole = [interval.from, interval.to];
+        let parts = open(whole, known);
+        let states = |at: f64| varied.states_between_faces(at, greatest, work);
+        let stretches: Vec<Stretch> = parts.iter().flat_map(|&part| stretches(part, &states)).collect();
+        if stretches.is_empty() {
+            counts.push(*interval);
+            all_known.push(known.clone());
+            continue;
+        }
+        let spacing = parts.iter().map(|[from, to]| (to - from) / VALUES as f64).fold(0.0, f64::max);
+        let elsewhere = match known.elsewhere {
+            Elsewhere::Contradicted => Elsewhere::Contradicted,
+            Elsewhere::Sampled(by) => Elsewhere::Sampled(by.max(spacing)),
+            _ => Elsewhere::Sampled(spacing),
+        };
+        for (piece, states) in pieces(whole, &stretches) {
+            counts.push(CountInterval {
+                from: piece[0],
+                to: piece[1],
+                gap_states: interval.gap_states + states,
+                ..*interval
+            });
+            let proven =
+                known.proven.iter().copied().filter(|[from, to]| piece[0] <= *from && *to <= piece[1]);
+            all_known.push(Knowledge { proven: proven.collect(), elsewhere });
+        }
+    }
+    found.counts = counts;
+    found.known = all_known;
+}
+
+fn is_guided(joint: &Joint) -> bool {
+    matches!(&joint.kind, JointKind::Slider(slider) if slider.kind == SliderKind::Guided)
+}
+
+/// The parts of an interval that are not proven, without those that are as narrow as what is left out next to ends.
+fn open([from, to]: [f64; 2], known: &Knowledge) -> Vec<[f64; 2]> {
+    let ends: Vec<f64> =
+        std::iter::once(from).chain(known.proven.iter().flatten().copied()).chain([to]).collect();
+    let parts = ends.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+    parts.filter(|part| part[1] - part[0] > margin_of([from, to])).collect()
+}
+
+/// Where there are such states in a part.
+fn stretches(part: [f64; 2], states: &dyn Fn(f64) -> usize) -> Vec<Stretch> {
+    let [from, to] = part;
+    let value = |index: usize| from + (to - from) * (index as f64 + 0.5) / VALUES as f64;
+    let tried: Vec<(f64, usize)> = (0..VALUES).map(value).map(|at| (at, states(at))).collect();
+    let mut found = Vec::new();
+    let mut begin = from;
+    for equal in tried.chunk_by(|one, next| one.1 == next.1) {
+        let (last, states_here) = equal[equal.len() - 1];
+        let next = tried.iter().find(|(at, _)| *at > last);
+        let end = next.map_or(to, |next| bisect(last, next.0, |at| states(at) == states_here).0);
+        if states_here > 0 && end - begin > margin_of(part) {
+            found.push(Stretch { bounds: [begin, end], states: states_here });
+        }
+        begin = end;
+    }
+    found
+}
+
+/// An interval cut at the ends of stretches, with the number of states in each piece.
+fn pieces([from, to]: [f64; 2], stretches: &[Stretch]) -> Vec<([f64; 2], usize)> {
+    let mut pieces = Vec::new();
+    let mut begin = from;
+    for stretch in stretches {
+        pieces.push(([begin, stretch.bounds[0]], 0));
+        pieces.push((stretch.bounds, stretch.states));
+        begin = stretch.bounds[1];
+    }
+    pieces.push(([begin, to], 0));
+    pieces.retain(|([from, to], _)| from < to);
+    pieces
+}
