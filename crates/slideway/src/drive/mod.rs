@@ -43,7 +43,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, VariedQuantity, given_range};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
-use crate::report::finite;
+use crate::report::{finite, locked};
 use crate::size::usual_range;
 
 /// The most rows of a table that are computed.
@@ -111,7 +111,7 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         course,
         conclusion: Vec::new(),
     };
-    report.conclusion = text::conclusion(&report);
+    report.conclusion = text::conclusion(&report, locked(model.has_guided_sliders()));
     finite(report)
 }
 

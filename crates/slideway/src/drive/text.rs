@@ -24,10 +24,10 @@ pub fn to_text(report: &DriveReport, style: Style) -> String {
 }
 
 /// One sentence for each direction, and one for each factor of friction at which its efforts grow without bound.
-pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
+pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
     let mut sentences = Vec::new();
     for direction in &report.directions {
-        sentences.push(format!("{}: {}.", moving(direction.direction), outcome(report, direction)));
+        sentences.push(format!("{}: {}.", moving(direction.direction), outcome(report, direction, locked)));
         let blow_ups = direction.blow_ups.iter().flatten();
         sentences.extend(blow_ups.map(|blow_up| {
             format!(
@@ -46,10 +46,10 @@ fn moving(direction: &str) -> &'static str {
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
-fn outcome(report: &DriveReport, direction: &DriveDirection) -> String {
+fn outcome(report: &DriveReport, direction: &DriveDirection, locked: &str) -> String {
     match (direction.solutions.as_slice(), direction.status) {
         ([], Status::Unknown) => "it is not known which effort moves it".to_owned(),
-        ([], _) => "no effort moves it, friction locks it".to_owned(),
+        ([], _) => format!("no effort moves it, {locked}"),
         ([only], _) => {
             let one = |(drive, (with, without)): (&super::DriveName, (&f64, &f64))| {
                 format!(

@@ -8,7 +8,6 @@ use super::examine::margin_of;
 use super::find::{Elsewhere, Found, Knowledge};
 use super::scan::bisect;
 use super::varied::Varied;
-use crate::model::{Joint, JointKind, SliderKind};
 use crate::modes::existence::CountInterval;
 use crate::progress::Work;
 
@@ -23,7 +22,7 @@ struct Stretch {
 
 /// Adds these states to the numbers of preload-gap states, and cuts intervals where they begin and end.
 pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, work: Work<'_>) {
-    if !varied.model().joints.iter().any(is_guided) {
+    if !varied.model().has_guided_sliders() {
         return;
     }
     let mut counts = Vec::new();
@@ -58,10 +57,6 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
     }
     found.counts = counts;
     found.known = all_known;
-}
-
-fn is_guided(joint: &Joint) -> bool {
-    matches!(&joint.kind, JointKind::Slider(slider) if slider.kind == SliderKind::Guided)
 }
 
 /// The parts of an interval that are not proven, without those that are as narrow as what is left out next to ends.

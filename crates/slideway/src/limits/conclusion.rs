@@ -4,16 +4,16 @@ use super::find::Method;
 use super::report::{CountLimits, Direction, Known};
 use crate::report::precise;
 
-/// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7).
+/// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7); `locked` says what no solution means.
 pub(super) fn conclusion(
-    name: &str,
-    method: Method,
+    (name, method): (&str, Method),
+    locked: &str,
     forwards: &Direction,
     reversed: Option<&Direction>,
 ) -> Vec<String> {
     let pieces = match reversed {
-        None => one_direction(&forwards.counts),
-        Some(reversed) => both_directions(&forwards.counts, &reversed.counts),
+        None => one_direction(&forwards.counts, locked),
+        Some(reversed) => both_directions(&forwards.counts, &reversed.counts, locked),
     };
     let mut joined: Vec<Piece> = Vec::new();
     for piece in pieces {
@@ -29,7 +29,7 @@ pub(super) fn conclusion(
 struct Piece {
     from: f64,
     to: f64,
-    verdict: &'static str,
+    verdict: String,
     /// The least that is known of it.
     known: Known,
 }
@@ -42,32 +42,31 @@ impl Piece {
     }
 
     fn sentence(&self, name: &str, method: Method) -> String {
-        let Self { from, to, mut verdict, known } = *self;
-        if known == Known::Undecided {
-            verdict = "not decided";
-        }
+        let Self { from, to, ref verdict, known } = *self;
+        let verdict = if known == Known::Undecided { "not decided" } else { verdict };
         let sampled = if known == Known::Sampled { " (sampled)" } else { "" };
         let same = if matches!(method, Method::Same { .. }) { ", the same in the whole range" } else { "" };
         format!("{name} from {} to {}{same}: {verdict}{sampled}.", precise(from), precise(to))
     }
 }
 
-fn one_direction(counts: &[CountLimits]) -> Vec<Piece> {
+fn one_direction(counts: &[CountLimits], locked: &str) -> Vec<Piece> {
     let piece = |count: &CountLimits| {
+        let without = format!("no solution: {locked}");
         let verdict = match (count.solutions, count.preload_gap_states) {
-            (0, 0) => "no solution: friction locks it",
+            (0, 0) => &without,
             (0, _) => "no solution, but a state with the preload between the faces",
             (1, _) => "one solution",
             (2, _) => "two solutions",
             (3, _) => "three solutions",
             _ => "more than three solutions",
         };
-        Piece { from: count.from, to: count.to, verdict, known: count.known }
+        Piece { from: count.from, to: count.to, verdict: verdict.to_owned(), known: count.known }
     };
     counts.iter().map(piece).collect()
 }
 
-fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Piece> {
+fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &str) -> Vec<Piece> {
     let mut ends: Vec<f64> =
         forwards.iter().chain(reversed).flat_map(|count| [count.from, count.to]).collect();
     ends.sort_by(f64::total_cmp);
@@ -80,12 +79,12 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Pi
         };
         let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
         let verdict = match (one, other) {
-            (true, true) => "it can move in both directions, so that it can oscillate",
-            (true, false) => "it can only move as in the model; the other way friction locks it",
+            (true, true) => "it can move in both directions, so that it can oscillate".to_owned(),
+            (true, false) => format!("it can only move as in the model; the other way {locked}"),
             (false, true) => {
-                "it can only move against the direction of the model; the other way friction locks it"
+                format!("it can only move against the direction of the model; the other way {locked}")
             }
-            (false, false) => "friction locks it in both directions",
+            (false, false) => format!("{locked} in both directions"),
         };
         Some(Piece { from: pair[0], to: pair[1], verdict, known: known.max(known_of_other) })
     };

@@ -11,7 +11,7 @@ use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{JointMode, indented_json};
+use crate::report::{JointMode, indented_json, locked};
 use crate::solve::{mode_in_words, pattern, signs};
 use serde::Serialize;
 
@@ -310,7 +310,8 @@ pub(super) fn report(
 ) -> LimitsReport {
     let forwards = naming.direction(found);
     let reversed = reversed.map(|found| naming.direction(found));
-    let conclusion = conclusion(&varied.name, found.method, &forwards, reversed.as_ref());
+    let locked = locked(varied.model().has_guided_sliders());
+    let conclusion = conclusion((&varied.name, found.method), locked, &forwards, reversed.as_ref());
     let value = varied.present().unwrap_or_default();
     let mut guarantee = guarantee(found);
     if varied.is_coordinate() {

@@ -7,7 +7,7 @@ use super::{Axis, ColourBy, MapOptions};
 use crate::limits::Naming;
 use crate::model::Model;
 use crate::progress::Work;
-use crate::report::{indented_json, precise, spaced};
+use crate::report::{indented_json, locked, precise, spaced};
 use serde::Serialize;
 
 /// Version of the layout of a [`MapReport`]; changes whenever a field is renamed or removed.
@@ -124,7 +124,7 @@ pub(super) fn report(
         .iter()
         .zip(&counts)
         .map(|(&old, &pixels)| MapClass {
-            words: words(meaning(old)),
+            words: words(meaning(old), locked(model.has_guided_sliders())),
             modes: modes(meaning(old), names.as_ref()),
             meaning: meaning(old).clone(),
             pixels,
@@ -178,9 +178,9 @@ fn runs(row: &[u32]) -> Vec<[usize; 2]> {
     runs.map(|run| [run[0] as usize, run.len()]).collect()
 }
 
-fn words(meaning: &ClassMeaning) -> String {
+fn words(meaning: &ClassMeaning, locked: &str) -> String {
     match meaning {
-        ClassMeaning::Locked => "no solution: friction locks it".to_owned(),
+        ClassMeaning::Locked => format!("no solution: {locked}"),
         ClassMeaning::Solutions { solutions, preload_gap_states } => {
             let gaps = match preload_gap_states {
                 0 => String::new(),
@@ -207,13 +207,13 @@ fn words(meaning: &ClassMeaning) -> String {
         }
         ClassMeaning::Moves { as_in_model: true, opposite: true } => "can move both ways".to_owned(),
         ClassMeaning::Moves { as_in_model: true, opposite: false } => {
-            "can move as in the model only; the other way friction locks it".to_owned()
+            format!("can move as in the model only; the other way {locked}")
         }
         ClassMeaning::Moves { as_in_model: false, opposite: true } => {
             "can move against the direction of the model only".to_owned()
         }
         ClassMeaning::Moves { as_in_model: false, opposite: false } => {
-            "friction locks it both ways".to_owned()
+            format!("{locked} both ways")
         }
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),

@@ -435,6 +435,12 @@ impl CoordinateKind {
 }
 
 impl Model {
+    /// Whether there are guided sliders, which tip rather than press one corner against each face.
+    pub(crate) fn has_guided_sliders(&self) -> bool {
+        let is_guided = |joint: &Joint| matches!(&joint.kind, JointKind::Slider(slider) if slider.kind == SliderKind::Guided);
+        self.joints.iter().any(is_guided)
+    }
+
     /// The model that a TOML text describes.
     ///
     /// # Errors

@@ -19,7 +19,7 @@ pub(crate) use json::indented as indented_json;
 pub use json::to_json;
 pub use number::precise;
 pub use text::{Style, followed, to_text};
-pub(crate) use text::{count, spaced};
+pub(crate) use text::{count, locked, spaced};
 
 use serde::Serialize;
 

@@ -1,15 +1,15 @@
 //! What a sweep comes to, as text for people.
 
 use super::{PointStatus, Sweep, SweepState};
-use crate::report::Style;
 use crate::report::number::number;
 use crate::report::page::Page;
+use crate::report::{Style, locked};
 
 /// What the points that are done come to. With samples also the probability that it jams.
 pub fn to_text(sweep: &Sweep, state: &SweepState, style: Style) -> String {
     let mut text = Page::new(state, style);
     text.points(sweep);
-    text.solutions();
+    text.solutions(sweep);
     text.probability(sweep);
     text.remarks(sweep);
     text.text()
@@ -34,7 +34,7 @@ impl Page<'_, SweepState> {
         self.headline(&format!("{}{inserted}: {rows}{branches}", counted(own, what)));
     }
 
-    fn solutions(&mut self) {
+    fn solutions(&mut self, sweep: &Sweep) {
         let tally = &self.report.tally;
         let share = |count: u64| {
             let all = (tally.points - tally.breakpoints).max(1);
@@ -49,9 +49,10 @@ impl Page<'_, SweepState> {
             };
             lines.push((what, count));
         }
+        let without = format!("no solution: {}", locked(sweep.plan.model.has_guided_sliders()));
         for (status, what) in [
             (PointStatus::PreloadGap, "no solution, but a state with the preload between the faces"),
-            (PointStatus::None, "no solution: friction locks it"),
+            (PointStatus::None, &without),
             (PointStatus::Unknown, "undecided"),
             (PointStatus::NoPosition, "no position"),
             (PointStatus::Refused, "refused"),
