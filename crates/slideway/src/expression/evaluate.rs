@@ -57,7 +57,7 @@ impl Expression {
     /// ```
     /// use slideway::expression::{ExpressionFaultKind, Names, Values, parse};
     ///
-    /// let values = Values::of_parameters(&[]);
+    /// let values = Values::<f64>::of_parameters(&[]);
     /// let fault = parse("2 + 1/t", &Names::new()).unwrap().evaluate(&values).unwrap_err();
     /// assert_eq!(fault.kind, ExpressionFaultKind::DivisionByZero { numerator: 1.0 });
     /// assert_eq!(fault.span, 4..7);
