@@ -199,15 +199,13 @@ fn without_rounding(slack: f64) -> f64 {
     if slack.abs() <= ROUNDING { 0.0 } else { slack }
 }
 
+/// The sides of a contact during an impulse: preloads do not count there.
+pub(super) const PRESSED: [ContactPhase; 2] =
+    [ContactPhase::Pressed(Side::Positive), ContactPhase::Pressed(Side::Negative)];
+
 /// The sides that a contact may take: a gap only where the friction of its preload jumps.
 pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [ContactPhase] {
-    const PRESSED: [ContactPhase; 2] =
-        [ContactPhase::Pressed(Side::Positive), ContactPhase::Pressed(Side::Negative)];
-    const ALL: [ContactPhase; 3] = [
-        ContactPhase::Pressed(Side::Positive),
-        ContactPhase::Pressed(Side::Negative),
-        ContactPhase::PreloadGap,
-    ];
+    const ALL: [ContactPhase; 3] = [PRESSED[0], PRESSED[1], ContactPhase::PreloadGap];
     if instant.mechanism.preload_jumps(ContactId(k)) { &ALL } else { &PRESSED }
 }
 

@@ -1,7 +1,8 @@
 //! Impacts on end stops: the impulse of a stop, with friction impulses at all sliding joints.
 
-use super::assessment::{Assessment, assess_group, side_options};
+use super::assessment::{Assessment, PRESSED, assess_group};
 use super::instant::{Group, Instant, Outputs};
+use super::jam::AT_REST;
 use super::successors::combinations;
 use super::system::Question;
 use super::{BOUNDARY, MOST_STATES};
@@ -13,9 +14,6 @@ use crate::mechanism::Mechanism;
 use crate::motion::energy::kinetic;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DVector, Vector2};
-
-/// Sliding velocities below this multiple of the greatest are zero.
-const AT_REST: f64 = 1e-9;
 
 /// What an impact on an end stop does.
 #[derive(Debug, Clone)]
@@ -151,7 +149,7 @@ impl Process<'_> {
             outputs: self.outputs,
             wanted: vec![0.0; velocities.len()],
             has_preload: false,
-            sides: (0..self.outputs.columns[0].ncols()).map(|k| self.sides(k)).collect(),
+            sides: vec![PRESSED.to_vec(); self.outputs.columns[0].ncols()],
             stopped: &stopped,
             opposes: None,
         };
@@ -202,10 +200,6 @@ impl Process<'_> {
         first
     }
 
-    fn sides(&self, k: usize) -> Vec<ContactPhase> {
-        side_options(self.instant, k)[..2].to_vec()
-    }
-
     /// All states of the group at these sliding velocities; other joints do not matter.
     fn phases(&self, velocities: &[f64]) -> Result<Vec<Phase>, Faults> {
         let joints: Vec<Vec<JointPhase>> =
@@ -213,7 +207,7 @@ impl Process<'_> {
         let mut all = Vec::new();
         for joints in combinations(&joints) {
             let sides = |k: usize| {
-                let mut sides = self.sides(k);
+                let mut sides = PRESSED.to_vec();
                 let slides =
                     self.instant.joint_of(k).is_some_and(|joint| joints[joint] != JointPhase::Sticking);
                 if !slides || !self.group.contacts.contains(&k) {

@@ -1,6 +1,6 @@
 //! Dynamic jamming: the impulse that stops a mechanism which has no admissible acceleration (theory, section 8).
 
-use super::assessment::{Assessment, assess_group, side_options};
+use super::assessment::{Assessment, PRESSED, assess_group};
 use super::instant::{Group, Instant, Outputs};
 use super::successors::combinations;
 use super::system::Question;
@@ -10,11 +10,12 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
+use crate::motion::energy::kinetic;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DVector, Vector2};
 
 /// Sliding velocities below this multiple of the greatest are zero.
-const AT_REST: f64 = 1e-9;
+pub(super) const AT_REST: f64 = 1e-9;
 
 /// What an impulse that ends a jam does.
 #[derive(Debug, Clone)]
@@ -124,7 +125,7 @@ impl Search<'_> {
             outputs: self.outputs,
             wanted,
             has_preload: false,
-            sides: (0..self.outputs.columns[0].ncols()).map(|k| self.sides(k)).collect(),
+            sides: vec![PRESSED.to_vec(); self.outputs.columns[0].ncols()],
             stopped: &stopped,
             opposes: Some((joint, velocity.signum())),
         };
@@ -142,11 +143,6 @@ impl Search<'_> {
             }
         }
         Ok(())
-    }
-
-    /// The sides of a contact during an impulse.
-    fn sides(&self, k: usize) -> Vec<ContactPhase> {
-        side_options(self.instant, k)[..2].to_vec()
     }
 
     /// The time in which the unit of acceleration gives the greatest sliding velocity (s).
@@ -172,7 +168,7 @@ impl Search<'_> {
         let mut all = Vec::new();
         for joints in combinations(&joints) {
             let sides = |k: &usize| {
-                let mut pressed = self.sides(*k);
+                let mut pressed = PRESSED.to_vec();
                 let sticks =
                     self.instant.joint_of(*k).is_some_and(|joint| joints[joint] == JointPhase::Sticking);
                 if sticks || !group.contacts.contains(k) {
@@ -228,7 +224,8 @@ impl Search<'_> {
             sides: assessment.phase.contacts.clone(),
             normal_impulses: normals.map(|(k, normal)| normal * unit(k) * part).collect(),
             friction_impulses: whole.into_iter().map(|friction| friction.times(part)).collect(),
-            energy_lost: self.kinetic_energy(self.configuration) - self.kinetic_energy(&after),
+            energy_lost: kinetic(self.instant.mechanism, self.configuration)
+                - kinetic(self.instant.mechanism, &after),
             after,
             sliding_velocities,
             margin: assessment.least(),
@@ -276,15 +273,6 @@ impl Search<'_> {
             *rate = sum(*rate, jump);
         }
         after
-    }
-
-    fn kinetic_energy(&self, configuration: &Configuration) -> f64 {
-        let bodies = self.instant.mechanism.bodies.iter().zip(&configuration.velocities);
-        let one = |(body, velocity): (&crate::mechanism::Body, &Velocity)| {
-            let turning = body.moment_of_inertia * velocity.angular * velocity.angular;
-            f64::midpoint(body.mass * velocity.linear.norm_squared(), turning)
-        };
-        bodies.map(one).sum()
     }
 }
 
