@@ -5,8 +5,9 @@
 mod axis;
 
 pub use axis::AxisProblem;
+pub use slideway_modes::names::nearest;
 
-use crate::expression::{Dimension, ExpressionFaultKind, nearest_names};
+use crate::expression::{Dimension, ExpressionFaultKind};
 use crate::printable;
 use std::fmt;
 use std::ops::Range;
@@ -519,11 +520,6 @@ impl FaultKind {
             _ => None,
         }
     }
-}
-
-/// The known name most like `name`, if one is like it at all: as for the names in expressions.
-pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    nearest_names(name, known.into_iter()).first().map(|nearest| (*nearest).to_owned())
 }
 
 fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {

@@ -6,7 +6,7 @@ use super::dimension::Inferred;
 use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::inference::whole_exponent;
 use super::lexer::TokenKind;
-use super::names::{is_reserved, nearest};
+use super::{names::is_reserved, nearest_names};
 use super::parser::{Parser, Read};
 use super::unit::{self, Scale, UNITS, Unit};
 use crate::interval::Interval;
@@ -106,7 +106,7 @@ impl<'t> Parser<'t> {
     }
 
     fn no_such_unit(&self, name: &str) -> ExpressionFaultKind {
-        let mut nearest = nearest(name, UNITS.iter().map(|unit| unit.name));
+        let mut nearest = nearest_names(name, UNITS.iter().map(|unit| unit.name));
         nearest.truncate(MAX_PROPOSALS);
         let is_name = is_reserved(name) || self.names.lookup(name).is_some();
         ExpressionFaultKind::UnknownUnit { unit: name.to_owned(), nearest, is_name }

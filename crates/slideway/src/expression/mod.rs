@@ -54,7 +54,7 @@ pub use degree::Degree;
 pub use dimension::{Dimension, Inferred};
 pub use evaluate::Values;
 pub use fault::{ExpressionFault, ExpressionFaultKind};
-pub(crate) use names::nearest as nearest_names;
+pub(crate) use slideway_modes::names::all_nearest as nearest_names;
 pub use names::{Names, Symbol, is_reserved, is_valid_name};
 pub use parser::{MAX_DEPTH, MAX_LENGTH, parse};
 pub use program::Expression;

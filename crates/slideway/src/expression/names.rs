@@ -1,5 +1,6 @@
 //! The names an expression may use.
 
+use slideway_modes::names::all_nearest;
 use std::collections::HashMap;
 
 use super::function::{self, FUNCTIONS};
@@ -95,20 +96,20 @@ impl Names {
     /// The name most like `name`, if one is like it at all: one of those added, `t`, `pi` or `sliding_speed`.
     pub fn nearest(&self, name: &str) -> Option<&str> {
         let known = self.in_order.iter().map(String::as_str).chain([TIME, PI, SLIDING_SPEED]);
-        nearest(name, known).first().copied()
+        all_nearest(name, known).first().copied()
     }
 
     /// The function or table most like `name`, if one is like it at all.
     pub(super) fn nearest_function(&self, name: &str) -> Option<&str> {
         let tables = self.tables.iter().map(|table| &*table.name);
         let callable = FUNCTIONS.iter().map(|(known, _)| *known).chain([RATE]).chain(tables);
-        nearest(name, callable).first().copied()
+        all_nearest(name, callable).first().copied()
     }
 
     /// The coordinate most like `name`, if one is like it at all.
     pub(super) fn nearest_coordinate(&self, name: &str) -> Option<&str> {
         let is_coordinate = |other: &&str| matches!(self.lookup(other), Some(Symbol::Coordinate(_)));
-        nearest(name, self.in_order.iter().map(String::as_str).filter(is_coordinate)).first().copied()
+        all_nearest(name, self.in_order.iter().map(String::as_str).filter(is_coordinate)).first().copied()
     }
 }
 
@@ -145,18 +146,4 @@ pub(super) fn starts_name(character: char) -> bool {
 
 pub(super) fn continues_name(character: char) -> bool {
     starts_name(character) || character.is_ascii_digit()
-}
-
-/// The candidates most like `name`, best first: those that differ in case only, else those a few edits away.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let lower = name.to_lowercase();
-    let length = name.chars().count();
-    let allowed = if length < 2 { 0 } else { (length / 3).max(1) };
-    let mut alike: Vec<(usize, &str)> = candidates
-        .map(|candidate| (strsim::damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
-        .filter(|(distance, _)| *distance <= allowed)
-        .collect();
-    alike.sort_by_key(|(distance, _)| *distance);
-    let best = alike.first().map(|(distance, _)| *distance);
-    alike.into_iter().take_while(|(distance, _)| Some(*distance) == best).map(|(_, name)| name).collect()
 }

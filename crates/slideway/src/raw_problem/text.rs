@@ -1,8 +1,7 @@
 //! The report of a raw problem as text for people.
 
-use super::RawKind;
-use super::report::{
-    BeyondRange, ContinuumPart, RawReport, RawShares, RawSolution, Unknowns, WithinRounding,
+use super::{
+    BeyondRange, ContinuumPart, RawKind, RawReport, RawShares, RawSolution, Unknowns, WithinRounding,
 };
 use crate::report::number::number;
 use crate::report::page::Page;

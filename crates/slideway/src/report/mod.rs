@@ -21,29 +21,11 @@ pub use number::precise;
 pub use text::{Style, followed, to_text};
 pub(crate) use text::{count, locked, spaced};
 
+pub use crate::modes::Status;
 use serde::Serialize;
 
 /// Version of the layout of a [`Report`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/solve/2";
-
-/// How many solutions there are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Status {
-    /// No solution: friction locks the mechanism.
-    None,
-    /// Exactly one.
-    One,
-    /// Several, each in its own contact mode.
-    Several,
-    /// Infinitely many: a mode with a vanishing determinant admits a continuum.
-    Continuum,
-    /// No solution in a sign pattern was found, but a state with the preload between the faces; what may be open besides is
-    /// told by `partial` and `undecided_modes`.
-    PreloadGap,
-    /// Nothing was found, but not every pattern could be decided.
-    Unknown,
-}
 
 /// All solutions of the kinetic problem of a mechanism in one state.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -39,7 +39,10 @@ impl Answer<'_> {
         } else {
             SolutionSet::Segment { from: at(first), to: at(last) }
         };
-        SingularMode { set, contains: Vec::new(), ..mode.clone() }
+        let mut clipped = mode.clone();
+        clipped.set = set;
+        clipped.contains.clear();
+        clipped
     }
 
     /// The values of t from 0 to `end` for which no couple at `from + t step` exceeds its limit; empty if the first

@@ -1,0 +1,96 @@
+//! What proofs about patterns cost, on dense random problems: `cargo bench --bench certificate`.
+
+use divan::Bencher;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use slideway_modes::certificate::{decide, propagate, proves_at_most_one, proves_empty, solve_exactly};
+use slideway_modes::{ContactState, ModeProblem};
+
+const SIZES: [usize; 5] = [8, 12, 16, 24, 40];
+
+fn main() {
+    divan::main();
+}
+
+/// Patterns of a problem with all numbers between -1 and 1.
+fn random(contacts: usize) -> (ModeProblem, Vec<Vec<ContactState>>) {
+    let mut runner = TestRunner::deterministic();
+    let mut numbers = |count: usize| {
+        let tree = prop::collection::vec(-1.0..1.0_f64, count).new_tree(&mut runner).expect("no filter");
+        tree.current()
+    };
+    let mut matrix = || DMatrix::from_vec(contacts, contacts, numbers(contacts * contacts));
+    let (plus, minus, none) = (matrix(), matrix(), DMatrix::zeros(contacts, contacts));
+    let right = DVector::from_vec(numbers(contacts));
+    let side = |number: f64| if number > 0.0 { ContactState::Positive } else { ContactState::Negative };
+    let patterns = (0..64).map(|_| numbers(contacts).into_iter().map(side).collect()).collect();
+    let problem = ModeProblem::new(plus, minus, none.clone(), none, right).expect("finite numbers");
+    (problem, patterns)
+}
+
+/// Runs `work` on one pattern after the other.
+fn each_pattern<T>(
+    bencher: Bencher<'_, '_>,
+    contacts: usize,
+    work: impl Fn(&ModeProblem, &[ContactState]) -> T,
+) {
+    let (problem, patterns) = random(contacts);
+    let mut next = patterns.iter().cycle();
+    bencher.bench_local(|| next.next().map(|pattern| work(&problem, pattern)));
+}
+
+#[divan::bench(args = SIZES)]
+fn decision(bencher: Bencher<'_, '_>, contacts: usize) {
+    each_pattern(bencher, contacts, |problem, pattern| decide(problem, pattern));
+}
+
+#[divan::bench(args = SIZES)]
+fn exact_solution(bencher: Bencher<'_, '_>, contacts: usize) {
+    each_pattern(bencher, contacts, |problem, pattern| solve_exactly(problem, pattern, 1000));
+}
+
+#[divan::bench(args = SIZES)]
+fn interval_propagation(bencher: Bencher<'_, '_>, contacts: usize) {
+    each_pattern(bencher, contacts, |problem, pattern| {
+        propagate(problem, &pattern.iter().copied().map(Some).collect::<Vec<_>>())
+    });
+}
+
+#[divan::bench(args = SIZES)]
+fn norm_test(bencher: Bencher<'_, '_>, contacts: usize) {
+    each_pattern(bencher, contacts, |problem, pattern| {
+        proves_at_most_one(problem, &vec![None; pattern.len()])
+    });
+}
+
+/// Weights that do not prove anything, as most costly: all sides open.
+#[divan::bench(args = SIZES)]
+fn rejected_weights(bencher: Bencher<'_, '_>, contacts: usize) {
+    each_pattern(bencher, contacts, |problem, pattern| {
+        proves_empty(problem, &vec![None; pattern.len()], problem.right_hand_side().as_slice())
+    });
+}
+
+/// The row of the inverse that gives the most negative unknown: tight in all columns but one.
+#[divan::bench(args = SIZES)]
+fn tight_weights(bencher: Bencher<'_, '_>, contacts: usize) {
+    let (problem, patterns) = random(contacts);
+    let tight = patterns.iter().filter_map(|pattern| {
+        let columns: Vec<_> = pattern
+            .iter()
+            .enumerate()
+            .filter_map(|(k, state)| Some(problem.columns(state.side()?).column(k)))
+            .collect();
+        let inverse = DMatrix::from_columns(&columns).try_inverse()?;
+        let worst = (&inverse * problem.right_hand_side()).imin();
+        let partial: Vec<_> = pattern.iter().copied().map(Some).collect();
+        Some((partial, inverse.row(worst).transpose()))
+    });
+    let tight: Vec<_> = tight.collect();
+    let mut next = tight.iter().cycle();
+    bencher.bench_local(|| {
+        next.next().map(|(partial, weights)| proves_empty(&problem, partial, weights.as_slice()))
+    });
+}

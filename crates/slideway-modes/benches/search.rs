@@ -1,0 +1,146 @@
+//! Time of the pruned search on families of planted and random problems. One thread.
+
+use std::ops::ControlFlow;
+
+use divan::Bencher;
+use nalgebra::{DMatrix, DVector};
+use slideway_modes::certificate::IntervalModeProblem;
+use slideway_modes::{ModeProblem, SearchOptions, SearchResult, search};
+
+fn main() {
+    divan::main();
+}
+
+/// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).
+fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(7919).wrapping_add(12_345);
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn solve(problem: &ModeProblem) -> SearchResult {
+    search(problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(())).expect("finite numbers")
+}
+
+/// `x - B |x| = c` with a solution planted in each block of the given size,
+/// `B = strength sqrt(3 / block) U(-1, 1)`.
+fn planted_blocks(contacts: usize, block: usize, strength: f64, seed: u64) -> ModeProblem {
+    let mut random = random_numbers(seed);
+    let factor = strength * (3.0 / block as f64).sqrt();
+    let b = DMatrix::from_fn(contacts, contacts, |row, column| {
+        if row / block == column / block { factor * random() } else { 0.0 }
+    });
+    let x = DVector::from_fn(contacts, |_, _| random());
+    let load = &x - &b * x.abs();
+    let identity = DMatrix::identity(contacts, contacts);
+    ModeProblem::from_absolute_value_equation(&identity, &-b, load).expect("shapes fit")
+}
+
+/// Blocks of ten contacts, each acting on the first contact of the next; two column versions.
+fn chained_blocks(contacts: usize, strength: f64) -> ModeProblem {
+    let mut random = random_numbers(1);
+    let factor = strength * 0.3_f64.sqrt();
+    let mut columns = |sign: f64| {
+        DMatrix::from_fn(contacts, contacts, |row, column| match row / 10 {
+            block if block == column / 10 => factor * random() + if row == column { sign } else { 0.0 },
+            block if block == column / 10 + 1 && row % 10 == 0 => 0.3 * random(),
+            _ => 0.0,
+        })
+    };
+    let (positive, negative) = (columns(1.0), columns(-1.0));
+    let load = DVector::from_fn(contacts, |_, _| random());
+    let none = DMatrix::zeros(contacts, contacts);
+    ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
+}
+
+/// Entries uniform in [-1, 1] with a planted solution.
+fn planted_complementarity(contacts: usize, seed: u64) -> ModeProblem {
+    let mut random = random_numbers(seed);
+    let m = DMatrix::from_fn(contacts, contacts, |_, _| random());
+    let x = DVector::from_fn(contacts, |_, _| random());
+    let q = x.map(|x| (-x).max(0.0)) - &m * x.map(|x| x.max(0.0));
+    ModeProblem::from_linear_complementarity(&m, q).expect("shapes fit")
+}
+
+/// A diagonal and a coupling of low rank; two column versions.
+fn low_rank(contacts: usize, rank: usize) -> ModeProblem {
+    let mut random = random_numbers(2);
+    let left = DMatrix::from_fn(contacts, rank, |_, _| random());
+    let mut columns = |sign: f64| {
+        let diagonal = DVector::from_fn(contacts, |_, _| sign + 0.3 * random());
+        let right = DMatrix::from_fn(rank, contacts, |_, _| 2.0 * random() / (contacts as f64).sqrt());
+        DMatrix::from_diagonal(&diagonal) + &left * right
+    };
+    let (positive, negative) = (columns(1.0), columns(-1.0));
+    let load = DVector::from_fn(contacts, |_, _| random());
+    let none = DMatrix::zeros(contacts, contacts);
+    ModeProblem::new(positive, negative, none.clone(), none, load).expect("shapes fit")
+}
+
+/// Every pattern is tried.
+#[divan::bench(args = [2, 3, 5, 8])]
+fn complementarity_small(bencher: Bencher<'_, '_>, contacts: usize) {
+    let problem = planted_complementarity(contacts, 1);
+    bencher.bench_local(|| solve(&problem));
+}
+
+/// The same within rounding of the data.
+#[divan::bench(args = [2, 3, 5, 8])]
+fn complementarity_small_within_bounds(bencher: Bencher<'_, '_>, contacts: usize) {
+    let problem = planted_complementarity(contacts, 1);
+    let problem = IntervalModeProblem::widened(&problem, 1e-15).expect("a sensible radius");
+    let options = SearchOptions::default();
+    bencher.bench_local(|| search(&problem, &options, &mut |_| ControlFlow::Continue(())));
+}
+
+/// What proofs add: compare with and without them.
+#[divan::bench(args = [true, false], sample_count = 20, sample_size = 1)]
+fn complementarity_20_certified(bencher: Bencher<'_, '_>, certify: bool) {
+    let problem = planted_complementarity(20, 1);
+    let options = SearchOptions { certify, ..SearchOptions::default() };
+    bencher.bench_local(|| search(&problem, &options, &mut |_| ControlFlow::Continue(())));
+}
+
+#[divan::bench(args = [1, 2, 3, 4], sample_count = 5, sample_size = 1)]
+fn planted_24_strength_1_5(bencher: Bencher<'_, '_>, seed: u64) {
+    let problem = planted_blocks(24, 24, 1.5, seed);
+    bencher.bench_local(|| solve(&problem));
+}
+
+#[divan::bench(args = [1, 2, 3], sample_count = 1, sample_size = 1)]
+fn planted_40_strength_1(bencher: Bencher<'_, '_>, seed: u64) {
+    let problem = planted_blocks(40, 40, 1.0, seed);
+    bencher.bench_local(|| solve(&problem));
+}
+
+#[divan::bench(args = [1, 2, 3], sample_count = 1, sample_size = 1)]
+fn complementarity_40(bencher: Bencher<'_, '_>, seed: u64) {
+    let problem = planted_complementarity(40, seed);
+    bencher.bench_local(|| solve(&problem));
+}
+
+#[divan::bench(args = [100, 200, 400], sample_count = 3, sample_size = 1)]
+fn planted_strength_0_3(bencher: Bencher<'_, '_>, contacts: usize) {
+    let problem = planted_blocks(contacts, contacts, 0.3, 1);
+    bencher.bench_local(|| solve(&problem));
+}
+
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn independent_groups_1000(bencher: Bencher<'_, '_>) {
+    let problem = planted_blocks(1000, 10, 1.0, 1);
+    bencher.bench_local(|| solve(&problem));
+}
+
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn chained_groups_1000(bencher: Bencher<'_, '_>) {
+    let problem = chained_blocks(1000, 0.5);
+    bencher.bench_local(|| solve(&problem));
+}
+
+#[divan::bench(args = [1, 2, 3], sample_count = 3, sample_size = 1)]
+fn low_rank_300(bencher: Bencher<'_, '_>, rank: usize) {
+    let problem = low_rank(300, rank);
+    bencher.bench_local(|| solve(&problem));
+}

@@ -1,0 +1,287 @@
+//! The proven outcome of one pattern.
+
+use nalgebra::DVector;
+
+use super::data::ProblemView;
+use super::elimination::IntegerSystem;
+use super::enclosure::ApproximateInverse;
+use super::exact::ExactSolution;
+use super::polyhedron::ExactSet;
+use super::system::{BoundedVector, PatternSystem};
+use crate::interval::{Interval, Sign};
+use crate::ContactState;
+
+/// Vertices and directions tried, at most, to describe what a singular pattern admits.
+const BASES: u64 = 20_000;
+
+/// What one pattern admits. `unknowns` has one entry per contact: `y_k`, or the share `lambda_k` of a
+/// contact in its gap.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Decision {
+    /// `D != 0` and one solution, with all `y_k > 0` and `0 < lambda_k < 1`.
+    Solution {
+        /// Encloses the solution (for every value within the bounds of the data).
+        unknowns: Vec<Interval>,
+        /// The sign of `D`: `Negative` or `Positive`.
+        determinant: Sign,
+    },
+    /// `D != 0`, and this contact has `y_k < 0`, or `lambda_k` outside of 0 to 1.
+    NoSolution {
+        /// The contact, from 0.
+        contact: usize,
+    },
+    /// `D != 0` and one solution, some of whose `y_k` are exactly 0, or `lambda_k` exactly 0 or 1.
+    Boundary {
+        /// Encloses the solution.
+        unknowns: Vec<Interval>,
+        /// Contacts with `y_k = 0` or `lambda_k = 0`.
+        zero: Vec<usize>,
+        /// Contacts with `lambda_k = 1`.
+        full_share: Vec<usize>,
+        /// The sign of `D`: `Negative` or `Positive`.
+        determinant: Sign,
+    },
+    /// `D = 0`.
+    Singular {
+        /// The admissible solutions.
+        set: ExactSet,
+    },
+    /// Data within bounds only: the outcome differs between values within them, or that it does not
+    /// could not be proved. It is on the boundary within the enclosure.
+    Undecided {
+        /// Encloses the solution for every value within the bounds; none if `D = 0` could not be
+        /// ruled out.
+        unknowns: Option<Vec<Interval>>,
+        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where
+        /// `unknowns` is none.
+        in_doubt: Vec<usize>,
+    },
+}
+
+/// The arithmetic that a decision took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Precision {
+    /// `f64` with bounds of rounding errors.
+    Double,
+    /// Residuals with twice the digits.
+    DoubleDouble,
+    /// Rational numbers.
+    Rational,
+}
+
+/// What [`decide`] returns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// The outcome.
+    pub decision: Decision,
+    /// The arithmetic that led to it.
+    pub precision: Precision,
+}
+
+/// How many patterns were decided in which arithmetic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DecisionCounts {
+    /// Decided in `f64` with bounds of rounding errors.
+    pub double: u64,
+    /// Decided with residuals of twice the digits.
+    pub double_double: u64,
+    /// Decided in rational numbers.
+    pub rational: u64,
+    /// Not decided, for data within bounds.
+    pub undecided: u64,
+}
+
+impl DecisionCounts {
+    /// Counts one more verdict.
+    pub fn record(&mut self, verdict: &Verdict) {
+        match (&verdict.decision, verdict.precision) {
+            (Decision::Undecided { .. }, _) => self.undecided += 1,
+            (_, Precision::Double) => self.double += 1,
+            (_, Precision::DoubleDouble) => self.double_double += 1,
+            (_, Precision::Rational) => self.rational += 1,
+        }
+    }
+
+    /// The sum of both counts, for results of several threads.
+    #[must_use]
+    pub fn merged(self, other: Self) -> Self {
+        Self {
+            double: self.double + other.double,
+            double_double: self.double_double + other.double_double,
+            rational: self.rational + other.rational,
+            undecided: self.undecided + other.undecided,
+        }
+    }
+}
+
+/// Decides what one pattern of a mode problem admits, by proof.
+///
+/// Solves `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}` for the states of `pattern`, one per
+/// contact (theory, section 3), and encloses the solution rigorously (see [`enclose_solution`]). Where
+/// a sign stays in doubt the residual is computed with twice the digits, and after that an exact
+/// problem is solved in rational numbers, so that it is never left undecided. Units are those of the
+/// problem. For an exact problem the enclosure of a solution is about as narrow as `f64` allows, unless
+/// the pattern is close to singular.
+///
+/// [`enclose_solution`]: super::enclose_solution
+///
+/// # Panics
+/// If `pattern` does not have one state per contact.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use slideway_modes::certificate::{decide, Decision};
+/// use slideway_modes::{ContactState, ModeProblem};
+/// // 0.1 + 0.2 is not 0.3 in f64: the problem for these very numbers has y_1 < 0, not y_1 = 0.
+/// let problem = ModeProblem::from_linear_complementarity(&dmatrix![1.0], dvector![0.1 + 0.2 - 0.3])?;
+/// let verdict = decide(&problem, &[ContactState::Positive]);
+/// assert_eq!(verdict.decision, Decision::NoSolution { contact: 0 });
+/// # Ok::<(), slideway_modes::ModeProblemError>(())
+/// ```
+pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState]) -> Verdict {
+    let Some(verdict) = decide_while(problem.into(), pattern, &mut || true) else {
+        unreachable!("nothing stops it")
+    };
+    verdict
+}
+
+/// [`decide`], none once `proceed` is false, which is asked now and then: rational numbers may take long.
+pub(in crate) fn decide_while(
+    problem: ProblemView<'_>,
+    pattern: &[ContactState],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Verdict> {
+    assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
+    let mut enclosure = None;
+    if let Some(system) = PatternSystem::new(problem, pattern)
+        && let Some(mut approximation) = Approximation::new(&system)
+    {
+        for precision in [Precision::Double, Precision::DoubleDouble] {
+            enclosure = approximation.improve(precision).or(enclosure);
+            match enclosure.as_ref().and_then(|found| found.decide(pattern)) {
+                Some(decision @ Decision::Solution { .. }) if precision == Precision::Double => {
+                    return Some(Verdict { decision: approximation.sharpened(decision), precision });
+                }
+                Some(decision) => return Some(Verdict { decision, precision }),
+                None => {}
+            }
+        }
+    }
+    if problem.exact {
+        let decision = decide_exactly(problem, pattern, proceed)?;
+        return Some(Verdict { decision, precision: Precision::Rational });
+    }
+    let in_doubt = enclosure.as_ref().map_or_else(Vec::new, |found| found.in_doubt(pattern));
+    let unknowns = enclosure.map(|found| found.unknowns);
+    Some(Verdict { decision: Decision::Undecided { unknowns, in_doubt }, precision: Precision::DoubleDouble })
+}
+
+/// A solution that gets better step by step.
+struct Approximation<'a> {
+    system: &'a PatternSystem<'a>,
+    inverse: ApproximateInverse,
+    unknowns: DVector<f64>,
+}
+
+impl<'a> Approximation<'a> {
+    fn new(system: &'a PatternSystem<'a>) -> Option<Self> {
+        let inverse = ApproximateInverse::new(&system.matrix)?;
+        let unknowns = inverse.apply(system.right_hand_side());
+        Some(Self { system, inverse, unknowns })
+    }
+
+    /// One step of iterative refinement, and the enclosure that comes with it.
+    fn improve(&mut self, precision: Precision) -> Option<Enclosure> {
+        let residual = match precision {
+            Precision::Double => self.system.residual(&self.unknowns),
+            Precision::DoubleDouble | Precision::Rational => self.system.accurate_residual(&self.unknowns),
+        };
+        let BoundedVector { centre, bound } = self.inverse.correction(&residual)?;
+        let terms = self.unknowns.iter().zip(&centre).zip(&bound);
+        let unknowns = terms.map(|((&value, &correction), &bound)| {
+            Interval::point(value) + Interval::around(correction, bound)
+        });
+        let enclosure =
+            Enclosure { unknowns: unknowns.collect(), determinant: self.inverse.determinant_sign() };
+        self.unknowns += centre;
+        Some(enclosure)
+    }
+}
+
+impl Approximation<'_> {
+    /// The same solution within narrower bounds, if there are such.
+    fn sharpened(&mut self, solution: Decision) -> Decision {
+        let Decision::Solution { unknowns, determinant } = solution else { return solution };
+        let Some(sharper) = self.improve(Precision::DoubleDouble) else {
+            return Decision::Solution { unknowns, determinant };
+        };
+        let both = |(one, other): (&Interval, &Interval)| one.intersection(*other).unwrap_or(*one);
+        let unknowns = unknowns.iter().zip(&sharper.unknowns).map(both).collect();
+        Decision::Solution { unknowns, determinant }
+    }
+}
+
+/// Bounds of the solution of a regular pattern's equations.
+struct Enclosure {
+    unknowns: Vec<Interval>,
+    determinant: Sign,
+}
+
+impl Enclosure {
+    /// The decision, if no sign is in doubt.
+    fn decide(&self, pattern: &[ContactState]) -> Option<Decision> {
+        let outside = |(contact, value): (usize, &Interval)| {
+            let beyond = pattern[contact] == ContactState::Gap && value.lower() > 1.0;
+            value.upper() < 0.0 || beyond
+        };
+        if let Some(contact) = self.unknowns.iter().enumerate().position(outside) {
+            return Some(Decision::NoSolution { contact });
+        }
+        let strictly_inside = |(contact, value): (usize, &Interval)| {
+            value.lower() > 0.0 && (pattern[contact] != ContactState::Gap || value.upper() < 1.0)
+        };
+        self.unknowns
+            .iter()
+            .enumerate()
+            .all(strictly_inside)
+            .then(|| Decision::Solution { unknowns: self.unknowns.clone(), determinant: self.determinant })
+    }
+
+    fn in_doubt(&self, pattern: &[ContactState]) -> Vec<usize> {
+        let doubtful = |&contact: &usize| {
+            let value = self.unknowns[contact];
+            value.lower() <= 0.0 || pattern[contact] == ContactState::Gap && value.upper() >= 1.0
+        };
+        (0..pattern.len()).filter(doubtful).collect()
+    }
+}
+
+fn decide_exactly(
+    problem: ProblemView<'_>,
+    pattern: &[ContactState],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Decision> {
+    let contacts = pattern.len();
+    let echelon = IntegerSystem::new(problem.centre, pattern).eliminate_while(proceed)?;
+    if !echelon.is_regular() {
+        let set = ExactSet::new(&echelon, pattern, BASES, proceed);
+        return proceed().then_some(Decision::Singular { set });
+    }
+    let solution = ExactSolution::new(&echelon, contacts);
+    let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;
+    let outside = |&contact: &usize| {
+        solution.sign_above(contact, false) == Sign::Negative
+            || in_gap(contact) && solution.sign_above(contact, true) == Sign::Positive
+    };
+    if let Some(contact) = (0..contacts).find(outside) {
+        return Some(Decision::NoSolution { contact });
+    }
+    let is_at = |contact: usize, one: bool| solution.sign_above(contact, one) == Sign::Zero;
+    let zero: Vec<usize> = (0..contacts).filter(|&k| is_at(k, false)).collect();
+    let full_share: Vec<usize> = (0..contacts).filter(|&k| in_gap(k) && is_at(k, true)).collect();
+    let (unknowns, determinant) = (solution.enclosures(), echelon.determinant_sign());
+    if zero.is_empty() && full_share.is_empty() {
+        return Some(Decision::Solution { unknowns, determinant });
+    }
+    Some(Decision::Boundary { unknowns, zero, full_share, determinant })
+}

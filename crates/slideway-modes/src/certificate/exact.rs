@@ -1,0 +1,174 @@
+//! The exact outcome of one pattern, in rational numbers.
+
+use std::cmp::Ordering;
+
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+
+use super::data::ProblemView;
+use super::elimination::{Echelon, IntegerSystem};
+use super::polyhedron::ExactSet;
+use crate::interval::{Interval, Sign};
+use crate::{ContactState, ModeProblem};
+
+/// What the equations of one pattern admit, exactly.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExactOutcome {
+    /// `D != 0`: one solution of the equations, admissible or not.
+    Regular {
+        /// The sign of `D`: `Negative` or `Positive`.
+        determinant: Sign,
+        /// `y_k`, or the share `lambda_k` of a contact in its gap.
+        unknowns: Vec<RBig>,
+    },
+    /// `D = 0`, and these solutions are admissible.
+    Singular(ExactSet),
+}
+
+/// Solves the equations of one pattern in rational arithmetic, for the numbers as they are given.
+///
+/// `unknowns` are in the order of the contacts. If the pattern is singular, its set of admissible
+/// solutions (`y >= 0`, `0 <= lambda <= 1`) is described by at most `bases` trials of a vertex or
+/// direction; where more were needed it is [`ExactSet::NotComputed`]. Numbers grow to about
+/// `53 r` bits, and the work with about `r^4` to `r^5`.
+///
+/// # Panics
+/// If the pattern does not have one state per contact.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use slideway_modes::certificate::{solve_exactly, ExactOutcome, ExactSet};
+/// use slideway_modes::{ContactState, ModeProblem};
+/// let problem =
+///     ModeProblem::from_linear_complementarity(&dmatrix![1.0, -1.0; -1.0, 1.0], dvector![-1.0, 1.0])?;
+/// let outcome = solve_exactly(&problem, &[ContactState::Positive; 2], 1000);
+/// assert!(matches!(outcome, ExactOutcome::Singular(ExactSet::Ray { .. })));
+/// # Ok::<(), slideway_modes::ModeProblemError>(())
+/// ```
+pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64) -> ExactOutcome {
+    assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
+    let echelon = IntegerSystem::new(problem, pattern).eliminate();
+    if echelon.is_regular() {
+        let unknowns = echelon.solve_reduced(pattern.len());
+        return ExactOutcome::Regular { determinant: echelon.determinant_sign(), unknowns };
+    }
+    ExactOutcome::Singular(ExactSet::new(&echelon, pattern, bases, &mut || true))
+}
+
+/// Solves the equations of one pattern for some contacts, with those of whatever acts on them and no others.
+///
+/// Returns these contacts in increasing order, and the outcome in that order; none if they are more than `most`.
+/// See [`solve_exactly`].
+///
+/// # Panics
+/// If the pattern does not have one state per contact.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use slideway_modes::certificate::{solve_part_exactly, ExactOutcome};
+/// use slideway_modes::{ContactState, ModeProblem};
+/// // The second pair does not act on the first.
+/// let m = dmatrix![2.0, 0.0; 1.0, 1.0];
+/// let problem = ModeProblem::from_linear_complementarity(&m, dvector![-4.0, -1.0])?;
+/// let pattern = [ContactState::Positive, ContactState::Negative];
+/// let (contacts, outcome) = solve_part_exactly(&problem, &pattern, &[0], 48).expect("few contacts");
+/// assert_eq!(contacts, [0]);
+/// let ExactOutcome::Regular { unknowns, .. } = outcome else { panic!("D is not 0") };
+/// assert_eq!(unknowns[0].to_f64().value(), 2.0);
+/// # Ok::<(), slideway_modes::ModeProblemError>(())
+/// ```
+pub fn solve_part_exactly(
+    problem: &ModeProblem,
+    pattern: &[ContactState],
+    contacts: &[usize],
+    most: usize,
+) -> Option<(Vec<usize>, ExactOutcome)> {
+    let view = ProblemView::from(problem);
+    let mut part = contacts.to_vec();
+    let mut followed = 0;
+    while let Some(&row) = part.get(followed).filter(|_| part.len() <= most) {
+        let acting = (0..problem.contacts()).filter(|&contact| view.couples(contact, row));
+        let new: Vec<usize> = acting.filter(|contact| !part.contains(contact)).collect();
+        part.extend(new);
+        followed += 1;
+    }
+    if part.len() > most {
+        return None;
+    }
+    part.sort_unstable();
+    let alone = problem.restricted(&part, problem.right_hand_side()).ok()?;
+    let states: Vec<ContactState> = part.iter().map(|&contact| pattern[contact]).collect();
+    Some((part, solve_exactly(&alone, &states, 0)))
+}
+
+/// The sign of `D`.
+pub(in crate) fn determinant_sign(problem: &ModeProblem, pattern: &[ContactState]) -> Sign {
+    IntegerSystem::new(problem, pattern).eliminate().determinant_sign()
+}
+
+/// The signs that decide on a regular pattern, without fractions.
+pub(super) struct ExactSolution {
+    numerators: Vec<IBig>,
+    denominator: IBig,
+}
+
+impl ExactSolution {
+    pub(super) fn new(echelon: &Echelon, contacts: usize) -> Self {
+        let (numerators, denominator) = echelon.solve(contacts);
+        let positive = denominator > IBig::ZERO;
+        let numerators = if positive { numerators } else { numerators.into_iter().map(|n| -n).collect() };
+        Self { numerators, denominator: if positive { denominator } else { -denominator } }
+    }
+
+    /// The sign of unknown `contact` minus `offset` (0 or 1).
+    pub(super) fn sign_above(&self, contact: usize, one: bool) -> Sign {
+        let threshold = if one { &self.denominator } else { &IBig::ZERO };
+        match self.numerators[contact].cmp(threshold) {
+            Ordering::Less => Sign::Negative,
+            Ordering::Equal => Sign::Zero,
+            Ordering::Greater => Sign::Positive,
+        }
+    }
+
+    /// The narrowest intervals around the unknowns.
+    pub(super) fn enclosures(&self) -> Vec<Interval> {
+        let ratios = self.numerators.iter().map(|n| super::elimination::ratio(n.clone(), &self.denominator));
+        ratios.map(|value| Interval::around_ratio(&value)).collect()
+    }
+}
+
+impl Interval {
+    /// The middle; the least number on the interval's side of zero if that would be zero by underflow. So the sign
+    /// is that of what the interval encloses, and a number too large for `f64` is infinite.
+    pub(in crate) fn nonzero_middle(self) -> f64 {
+        match self.middle() {
+            0.0 if self.lower() == 0.0 => self.upper(),
+            0.0 if self.upper() == 0.0 => self.lower(),
+            middle => middle,
+        }
+    }
+
+    /// The narrowest interval with bounds in `f64` that holds a rational number.
+    ///
+    /// ```
+    /// use dashu_ratio::RBig;
+    /// use slideway_modes::certificate::Interval;
+    /// let third = Interval::around_ratio(&RBig::from_parts(1.into(), 3_u8.into()));
+    /// assert_eq!(third.lower().next_up(), third.upper());
+    /// ```
+    pub fn around_ratio(value: &RBig) -> Self {
+        let nearest = value.to_f64().value();
+        let side = match RBig::try_from(nearest) {
+            Ok(exact) => exact.cmp(value),
+            // It overflowed.
+            Err(_) if nearest > 0.0 => Ordering::Greater,
+            Err(_) => Ordering::Less,
+        };
+        let (lower, upper) = match side {
+            Ordering::Less => (nearest, nearest.next_up()),
+            Ordering::Equal => (nearest, nearest),
+            Ordering::Greater => (nearest.next_down(), nearest),
+        };
+        Self::new(lower, upper).unwrap_or(Self::REAL_LINE)
+    }
+}

@@ -1,0 +1,135 @@
+//! Matrices of intervals, and bounds of rounding errors in products of plain matrices.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::interval::{Interval, add_up};
+
+/// All real matrices that differ from `centre` by at most `radius`, entry by entry.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use slideway_modes::certificate::{Interval, IntervalMatrix};
+/// let mu = IntervalMatrix::from_bounds(&dmatrix![0.1], &dmatrix![0.15]).expect("bounds in order");
+/// assert!(mu.entry(0, 0).encloses(Interval::new(0.1, 0.15).expect("bounds in order")));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct IntervalMatrix {
+    centre: DMatrix<f64>,
+    radius: DMatrix<f64>,
+}
+
+impl IntervalMatrix {
+    /// The single matrix `centre`.
+    pub fn exact(centre: DMatrix<f64>) -> Self {
+        let radius = DMatrix::zeros(centre.nrows(), centre.ncols());
+        Self { centre, radius }
+    }
+
+    /// The matrices within `radius` of `centre`; none if shapes differ, a radius is negative, or an
+    /// entry is infinite or not a number.
+    pub fn around(centre: DMatrix<f64>, radius: DMatrix<f64>) -> Option<Self> {
+        let sensible = centre.shape() == radius.shape()
+            && centre.iter().all(|value| value.is_finite())
+            && radius.iter().all(|value| value.is_finite() && *value >= 0.0);
+        sensible.then_some(Self { centre, radius })
+    }
+
+    /// The matrices between two bounds; none if shapes differ, bounds are out of order, or an entry
+    /// is infinite or not a number. Centre and radius are rounded so that no matrix is lost.
+    pub fn from_bounds(lower: &DMatrix<f64>, upper: &DMatrix<f64>) -> Option<Self> {
+        let in_order = || lower.iter().zip(upper).all(|(low, high)| low <= high);
+        if lower.shape() != upper.shape() || !in_order() {
+            return None;
+        }
+        let centre = lower.zip_map(upper, |low, high| (0.5 * low + 0.5 * high).clamp(low, high));
+        let radius = DMatrix::from_fn(lower.nrows(), lower.ncols(), |row, column| {
+            let at = (row, column);
+            add_up(upper[at], -centre[at]).max(add_up(centre[at], -lower[at]))
+        });
+        Self::around(centre, radius)
+    }
+
+    /// The matrix in the middle.
+    pub fn centre(&self) -> &DMatrix<f64> {
+        &self.centre
+    }
+
+    /// The largest difference from [`centre`](Self::centre), entry by entry.
+    pub fn radius(&self) -> &DMatrix<f64> {
+        &self.radius
+    }
+
+    /// Rows and columns.
+    pub fn shape(&self) -> (usize, usize) {
+        self.centre.shape()
+    }
+
+    /// One entry.
+    ///
+    /// # Panics
+    /// If there is no such entry.
+    pub fn entry(&self, row: usize, column: usize) -> Interval {
+        Interval::around(self.centre[(row, column)], self.radius[(row, column)])
+    }
+
+    /// The transposed matrices.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        Self { centre: self.centre.transpose(), radius: self.radius.transpose() }
+    }
+
+    /// The matrices whose entries lie in the given intervals; none if one of these is unbounded.
+    pub fn from_intervals(entries: &DMatrix<Interval>) -> Option<Self> {
+        Self::from_bounds(&entries.map(Interval::lower), &entries.map(Interval::upper))
+    }
+}
+
+/// `terms eps`: above `2 gamma_n = 2 n u / (1 - n u)`, with `u = eps / 2` the unit roundoff, for
+/// `n = terms - 4`. So the rounding error of a sum of `n` products, in any order and with or without
+/// fused operations, is at most this times the sum of absolute values, itself rounded (underflow
+/// apart).
+pub(super) fn rounding(terms: usize) -> f64 {
+    (terms + 4) as f64 * f64::EPSILON
+}
+
+/// An upper bound of `matrix vector` where neither has a negative entry. Every entry is positive.
+pub(super) fn upper_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
+    let factor = 1.0 + 2.0 * rounding(matrix.ncols());
+    (matrix * vector).map(|value| value * factor + f64::MIN_POSITIVE)
+}
+
+/// An upper bound of a sum of non-negative vectors.
+pub(super) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
+    let factor = 1.0 + 2.0 * rounding(parts.len());
+    DVector::from_fn(parts[0].len(), |row, _| parts.iter().map(|part| part[row]).sum::<f64>() * factor)
+}
+
+/// The product of a plain matrix and an interval matrix; entries that overflow are not finite.
+///
+/// `|fl(A B) - A B| <= gamma_n |A| |B|`, and a radius of `B` adds `|A| rad(B)`.
+pub(super) fn product(left: &DMatrix<f64>, right: &IntervalMatrix) -> IntervalMatrix {
+    let terms = left.ncols();
+    let sizes = left.abs();
+    let factor = 1.0 + 2.0 * rounding(terms);
+    let rounded = &sizes * right.centre.abs() * rounding(terms);
+    let spread = sizes * &right.radius;
+    let radius = (rounded + spread).map(|value| value * factor + f64::MIN_POSITIVE);
+    IntervalMatrix { centre: left * &right.centre, radius }
+}
+
+/// An enclosure of the inner product of plain vectors, entry `k` of the second one being known only
+/// to lie within `radius[k]`; none of the operands may be longer than the others.
+pub(super) fn inner_product(one: &[f64], other: &[f64], radius: Option<&[f64]>) -> Interval {
+    let (mut sum, mut size) = (0.0, 0.0);
+    for (a, b) in one.iter().zip(other) {
+        sum += a * b;
+        size += (a * b).abs();
+    }
+    let terms = one.len();
+    let mut bound = size * rounding(terms) + terms as f64 * f64::MIN_POSITIVE;
+    if let Some(radius) = radius {
+        let spread: f64 = one.iter().zip(radius).map(|(a, wide)| a.abs() * wide).sum();
+        bound += spread * (1.0 + 2.0 * rounding(terms)) + terms as f64 * f64::MIN_POSITIVE;
+    }
+    Interval::around(sum, bound * (1.0 + 4.0 * f64::EPSILON))
+}

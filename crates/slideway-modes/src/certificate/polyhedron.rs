@@ -1,0 +1,305 @@
+//! What a singular pattern admits, exactly.
+
+use std::collections::HashSet;
+
+use dashu_ratio::RBig;
+use nalgebra::DVector;
+
+use super::elimination::Echelon;
+use crate::interval::Interval;
+use crate::{ContactState, SolutionSet};
+
+/// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1`
+/// for a contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExactSet {
+    /// No solution: locking of the mode.
+    Empty,
+    /// One solution.
+    Point(Vec<RBig>),
+    /// All solutions between two ends.
+    Segment {
+        /// One end.
+        from: Vec<RBig>,
+        /// The other end.
+        to: Vec<RBig>,
+    },
+    /// All `from + t direction`, `t >= 0`.
+    Ray {
+        /// The end of the ray.
+        from: Vec<RBig>,
+        /// The direction, its largest component being 1.
+        direction: Vec<RBig>,
+    },
+    /// Convex combinations of the vertices plus non-negative combinations of the directions.
+    Polytope {
+        /// The vertices.
+        vertices: Vec<Vec<RBig>>,
+        /// Extreme directions, the largest component of each being 1.
+        directions: Vec<Vec<RBig>>,
+    },
+    /// Describing the set takes more work than was allowed.
+    NotComputed,
+}
+
+impl ExactSet {
+    /// The vertices of the set, none if it is empty or was not computed.
+    pub fn vertices(&self) -> Vec<&[RBig]> {
+        match self {
+            Self::Empty | Self::NotComputed => Vec::new(),
+            Self::Point(point) => vec![point],
+            Self::Segment { from, to } => vec![from, to],
+            Self::Ray { from, .. } => vec![from],
+            Self::Polytope { vertices, .. } => vertices.iter().map(Vec::as_slice).collect(),
+        }
+    }
+
+    /// The extreme directions of the set, none if it is bounded or was not computed.
+    pub fn directions(&self) -> Vec<&[RBig]> {
+        match self {
+            Self::Ray { direction, .. } => vec![direction],
+            Self::Polytope { directions, .. } => directions.iter().map(Vec::as_slice).collect(),
+            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
+        }
+    }
+
+    /// The signed normal forces `N_k = sigma_k y_k` of the set, rounded; shares are left out, so that
+    /// points that differ only in them become one.
+    ///
+    /// For a pattern with several contacts in their gaps the vertices may include points that are no
+    /// corner once the shares are left out.
+    pub fn normal_forces(&self, pattern: &[ContactState]) -> SolutionSet {
+        if *self == Self::NotComputed {
+            return SolutionSet::NotComputed;
+        }
+        let mut vertices = distinct(self.vertices().into_iter().map(|point| signed_forces(point, pattern)));
+        let mut directions = distinct(self.directions().into_iter().filter_map(|direction| {
+            let forces = signed_forces(direction, pattern);
+            scaled_to_one(forces)
+        }));
+        let rounded = |point: Vec<RBig>| DVector::from_iterator(point.len(), point.iter().map(nearest));
+        match (vertices.len(), directions.len()) {
+            (0, _) => SolutionSet::Empty,
+            (1, 0) => SolutionSet::Point(rounded(vertices.swap_remove(0))),
+            (2, 0) => SolutionSet::Segment {
+                to: rounded(vertices.swap_remove(1)),
+                from: rounded(vertices.swap_remove(0)),
+            },
+            (1, 1) => SolutionSet::Ray {
+                from: rounded(vertices.swap_remove(0)),
+                direction: rounded(directions.swap_remove(0)),
+            },
+            _ => SolutionSet::Polytope {
+                vertices: vertices.into_iter().map(rounded).collect(),
+                directions: directions.into_iter().map(rounded).collect(),
+            },
+        }
+    }
+
+    /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once `proceed`
+    /// is false.
+    pub(super) fn new(
+        echelon: &Echelon,
+        pattern: &[ContactState],
+        bases: u64,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Self {
+        if !echelon.is_consistent() {
+            return Self::Empty;
+        }
+        let limits = Limits::new(echelon, pattern);
+        // The set holds no line, so it is empty exactly if it has no vertex.
+        let Some(Corners { mut vertices, mut directions }) = limits.corners(bases, proceed) else {
+            return Self::NotComputed;
+        };
+        match (vertices.len(), directions.len()) {
+            (0, _) => Self::Empty,
+            (1, 0) => Self::Point(vertices.swap_remove(0)),
+            (2, 0) => Self::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
+            (1, 1) => Self::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
+            _ => Self::Polytope { vertices, directions },
+        }
+    }
+}
+
+/// Vertices and extreme directions.
+struct Corners {
+    vertices: Vec<Vec<RBig>>,
+    directions: Vec<Vec<RBig>>,
+}
+
+/// The solutions of the independent equations, `z_k = constant_k + sum_f coefficient_kf t_f`, where
+/// the parameters `t` are the unknowns without a pivot, and the limits `z_k >= 0`, `lambda_k <= 1`.
+struct Limits {
+    parameters: usize,
+    /// Constant first, then the coefficients of the parameters; one row per unknown.
+    unknowns: Vec<Vec<RBig>>,
+    /// Rows that must not be negative: all unknowns, and `1 - lambda_k`.
+    rows: Vec<Vec<RBig>>,
+}
+
+impl Limits {
+    fn new(echelon: &Echelon, pattern: &[ContactState]) -> Self {
+        let contacts = pattern.len();
+        let free: Vec<usize> = (0..contacts).filter(|column| !echelon.pivots().contains(column)).collect();
+        let mut unknowns = vec![vec![RBig::ZERO; free.len() + 1]; contacts];
+        for (value, &contact) in echelon.solve_reduced(contacts).into_iter().zip(echelon.pivots()) {
+            unknowns[contact][0] = value;
+        }
+        for (parameter, &column) in free.iter().enumerate() {
+            unknowns[column][parameter + 1] = RBig::ONE;
+            for (value, &contact) in echelon.solve_reduced(column).into_iter().zip(echelon.pivots()) {
+                unknowns[contact][parameter + 1] = -value;
+            }
+        }
+        let mut rows = unknowns.clone();
+        for (share, _) in unknowns.iter().zip(pattern).filter(|(_, state)| **state == ContactState::Gap) {
+            let mut complement: Vec<RBig> = share.iter().map(|value| -value.clone()).collect();
+            complement[0] += RBig::ONE;
+            rows.push(complement);
+        }
+        Self { parameters: free.len(), unknowns, rows }
+    }
+
+    /// Vertices and extreme directions; none if that takes more than `bases` trials, or once `proceed` is false.
+    fn corners(&self, bases: u64, proceed: &mut dyn FnMut() -> bool) -> Option<Corners> {
+        let (rows, parameters) = (self.rows.len(), self.parameters);
+        let work = binomial(rows, parameters).saturating_add(binomial(rows, parameters - 1));
+        if work > bases {
+            return None;
+        }
+        let (mut vertices, mut directions) = (Vec::new(), Vec::new());
+        for tight in combinations(rows, parameters) {
+            vertices.extend(proceed().then(|| self.vertex(&tight))?);
+        }
+        for tight in combinations(rows, parameters - 1) {
+            directions.extend(proceed().then(|| self.direction(&tight))?);
+        }
+        Some(Corners {
+            vertices: distinct(vertices.into_iter()),
+            directions: distinct(directions.into_iter()),
+        })
+    }
+
+    /// The point at which the given limits are reached, if it is one point and within all others.
+    fn vertex(&self, tight: &[usize]) -> Option<Vec<RBig>> {
+        let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
+        let reduced = Reduced::new(equations, self.parameters);
+        if reduced.columns.len() < self.parameters {
+            return None;
+        }
+        let parameters: Vec<RBig> = reduced.rows.iter().map(|row| -row[0].clone()).collect();
+        let admissible = self.rows.iter().all(|row| evaluate(row, &RBig::ONE, &parameters) >= RBig::ZERO);
+        admissible.then(|| self.unknowns.iter().map(|row| evaluate(row, &RBig::ONE, &parameters)).collect())
+    }
+
+    /// The direction along which the given limits stay reached, if it is one and leads past no limit.
+    fn direction(&self, tight: &[usize]) -> Option<Vec<RBig>> {
+        let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
+        let reduced = Reduced::new(equations, self.parameters);
+        if reduced.columns.len() + 1 < self.parameters {
+            return None;
+        }
+        let free = (0..self.parameters).find(|column| !reduced.columns.contains(column))?;
+        let mut parameters = vec![RBig::ZERO; self.parameters];
+        parameters[free] = RBig::ONE;
+        for (row, &column) in reduced.rows.iter().zip(&reduced.columns) {
+            parameters[column] = -row[free + 1].clone();
+        }
+        for _ in 0..2 {
+            if self.rows.iter().all(|row| evaluate(row, &RBig::ZERO, &parameters) >= RBig::ZERO) {
+                let direction =
+                    self.unknowns.iter().map(|row| evaluate(row, &RBig::ZERO, &parameters)).collect();
+                return scaled_to_one(direction);
+            }
+            parameters = parameters.into_iter().map(|value| -value).collect();
+        }
+        None
+    }
+}
+
+/// Equations `row[0] + sum row[f + 1] t_f = 0` after Gauss-Jordan elimination; row `i` determines
+/// parameter `columns[i]`.
+struct Reduced {
+    rows: Vec<Vec<RBig>>,
+    columns: Vec<usize>,
+}
+
+impl Reduced {
+    fn new(mut rows: Vec<Vec<RBig>>, parameters: usize) -> Self {
+        let mut columns = Vec::new();
+        for column in 0..parameters {
+            let rank = columns.len();
+            let Some(found) = (rank..rows.len()).find(|&row| !rows[row][column + 1].is_zero()) else {
+                continue;
+            };
+            rows.swap(found, rank);
+            let pivot = rows[rank][column + 1].clone();
+            for value in &mut rows[rank] {
+                *value /= &pivot;
+            }
+            let pivot_row = rows[rank].clone();
+            for (_, row) in rows.iter_mut().enumerate().filter(|(at, _)| *at != rank) {
+                let factor = row[column + 1].clone();
+                if !factor.is_zero() {
+                    row.iter_mut()
+                        .zip(&pivot_row)
+                        .for_each(|(value, eliminated)| *value -= &factor * eliminated);
+                }
+            }
+            columns.push(column);
+        }
+        rows.truncate(columns.len());
+        Self { rows, columns }
+    }
+}
+
+fn evaluate(row: &[RBig], constant_factor: &RBig, parameters: &[RBig]) -> RBig {
+    let terms = row[1..].iter().zip(parameters).filter(|(a, b)| !a.is_zero() && !b.is_zero());
+    terms.fold(&row[0] * constant_factor, |sum, (coefficient, parameter)| sum + coefficient * parameter)
+}
+
+fn signed_forces(point: &[RBig], pattern: &[ContactState]) -> Vec<RBig> {
+    let signed = |(value, state): (&RBig, &ContactState)| match state {
+        ContactState::Positive => value.clone(),
+        ContactState::Negative => -value.clone(),
+        ContactState::Gap => RBig::ZERO,
+    };
+    point.iter().zip(pattern).map(signed).collect()
+}
+
+/// Divided by the size of the largest component; none if all are zero.
+fn scaled_to_one(direction: Vec<RBig>) -> Option<Vec<RBig>> {
+    let size = |value: &RBig| if *value < RBig::ZERO { -value.clone() } else { value.clone() };
+    let largest = direction.iter().map(size).max().filter(|largest| !largest.is_zero())?;
+    Some(direction.into_iter().map(|value| value / &largest).collect())
+}
+
+fn nearest(value: &RBig) -> f64 {
+    Interval::around_ratio(value).nonzero_middle()
+}
+
+fn distinct(points: impl Iterator<Item = Vec<RBig>>) -> Vec<Vec<RBig>> {
+    let mut known = HashSet::new();
+    points.filter(|point| known.insert(point.clone())).collect()
+}
+
+/// All increasing lists of `chosen` indices below `count`.
+fn combinations(count: usize, chosen: usize) -> impl Iterator<Item = Vec<usize>> {
+    let first: Option<Vec<usize>> = (chosen <= count).then(|| (0..chosen).collect());
+    std::iter::successors(first, move |last| {
+        let at = (0..chosen).rev().find(|&at| last[at] < count - chosen + at)?;
+        let mut next = last.clone();
+        for (offset, index) in next[at..].iter_mut().enumerate() {
+            *index = last[at] + 1 + offset;
+        }
+        Some(next)
+    })
+}
+
+fn binomial(count: usize, chosen: usize) -> u64 {
+    if chosen > count {
+        return 0;
+    }
+    (0..chosen as u64).fold(1_u64, |product, at| product.saturating_mul(count as u64 - at) / (at + 1))
+}

@@ -1,0 +1,110 @@
+//! How many solutions there are along a line of parameters.
+
+use nalgebra::DVector;
+
+use super::{Existence, ModeInterval, ModeProblemLine};
+use crate::solutions::ContactState;
+
+/// Ends closer than this share of the larger one are the same.
+const SAME_END: f64 = 1e-10;
+
+/// An interval of the parameter with the same number of solutions throughout.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CountInterval {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends; possibly infinite.
+    pub to: f64,
+    /// Number of solutions.
+    pub solutions: usize,
+    /// Number of preload-gap states, which do not count as solutions.
+    pub gap_states: usize,
+}
+
+/// The number of solutions in each interval of a range, neighbours with equal numbers joined.
+///
+/// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same solution,
+/// as they do when a normal force is zero throughout.
+pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
+    let same = |next: f64, kept: f64| next.is_finite() && next - kept <= SAME_END * next.abs();
+    let cells = cells(existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]).chain(range), same);
+    counts_in(existence, &cells, &|modes, at| line.distinct(modes, at))
+}
+
+/// The number of solutions in each of several cells, between whose ends no mode begins or ends; neighbours with equal
+/// numbers are joined. `distinct` has the number of different solutions of some modes at a place.
+pub fn counts_in(
+    existence: &Existence,
+    cells: &[[f64; 2]],
+    distinct: &dyn Fn(&[&ModeInterval], f64) -> usize,
+) -> Vec<CountInterval> {
+    let mut intervals: Vec<CountInterval> = Vec::new();
+    for &cell in cells {
+        let inside = middle(cell);
+        let present: Vec<&ModeInterval> =
+            existence.modes.iter().filter(|mode| mode.from.at < inside && inside < mode.to.at).collect();
+        let (gaps, pressed): (Vec<_>, Vec<_>) =
+            present.into_iter().partition(|mode| mode.pattern.contains(&ContactState::Gap));
+        let [solutions, gap_states] = [pressed, gaps].map(|modes| distinct(&modes, inside));
+        match intervals.last_mut() {
+            Some(last)
+                if last.to == cell[0] && (last.solutions, last.gap_states) == (solutions, gap_states) =>
+            {
+                last.to = cell[1];
+            }
+            _ => intervals.push(CountInterval { from: cell[0], to: cell[1], solutions, gap_states }),
+        }
+    }
+    intervals
+}
+
+/// The cells between places in any order; those that are the same are one.
+pub fn cells(places: impl Iterator<Item = f64>, same: impl Fn(f64, f64) -> bool) -> Vec<[f64; 2]> {
+    let mut places: Vec<f64> = places.collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|next, kept| *next == *kept || same(*next, *kept));
+    places.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// A place inside a cell.
+fn middle([from, to]: [f64; 2]) -> f64 {
+    if to.is_infinite() { 2.0 * from } else { f64::midpoint(from, to) }
+}
+
+impl ModeProblemLine {
+    /// Number of different solutions of some modes at a parameter where all of them exist.
+    ///
+    /// Two patterns have the same solution only if the normal forces of all contacts in which they differ vanish in both, that
+    /// is, within their own rounding errors, however small they are beside others.
+    pub fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
+        if modes.len() < 2 {
+            return modes.len();
+        }
+        let mut known: Vec<(&[ContactState], Vec<bool>)> = Vec::with_capacity(modes.len());
+        for mode in modes {
+            let Some(vanishes) = self.line(&mode.pattern).vanishes(at) else { continue };
+            let same = |(pattern, other): &(&[ContactState], Vec<bool>)| {
+                (0..pattern.len()).all(|k| pattern[k] == mode.pattern[k] || other[k] && vanishes[k])
+            };
+            if !known.iter().any(same) {
+                known.push((&mode.pattern, vanishes));
+            }
+        }
+        known.len()
+    }
+
+    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs; none where
+    /// its determinant vanishes.
+    pub fn unknowns(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
+        self.line(pattern).solution(at)
+    }
+
+    /// Signed normal forces of a pattern, 0 in a gap; none where its determinant vanishes.
+    pub fn normal_force(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
+        let unknowns = self.line(pattern).solution(at)?;
+        Some(DVector::from_iterator(
+            pattern.len(),
+            pattern.iter().zip(unknowns.iter()).map(|(state, y)| state.sign() * y),
+        ))
+    }
+}

@@ -1,0 +1,512 @@
+//! Where modes exist: the parameters of a line of mode problems for which each pattern has a solution.
+//!
+//! Along a line every number of the problem is affine in one parameter `t`: one coefficient of friction, several that
+//! are scaled together, a preload, a load. The equations of a pattern are then `A(t) z = b(t)` with
+//! `A(t) = A_0 + t A_1`, `b(t) = b_0 + t b_1`, and where their solution begins or ceases to exist is known without
+//! scanning (theory, section 6): `det A(t)` vanishes where `-1/t` is an eigenvalue of `A_0^-1 A_1`, and so do Cramer's
+//! numerators of the unknowns for a bordered pencil. Only the `m` columns that vary count, so that the pencils have
+//! size `m` and `m + 1`; for `m = 1` the zeros are those of a linear or quadratic function:
+//!
+//! ```text
+//! D(mu) = det(A) (1 + mu v_k),       y_j(mu) = y0_j - mu v_j y0_k / (1 + mu v_k)
+//! ```
+//!
+//! Every end is then polished to machine precision, where it is a simple zero.
+//!
+//! Outputs are further unknowns that are affine in the `y_k`, such as the couples of guided sliders, with bounds
+//! `|output| <= factor * y_k` that a solution has to obey.
+
+mod counts;
+mod line;
+mod roots;
+mod signs;
+
+use nalgebra::{DMatrix, DVector};
+use std::ops::ControlFlow;
+
+use super::problem::{BySide, ModeProblem, Side};
+use super::solutions::ContactState;
+use crate::progress::{Callback, Progress};
+use line::{Cause, Condition, End, Extent, Line, Part, Value};
+
+pub use counts::{CountInterval, cells, counts, counts_in};
+pub use line::Limit;
+
+/// Mode problems whose numbers are affine in a parameter `t`: index 0 holds the values at `t = 0`, index 1 what each
+/// unit of `t` adds. With `r` contacts and `o` outputs matrices are `(r + o) x r`, the right-hand side `r + o`.
+#[derive(Debug, Clone)]
+pub struct ModeProblemLine {
+    /// Columns `c_k` of each side; below them the negative of what a unit `y_k` adds to each output.
+    pub columns: [BySide<DMatrix<f64>>; 2],
+    /// Jumps `d_k` of each side; below them what the preload friction adds to each output.
+    pub jumps: [BySide<DMatrix<f64>>; 2],
+    /// `N(0)`; below it the outputs without friction.
+    pub right_hand_side: [DVector<f64>; 2],
+    /// Bounds of the outputs.
+    pub bounds: Vec<OutputBound>,
+    /// Whether the right-hand side jumps at a contact, so that it has preload-gap states.
+    pub has_jump: Vec<bool>,
+}
+
+/// `|output| <= factor * y_contact`: the couple of a guided slider with `factor` half its length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputBound {
+    /// The output, from 0.
+    pub output: usize,
+    /// The contact, from 0.
+    pub contact: usize,
+    /// The factor, positive.
+    pub factor: f64,
+}
+
+/// What to look for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExistenceOptions {
+    /// The values of the parameter. The end may be infinite if the start is positive.
+    pub range: [f64; 2],
+    /// Modes count only where no `y_k` exceeds this.
+    pub greatest_normal_force: Option<f64>,
+    /// The most patterns that are tried, gap states included.
+    pub patterns: u64,
+}
+
+/// Why a mode ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum EndCause {
+    /// The range of the parameter ends.
+    Range,
+    /// Its determinant vanishes: locking of the mode.
+    Locking,
+    /// These contacts have `y_k = 0`: they change their side.
+    SideChange(Vec<usize>),
+    /// The preload friction of these contacts has moved to one face: the gap closes.
+    GapCloses(Vec<usize>),
+    /// These bounds of outputs are reached: guided sliders tip.
+    OutputBound(Vec<usize>),
+    /// These contacts reach [`ExistenceOptions::greatest_normal_force`].
+    GreatestNormalForce(Vec<usize>),
+    /// A sliding velocity vanishes, so that its friction has no direction and turns round beyond; only where the numbers do not
+    /// depend linearly on the parameter.
+    Reversal,
+    /// Beyond it there is no mode problem; only where the numbers do not depend linearly on the parameter.
+    NoProblem,
+}
+
+impl EndCause {
+    /// Whether all that this names is named by another cause of the same kind.
+    fn is_part_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::SideChange(part), Self::SideChange(all))
+            | (Self::GapCloses(part), Self::GapCloses(all))
+            | (Self::OutputBound(part), Self::OutputBound(all))
+            | (Self::GreatestNormalForce(part), Self::GreatestNormalForce(all)) => {
+                part.iter().all(|one| all.contains(one))
+            }
+            _ => false,
+        }
+    }
+}
+
+/// An end of an interval in which a mode exists.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeEnd {
+    /// The parameter.
+    pub at: f64,
+    /// Why the mode ends there.
+    pub cause: EndCause,
+    /// What each normal force `N_k` does towards this end; nothing where the limit could not be computed.
+    pub normal_force: Option<Vec<Limit>>,
+}
+
+/// An interval of the parameter in which a pattern has a solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeInterval {
+    /// The pattern.
+    pub pattern: Vec<ContactState>,
+    /// Where it begins.
+    pub from: ModeEnd,
+    /// Where it ends.
+    pub to: ModeEnd,
+}
+
+/// Where the modes of a line of problems exist.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Existence {
+    /// The intervals, by pattern and then by parameter.
+    pub modes: Vec<ModeInterval>,
+    /// Patterns whose determinant vanishes for every value of the parameter.
+    pub singular_throughout: Vec<Vec<ContactState>>,
+    /// Patterns for which eigenvalues could not be computed.
+    pub not_computed: Vec<Vec<ContactState>>,
+}
+
+/// More patterns than the options allow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{contacts} contacts, {with_jump} of them with preload gaps, have more than {limit} patterns")]
+pub struct TooManyModes {
+    /// Number of contacts.
+    pub contacts: usize,
+    /// How many of them have gap states.
+    pub with_jump: usize,
+    /// The limit.
+    pub limit: u64,
+}
+
+impl ModeProblemLine {
+    /// The line from one problem to another: `t = 0` and `t = 1`.
+    pub fn between(start: &ModeProblem, end: &ModeProblem) -> Self {
+        let by_side = |part: fn(&ModeProblem, Side) -> &DMatrix<f64>| {
+            let at = |side| [part(start, side).clone(), part(end, side) - part(start, side)];
+            let ([p0, p1], [n0, n1]) = (at(Side::Positive), at(Side::Negative));
+            [BySide { positive: p0, negative: n0 }, BySide { positive: p1, negative: n1 }]
+        };
+        let contacts = 0..start.contacts();
+        Self {
+            columns: by_side(ModeProblem::columns),
+            jumps: by_side(ModeProblem::jumps),
+            right_hand_side: [
+                start.right_hand_side().clone(),
+                end.right_hand_side() - start.right_hand_side(),
+            ],
+            bounds: Vec::new(),
+            has_jump: contacts.map(|contact| start.has_jump(contact) || end.has_jump(contact)).collect(),
+        }
+    }
+
+    /// Number of contacts.
+    pub fn contacts(&self) -> usize {
+        self.columns[0].positive.ncols()
+    }
+
+    /// The exact intervals in which each pattern has a solution.
+    ///
+    /// Patterns come in the order of enumeration, those with preload gaps among them. Isolated values of the parameter at
+    /// which a pattern has a solution are left out.
+    ///
+    /// # Errors
+    /// [`TooManyModes`] if there are more patterns than the options allow.
+    ///
+    /// # Panics
+    /// If the range is not increasing, or infinite without a positive start.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::existence::{EndCause, ExistenceOptions, ModeProblemLine};
+    /// use slideway_modes::{ContactState, ModeProblem};
+    /// // One slider with eta = 0.5 that moves forwards: it locks at mu = 1/eta, paper eq. (9).
+    /// let at = |mu: f64| ModeProblem::new(
+    ///     dmatrix![1.0 - 0.5 * mu], dmatrix![-1.0 - 0.5 * mu], dmatrix![0.0], dmatrix![0.0], dvector![4.0]);
+    /// let line = ModeProblemLine::between(&at(0.0)?, &at(1.0)?);
+    /// let options = ExistenceOptions { range: [0.0, 5.0], greatest_normal_force: None, patterns: 100 };
+    /// let existence = line.existence(&options)?;
+    /// assert_eq!(existence.modes.len(), 1);
+    /// assert_eq!(existence.modes[0].pattern, [ContactState::Positive]);
+    /// assert_eq!(existence.modes[0].to.at, 2.0);
+    /// assert_eq!(existence.modes[0].to.cause, EndCause::Locking);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn existence(&self, options: &ExistenceOptions) -> Result<Existence, TooManyModes> {
+        Ok(self.existence_with(options, &mut |_| ControlFlow::Continue(()))?.unwrap_or_default())
+    }
+
+    /// [`Self::existence`] with a callback that is called for every pattern; nothing if it breaks.
+    ///
+    /// # Errors
+    /// As [`Self::existence`].
+    ///
+    /// # Panics
+    /// As [`Self::existence`].
+    pub fn existence_with(
+        &self,
+        options: &ExistenceOptions,
+        callback: &mut Callback<'_>,
+    ) -> Result<Option<Existence>, TooManyModes> {
+        let [from, to] = options.range;
+        assert!(from < to && (to.is_finite() || from > 0.0), "an increasing range");
+        let mut existence = Existence::default();
+        let patterns = self.patterns(options.patterns)?;
+        let all = patterns.len() as u64;
+        for (done, pattern) in (0..).zip(patterns) {
+            if callback(&Progress::of("patterns", done, all)).is_break() {
+                return Ok(None);
+            }
+            let mode = self.mode(&pattern, options);
+            match mode.extent(options.range) {
+                Extent::Parts(parts) => {
+                    existence.modes.extend(parts.iter().map(|part| mode.interval(part)));
+                }
+                Extent::SingularThroughout => existence.singular_throughout.push(pattern),
+                Extent::NotComputed => existence.not_computed.push(pattern),
+            }
+        }
+        Ok(Some(existence))
+    }
+
+    /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and the pattern;
+    /// none if there is no such parameter. Without jumps every load has exactly one solution up to there, if
+    /// determinants have one orientation at `t = 0` (theory, section 5).
+    ///
+    /// # Errors
+    /// [`TooManyModes`] if there are more patterns than `limit`.
+    pub fn first_locking(&self, limit: u64) -> Result<Option<(f64, Vec<ContactState>)>, TooManyModes> {
+        let mut first: Option<(f64, Vec<ContactState>)> = None;
+        let pressed = |pattern: &Vec<ContactState>| !pattern.contains(&ContactState::Gap);
+        for pattern in self.patterns(limit)?.into_iter().filter(pressed) {
+            let zeros = self.line(&pattern).determinant_zeros([0.0, 1.0]);
+            let least = zeros.into_iter().filter(|&zero| zero > 0.0).fold(f64::INFINITY, f64::min);
+            if least < first.as_ref().map_or(f64::INFINITY, |(known, _)| *known) {
+                first = Some((least, pattern));
+            }
+        }
+        Ok(first)
+    }
+
+    /// The patterns that have a solution at one parameter, in the order of enumeration; those that `goes_on`, which is asked before
+    /// each, lets be tried.
+    ///
+    /// # Errors
+    /// [`TooManyModes`] if there are more patterns than the options allow.
+    pub fn present(
+        &self,
+        at: f64,
+        options: &ExistenceOptions,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
+        let mut patterns = self.patterns(options.patterns)?;
+        patterns.retain(|pattern| goes_on() && self.exists(pattern, at, options));
+        Ok(patterns)
+    }
+
+    /// Whether a pattern has a solution at one parameter; boundaries count.
+    pub fn exists(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> bool {
+        let mode = self.mode(pattern, options);
+        mode.line.solution(at).is_some_and(|unknowns| mode.violated(&unknowns).is_empty())
+    }
+
+    /// Why a pattern that has a solution here has none in a problem close by, both at `t = 0`; none where its
+    /// determinant changes its sign between them.
+    pub fn cause(
+        &self,
+        beyond: &Self,
+        pattern: &[ContactState],
+        options: &ExistenceOptions,
+    ) -> Option<EndCause> {
+        let (here, there) = (self.mode(pattern, options), beyond.mode(pattern, options));
+        let determinant = |mode: &Mode<'_>| mode.line.matrix_at(0.0).determinant();
+        if determinant(&here) * determinant(&there) <= 0.0 {
+            return None;
+        }
+        let violated = there.violated(&there.line.solution(0.0)?);
+        (!violated.is_empty()).then(|| there.cause(&Cause::Conditions(violated)))
+    }
+
+    /// What vanishes where a mode ends for this reason, positive where the mode exists but for the sign of a determinant;
+    /// none where its equations are singular.
+    pub fn slack(
+        &self,
+        pattern: &[ContactState],
+        cause: &EndCause,
+        options: &ExistenceOptions,
+    ) -> Option<f64> {
+        let mode = self.mode(pattern, options);
+        if *cause == EndCause::Locking {
+            return Some(mode.line.matrix_at(0.0).determinant());
+        }
+        let unknowns = mode.line.solution(0.0)?;
+        let concerned = (0..mode.conditions.len())
+            .filter(|&index| mode.cause(&Cause::Conditions(vec![index])).is_part_of(cause));
+        let value = |index: usize| {
+            let condition = &mode.conditions[index];
+            condition.times(unknowns.as_slice()) + condition.offset
+        };
+        concerned.map(value).reduce(f64::min)
+    }
+
+    /// All patterns in the order of enumeration: the first contact varies slowest.
+    fn patterns(&self, limit: u64) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
+        let with_jump = self.has_jump.iter().filter(|&&jump| jump).count();
+        let contacts = self.contacts();
+        let count = 3_f64.powf(with_jump as f64) * ((contacts - with_jump) as f64).exp2();
+        if count > limit as f64 {
+            return Err(TooManyModes { contacts, with_jump, limit });
+        }
+        let mut patterns = vec![Vec::with_capacity(contacts)];
+        for &jump in &self.has_jump {
+            let states = if jump { &ContactState::ALL[..] } else { &ContactState::PRESSED[..] };
+            let with = |pattern: &Vec<ContactState>, state: ContactState| {
+                let mut longer = pattern.clone();
+                longer.push(state);
+                longer
+            };
+            patterns =
+                patterns.iter().flat_map(|old| states.iter().map(move |&new| with(old, new))).collect();
+        }
+        Ok(patterns)
+    }
+
+    /// The equations of one pattern. Unknowns: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs.
+    fn line(&self, pattern: &[ContactState]) -> Line {
+        let size = self.right_hand_side[0].len();
+        let part = |power: usize| {
+            let mut matrix = DMatrix::zeros(size, size);
+            let mut load = self.right_hand_side[power].clone();
+            for (contact, state) in pattern.iter().enumerate() {
+                let jumps = [Side::Positive, Side::Negative].map(|side| self.jumps[power].get(side));
+                let [plus, minus] = jumps.map(|jumps| jumps.column(contact));
+                if let Some(side) = state.side() {
+                    let column = self.columns[power].get(side).column(contact);
+                    matrix.column_mut(contact).copy_from(&column);
+                    load += self.jumps[power].get(side).column(contact);
+                } else {
+                    matrix.column_mut(contact).copy_from(&(minus - plus));
+                    load += minus;
+                }
+            }
+            if power == 0 {
+                matrix
+                    .view_mut((pattern.len(), pattern.len()), (size - pattern.len(), size - pattern.len()))
+                    .fill_with_identity();
+            }
+            (matrix, load)
+        };
+        let ((m0, b0), (m1, b1)) = (part(0), part(1));
+        Line { matrix: [m0, m1], right_hand_side: [b0, b1] }
+    }
+
+    fn mode<'p>(&self, pattern: &'p [ContactState], options: &ExistenceOptions) -> Mode<'p> {
+        let mut mode =
+            Mode { pattern, line: self.line(pattern), conditions: Vec::new(), meanings: Vec::new() };
+        for (contact, &state) in pattern.iter().enumerate() {
+            if state == ContactState::Gap {
+                mode.require([(contact, 1.0), NONE], 0.0, Meaning::Gap(contact));
+                mode.require([(contact, -1.0), NONE], 1.0, Meaning::Gap(contact));
+            } else {
+                mode.require([(contact, 1.0), NONE], 0.0, Meaning::Side(contact));
+                if let Some(greatest) = options.greatest_normal_force {
+                    mode.require([(contact, -1.0), NONE], greatest, Meaning::Greatest(contact));
+                }
+            }
+        }
+        for (index, bound) in self.bounds.iter().enumerate() {
+            let pressure = if pattern[bound.contact] == ContactState::Gap { 0.0 } else { bound.factor };
+            for sign in [1.0, -1.0] {
+                let weights = [(bound.contact, pressure), (pattern.len() + bound.output, sign)];
+                mode.require(weights, 0.0, Meaning::Bound(index));
+            }
+        }
+        mode
+    }
+}
+
+/// In a range without end, places farther out than the inverse of this, relative to its start, count as infinite.
+const INFINITY: f64 = 1e-6;
+
+/// What a condition says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Meaning {
+    /// `y_k >= 0`.
+    Side(usize),
+    /// `0 <= lambda_k <= 1`.
+    Gap(usize),
+    /// `|output| <= factor y_k`.
+    Bound(usize),
+    /// `y_k <= greatest normal force`.
+    Greatest(usize),
+}
+
+/// One pattern along the line.
+struct Mode<'p> {
+    pattern: &'p [ContactState],
+    line: Line,
+    conditions: Vec<Condition>,
+    meanings: Vec<Meaning>,
+}
+
+/// No second unknown in a condition.
+const NONE: (usize, f64) = (0, 0.0);
+
+impl Mode<'_> {
+    /// The conditions that a solution contradicts.
+    fn violated(&self, unknowns: &DVector<f64>) -> Vec<usize> {
+        let contradicts = |&index: &usize| {
+            let condition = &self.conditions[index];
+            let value = condition.times(unknowns.as_slice()) + condition.offset;
+            let magnitude = condition.magnitude(unknowns.as_slice()) + condition.offset.abs();
+            !Value { value, magnitude: magnitude.max(unknowns.amax()) }.is_met()
+        };
+        (0..self.conditions.len()).filter(contradicts).collect()
+    }
+
+    /// Adds the condition `weights . z + offset >= 0`.
+    fn require(&mut self, weights: [(usize, f64); 2], offset: f64, meaning: Meaning) {
+        self.conditions.push(Condition { weights, offset });
+        self.meanings.push(meaning);
+    }
+
+    /// Where the mode exists. Up to infinity the equations are taken with the parameter `u = 1/t`: multiplied by `u` they
+    /// have the same solution.
+    fn extent(&self, range: [f64; 2]) -> Extent {
+        if range[1].is_finite() {
+            return self.line.extent(&self.conditions, range);
+        }
+        let reciprocal = range[0].recip();
+        let extent = self.line.reversed().extent(&self.conditions, [0.0, reciprocal]);
+        let Extent::Parts(mut parts) = extent else { return extent };
+        // Forces that tend to zero have double zeros at infinity, which rounding moves.
+        let infinity = INFINITY * reciprocal;
+        parts.retain(|part| part.to.at > infinity);
+        for part in parts.iter_mut().filter(|part| part.from.at <= infinity) {
+            part.from = End { at: 0.0, cause: Cause::Range };
+        }
+        let back = |end: End| End { at: end.at.recip(), ..end };
+        parts.reverse();
+        Extent::Parts(
+            parts.into_iter().map(|part| Part { from: back(part.to), to: back(part.from) }).collect(),
+        )
+    }
+
+    fn interval(&self, part: &Part) -> ModeInterval {
+        ModeInterval {
+            pattern: self.pattern.to_vec(),
+            from: self.end(&part.from, part.to.at),
+            to: self.end(&part.to, part.from.at),
+        }
+    }
+
+    fn end(&self, end: &End, other: f64) -> ModeEnd {
+        let limits = self.line.limits(end, other);
+        let normal_force = limits.map(|limits| {
+            self.pattern.iter().zip(limits).map(|(state, limit)| limit.times(state.sign())).collect()
+        });
+        ModeEnd { at: end.at, cause: self.cause(&end.cause), normal_force }
+    }
+
+    /// The cause in terms of contacts; what tips or changes side counts before what merely reaches a limit.
+    fn cause(&self, cause: &Cause) -> EndCause {
+        let conditions = match cause {
+            Cause::Range => return EndCause::Range,
+            Cause::Singular => return EndCause::Locking,
+            Cause::Conditions(conditions) => conditions,
+        };
+        let list = |pick: fn(Meaning) -> Option<usize>| {
+            let mut list: Vec<usize> = conditions.iter().filter_map(|&c| pick(self.meanings[c])).collect();
+            list.dedup();
+            list
+        };
+        let sides = list(|meaning| if let Meaning::Side(contact) = meaning { Some(contact) } else { None });
+        let gaps = list(|meaning| if let Meaning::Gap(contact) = meaning { Some(contact) } else { None });
+        let bounds = list(|meaning| if let Meaning::Bound(bound) = meaning { Some(bound) } else { None });
+        if !sides.is_empty() {
+            EndCause::SideChange(sides)
+        } else if !gaps.is_empty() {
+            EndCause::GapCloses(gaps)
+        } else if !bounds.is_empty() {
+            EndCause::OutputBound(bounds)
+        } else {
+            EndCause::GreatestNormalForce(list(|meaning| match meaning {
+                Meaning::Greatest(contact) => Some(contact),
+                _ => None,
+            }))
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! Arithmetic that plain numbers and intervals share.
+
+use super::Interval;
+use nalgebra::Scalar;
+use num_traits::{One, Zero};
+use std::iter::Sum;
+use std::ops::{AddAssign, Div, DivAssign, MulAssign, Neg, Sub, SubAssign};
+
+/// A real number in the equations of a mechanism: `f64` with its rounding, or an [`Interval`] that encloses it.
+///
+/// One code thus evaluates formulas and assembles equations in both. Functions of an interval hold all their values
+/// there; where one has no value for a number of the interval the result is not finite.
+///
+/// ```
+/// use slideway_modes::interval::{Interval, Real};
+/// fn height<T: Real>(length: T, angle: T) -> T {
+///     length * angle.sin()
+/// }
+/// let range = height(Interval::point(2.0), Interval::around(0.5, 1e-3));
+/// assert!(range.contains(height(2.0, 0.5)) && range.width() < 4e-3);
+/// ```
+pub trait Real:
+    Scalar
+    + Copy
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + Sub<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+    + Sum
+{
+    /// The number `value` itself.
+    fn exactly(value: f64) -> Self;
+
+    /// A number that somebody wrote: nearest to `value`, and somewhere in `enclosure`.
+    fn written(value: f64, enclosure: Interval) -> Self;
+
+    /// The least value that it may have.
+    fn lower(self) -> f64;
+
+    /// The greatest value that it may have.
+    fn upper(self) -> f64;
+
+    /// A value that stands for all that it may have.
+    fn middle(self) -> f64;
+
+    /// Whether it is bounded.
+    fn is_finite(self) -> bool {
+        self.lower().is_finite() && self.upper().is_finite()
+    }
+
+    /// The greatest absolute value that it may have.
+    fn magnitude(self) -> f64 {
+        self.lower().abs().max(self.upper().abs())
+    }
+
+    /// The value of a function that is given for numbers and, enclosing all its values, for intervals.
+    #[must_use]
+    fn image(self, number: impl FnOnce(f64) -> f64, interval: impl FnOnce(Interval) -> Interval) -> Self;
+
+    /// Its square.
+    #[must_use]
+    fn square(self) -> Self;
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// -1, 0 or 1.
+    #[must_use]
+    fn sign_value(self) -> Self;
+    /// 0 below zero, else 1.
+    #[must_use]
+    fn step(self) -> Self;
+    /// Sine.
+    #[must_use]
+    fn sin(self) -> Self;
+    /// Cosine.
+    #[must_use]
+    fn cos(self) -> Self;
+    /// The unit vector at this angle from the x axis; that of a plain number is exact along the axes, so that a guide
+    /// at 90 degrees is truly vertical.
+    fn direction(self) -> [Self; 2];
+    /// Tangent.
+    #[must_use]
+    fn tan(self) -> Self;
+    /// Inverse sine.
+    #[must_use]
+    fn asin(self) -> Self;
+    /// Inverse cosine.
+    #[must_use]
+    fn acos(self) -> Self;
+    /// Inverse tangent.
+    #[must_use]
+    fn atan(self) -> Self;
+    /// Hyperbolic sine.
+    #[must_use]
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    #[must_use]
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    #[must_use]
+    fn tanh(self) -> Self;
+    /// Exponential function.
+    #[must_use]
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    #[must_use]
+    fn ln(self) -> Self;
+    /// Decimal logarithm.
+    #[must_use]
+    fn log10(self) -> Self;
+    /// `self^exponent`.
+    #[must_use]
+    fn power(self, exponent: Self) -> Self;
+    /// Angle of the vector (x, self).
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+    /// Length of the vector (self, other).
+    #[must_use]
+    fn hypot(self, other: Self) -> Self;
+    /// The smaller of both.
+    #[must_use]
+    fn min(self, other: Self) -> Self;
+    /// The greater of both.
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+}
+
+impl Real for f64 {
+    fn exactly(value: f64) -> Self {
+        value
+    }
+
+    fn written(value: f64, _: Interval) -> Self {
+        value
+    }
+
+    fn lower(self) -> f64 {
+        self
+    }
+
+    fn upper(self) -> f64 {
+        self
+    }
+
+    fn middle(self) -> f64 {
+        self
+    }
+
+    fn image(self, number: impl FnOnce(f64) -> f64, _: impl FnOnce(Interval) -> Interval) -> Self {
+        number(self)
+    }
+
+    fn square(self) -> Self {
+        self * self
+    }
+
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    fn sign_value(self) -> Self {
+        if self == 0.0 { 0.0 } else { self.signum() }
+    }
+
+    fn step(self) -> Self {
+        if self < 0.0 { 0.0 } else { 1.0 }
+    }
+
+    fn sin(self) -> Self {
+        f64::sin(self)
+    }
+
+    fn cos(self) -> Self {
+        f64::cos(self)
+    }
+
+    fn direction(self) -> [Self; 2] {
+        let quarters = self / std::f64::consts::FRAC_PI_2;
+        let nearest = quarters.round();
+        if (quarters - nearest).abs() > 1e-15 * quarters.abs() {
+            return [f64::cos(self), f64::sin(self)];
+        }
+        match nearest.rem_euclid(4.0) {
+            0.0 => [1.0, 0.0],
+            1.0 => [0.0, 1.0],
+            2.0 => [-1.0, 0.0],
+            _ => [0.0, -1.0],
+        }
+    }
+
+    fn tan(self) -> Self {
+        f64::tan(self)
+    }
+
+    fn asin(self) -> Self {
+        f64::asin(self)
+    }
+
+    fn acos(self) -> Self {
+        f64::acos(self)
+    }
+
+    fn atan(self) -> Self {
+        f64::atan(self)
+    }
+
+    fn sinh(self) -> Self {
+        f64::sinh(self)
+    }
+
+    fn cosh(self) -> Self {
+        f64::cosh(self)
+    }
+
+    fn tanh(self) -> Self {
+        f64::tanh(self)
+    }
+
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+
+    fn ln(self) -> Self {
+        f64::ln(self)
+    }
+
+    fn log10(self) -> Self {
+        f64::log10(self)
+    }
+
+    fn power(self, exponent: Self) -> Self {
+        self.powf(exponent)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        f64::atan2(self, x)
+    }
+
+    fn hypot(self, other: Self) -> Self {
+        f64::hypot(self, other)
+    }
+
+    fn min(self, other: Self) -> Self {
+        f64::min(self, other)
+    }
+
+    fn max(self, other: Self) -> Self {
+        f64::max(self, other)
+    }
+}

@@ -1,0 +1,78 @@
+//! The mode problem: every solution of a set of contacts with dry friction.
+//!
+//! With `y_k = |N_k|` and `sigma_k = sign(N_k)` the normal forces of `r` contacts satisfy
+//!
+//! ```text
+//! sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k},   y >= 0
+//! ```
+//!
+//! (Klepp (2002), eqs. (6) and (8); theory, section 3). [`ModeProblem`] holds these numbers,
+//! [`enumerate`] tries all `2^r` patterns of sides, and [`Solutions`] tells what became of each of
+//! them. Nothing here knows of mechanisms: absolute value equations and linear complementarity
+//! problems enter by constructors of their own.
+//!
+//! # Method
+//! Patterns are the leaves of a binary tree that decides the side of one contact per level, with
+//! one elimination step per node (theory, section 4): constant work per pattern on average. A leaf
+//! is dropped at its first negative `y_k`. Every leaf that stays is solved again by LU
+//! factorization and one step of iterative refinement.
+//!
+//! # Accuracy
+//! Rows are scaled by powers of two to a largest coefficient between 1/2 and 1, loads to a largest
+//! load between 1/2 and 1, so that the outcome does not depend on their units. Then
+//!
+//! - a leaf is dropped when `y_k < -1e-9 m_k`, where `m_k >= |y_k|` is the back-substitution done
+//!   with absolute values;
+//! - a `y_k` of a leaf that stays counts as zero when it is below `1e-12 max |y|` plus the bound
+//!   `8 eps (|C^-1| (|C| |y| + |N(0)| + sum |d|))_k` of what rounding in the data can do (for a share
+//!   `lambda`: 1e-12 plus the bound);
+//! - a pivot below `1e-7` times the largest entry of its column makes all patterns below it
+//!   suspect. They are examined one by one with complete pivoting, and a pattern is singular
+//!   (`D = 0`) if a pivot is below `1e-12`, columns being scaled to a largest entry of 1;
+//! - equations of a singular pattern are consistent if they hold to `1e-10`, and its `z >= 0` is
+//!   taken to `1e-9`, both in scaled units.
+//!
+//! # Degenerate cases
+//! A solution with `m` contacts on the boundary is found from up to `2^m` patterns and reported
+//! once, provided that the right-hand side does not jump at these contacts. Singular patterns are
+//! reported with the set of normal forces that they admit. Contacts at which the right-hand side
+//! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
+
+pub mod batch;
+mod candidate;
+pub mod certificate;
+mod contact_set;
+mod decided;
+mod degenerate;
+mod enumeration;
+pub mod exhaustive;
+pub mod existence;
+mod findings;
+mod found;
+pub mod interval;
+pub mod names;
+pub mod printable;
+mod problem;
+pub mod progress;
+pub mod raw_problem;
+mod scaling;
+pub mod screen;
+mod search;
+mod solutions;
+mod status;
+mod support;
+mod uniqueness;
+
+pub use enumeration::{EnumerationError, Limits, enumerate};
+pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
+pub use search::{
+    Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
+    GroupReport, GroupState, Method, PatternOutcomes, PatternShares, SearchOptions, SearchResult,
+    SolutionProduct, StateCounts, StateKind, StateLists, StateSet, StopReason, search,
+};
+pub use solutions::{
+    Certificate, ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode,
+    SolutionSet, Solutions, UndecidedPattern,
+};
+pub use status::Status;
+pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};

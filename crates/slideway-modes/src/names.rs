@@ -1,0 +1,24 @@
+//! Names that were meant.
+
+/// The known name most like `name`, if one is like it at all.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    all_nearest(name, known.into_iter()).first().map(|nearest| (*nearest).to_owned())
+}
+
+/// The candidates most like `name`, best first: those that differ in case only, else those a few edits away.
+///
+/// ```
+/// assert_eq!(slideway_modes::names::all_nearest("colums", ["columns", "rows"].into_iter()), ["columns"]);
+/// ```
+pub fn all_nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let lower = name.to_lowercase();
+    let length = name.chars().count();
+    let allowed = if length < 2 { 0 } else { (length / 3).max(1) };
+    let mut alike: Vec<(usize, &str)> = candidates
+        .map(|candidate| (strsim::damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
+        .filter(|(distance, _)| *distance <= allowed)
+        .collect();
+    alike.sort_by_key(|(distance, _)| *distance);
+    let best = alike.first().map(|(distance, _)| *distance);
+    alike.into_iter().take_while(|(distance, _)| Some(*distance) == best).map(|(_, name)| name).collect()
+}

@@ -1,0 +1,493 @@
+//! The mode problem as pure numbers: two versions of every column and of every jump vector.
+
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::certificate::Radii;
+use crate::interval::two_sum_remainder;
+
+/// The side on which a contact is pressed: the sign `sigma` of its normal force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// `N > 0`.
+    Positive,
+    /// `N < 0`.
+    Negative,
+}
+
+impl Side {
+    /// Both sides, in the order in which patterns are enumerated.
+    pub const BOTH: [Self; 2] = [Self::Positive, Self::Negative];
+
+    /// The sign `sigma` of the side, `1.0` or `-1.0`.
+    ///
+    /// ```
+    /// use slideway_modes::Side;
+    /// assert_eq!(Side::Negative.sign(), -1.0);
+    /// ```
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
+        }
+    }
+}
+
+/// A quantity that has one value for each side of the contacts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BySide<T> {
+    /// The value for contacts pressed towards `+n`.
+    pub positive: T,
+    /// The value for contacts pressed towards `-n`.
+    pub negative: T,
+}
+
+impl<T> BySide<T> {
+    /// The value for one side.
+    pub fn get(&self, side: Side) -> &T {
+        match side {
+            Side::Positive => &self.positive,
+            Side::Negative => &self.negative,
+        }
+    }
+}
+
+impl<T: Clone> BySide<T> {
+    /// The same value for both sides.
+    ///
+    /// ```
+    /// use slideway_modes::{BySide, Side};
+    /// assert_eq!(*BySide::same(0.1).get(Side::Negative), 0.1);
+    /// ```
+    pub fn same(value: T) -> Self {
+        Self { positive: value.clone(), negative: value }
+    }
+}
+
+/// Which part of the data an error speaks of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProblemPart {
+    /// Columns `c_k` of one side, or `eta`, `M`, `A`: one column per contact.
+    Columns(Side),
+    /// Jump vectors `d_k` of one side, or the preload's influence coefficients.
+    Jumps(Side),
+    /// Coefficients of friction of one side.
+    Friction(Side),
+    /// Preload friction `F_k0` of one side.
+    Preload(Side),
+    /// Signs of the sliding velocities.
+    VelocitySigns,
+    /// The right-hand side `N(0)`, `b` or `q`.
+    RightHandSide,
+}
+
+impl fmt::Display for ProblemPart {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, side) = match self {
+            Self::Columns(side) => ("columns", Some(side)),
+            Self::Jumps(side) => ("jumps", Some(side)),
+            Self::Friction(side) => ("coefficients of friction", Some(side)),
+            Self::Preload(side) => ("preload friction", Some(side)),
+            Self::VelocitySigns => ("velocity signs", None),
+            Self::RightHandSide => ("right-hand side", None),
+        };
+        match side {
+            Some(Side::Positive) => write!(formatter, "{name} of the positive side"),
+            Some(Side::Negative) => write!(formatter, "{name} of the negative side"),
+            None => formatter.write_str(name),
+        }
+    }
+}
+
+/// Data that do not make a mode problem.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ModeProblemError {
+    /// A matrix or vector does not fit the number of contacts.
+    #[error("{part}: expected {} x {}, found {} x {}", expected.0, expected.1, found.0, found.1)]
+    Shape {
+        /// The part that does not fit.
+        part: ProblemPart,
+        /// Rows and columns that the right-hand side asks for.
+        expected: (usize, usize),
+        /// Rows and columns that were given.
+        found: (usize, usize),
+    },
+    /// An entry is infinite or not a number.
+    #[error("{part}: entry in row {row}, column {column} (counted from 0) is {value}")]
+    NotFinite {
+        /// The part that holds the entry.
+        part: ProblemPart,
+        /// Row of the entry, from 0.
+        row: usize,
+        /// Column of the entry, from 0.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// The sign of a sliding velocity is none of -1, 0, 1.
+    #[error("velocity sign of contact {contact} (counted from 0) is {value}; it must be -1, 0 or 1")]
+    VelocitySign {
+        /// The contact, from 0.
+        contact: usize,
+        /// What was given.
+        value: f64,
+    },
+}
+
+/// Influence coefficients and friction parameters of `r` contacts: what
+/// [`ModeProblem::from_influence`] needs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InfluenceCoefficients {
+    /// `eta_jk`, change of `N_j` per unit friction at contact `k` (r x r, dimensionless);
+    /// column `k` of a side is for contact `k` pressed on that side.
+    pub eta: BySide<DMatrix<f64>>,
+    /// The same for the line on which the preload friction acts (equal to `eta` in the paper).
+    pub eta_preload: BySide<DMatrix<f64>>,
+    /// Coefficients of friction `mu_k` (r).
+    pub mu: BySide<DVector<f64>>,
+    /// Preload friction `F_k0` (r, force).
+    pub preload: BySide<DVector<f64>>,
+    /// `s_k = sign(ds_k)` of the sliding velocities (r): -1, 0 or 1.
+    pub velocity_signs: DVector<f64>,
+    /// `N(0)`, normal forces without friction (r, force).
+    pub frictionless: DVector<f64>,
+}
+
+/// The mode problem of `r` contacts,
+///
+/// ```text
+/// sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k},   y >= 0,   sigma in {-1, +1}^r
+/// ```
+///
+/// (Klepp (2002), eqs. (6) and (8); theory, section 3). `y_k = |N_k|`, and both the column `c_k`
+/// and the jump vector `d_k` have one version for each side of contact `k`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeProblem {
+    columns: BySide<DMatrix<f64>>,
+    jumps: BySide<DMatrix<f64>>,
+    right_hand_side: DVector<f64>,
+    has_jump: Vec<bool>,
+    remainder: Option<Box<Remainder>>,
+}
+
+/// What rounding took from columns that are sums: the exact columns are `columns + remainder`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Remainder {
+    pub(super) columns: BySide<DMatrix<f64>>,
+    /// Its sizes, as the radii of a problem within bounds.
+    pub(super) radii: Radii,
+}
+
+impl Remainder {
+    /// None if nothing was lost.
+    fn new(columns: BySide<DMatrix<f64>>) -> Option<Box<Self>> {
+        let radii = Radii {
+            columns: BySide { positive: columns.positive.abs(), negative: columns.negative.abs() },
+            ..Radii::zero(columns.positive.nrows())
+        };
+        (!radii.are_zero()).then(|| Box::new(Self { columns, radii }))
+    }
+}
+
+impl ModeProblem {
+    /// The problem with the given columns `c_k` (r x r, column `k` belongs to contact `k`), jump
+    /// vectors `d_k` (r x r, likewise) and right-hand side `N(0)` (r).
+    ///
+    /// `d` and `N(0)` have one unit (a force), which is then the unit of `y` where the columns are
+    /// dimensionless.
+    ///
+    /// # Errors
+    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`], the first that is met.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector, DMatrix};
+    /// use slideway_modes::ModeProblem;
+    /// // One slider, eq. (9): (sigma - mu eta s) y = N(0), with mu eta s = 0.2.
+    /// let none = DMatrix::zeros(1, 1);
+    /// let problem = ModeProblem::new(dmatrix![0.8], dmatrix![-1.2], none.clone(), none, dvector![4.0])?;
+    /// assert_eq!(problem.contacts(), 1);
+    /// # Ok::<(), slideway_modes::ModeProblemError>(())
+    /// ```
+    pub fn new(
+        columns_positive: DMatrix<f64>,
+        columns_negative: DMatrix<f64>,
+        jumps_positive: DMatrix<f64>,
+        jumps_negative: DMatrix<f64>,
+        right_hand_side: DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let contacts = right_hand_side.len();
+        let columns = BySide { positive: columns_positive, negative: columns_negative };
+        let jumps = BySide { positive: jumps_positive, negative: jumps_negative };
+        check_vector(ProblemPart::RightHandSide, &right_hand_side, contacts)?;
+        for side in Side::BOTH {
+            check_matrix(ProblemPart::Columns(side), columns.get(side), contacts)?;
+            check_matrix(ProblemPart::Jumps(side), jumps.get(side), contacts)?;
+        }
+        let has_jump = (0..contacts)
+            .map(|contact| jumps.positive.column(contact) != jumps.negative.column(contact))
+            .collect();
+        Ok(Self { columns, jumps, right_hand_side, has_jump, remainder: None })
+    }
+
+    /// The problem of contacts with dry friction, from their influence coefficients:
+    ///
+    /// ```text
+    /// c_k^{sigma} = sigma e_k - mu_k^{sigma} s_k eta_k^{sigma},   d_k^{sigma} = s_k F_k0^{sigma} eta_preload_k^{sigma}
+    /// ```
+    ///
+    /// (Klepp (2002), eq. (6)).
+    ///
+    /// # Errors
+    /// [`ModeProblemError`] for shapes, for entries that are not finite, and for velocity signs
+    /// other than -1, 0, 1.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::{enumerate, BySide, InfluenceCoefficients, Limits, ModeProblem};
+    /// // A single slider with eta = 0.5, mu = 0.4, moving forwards: eq. (9) gives 4 / (1 - 0.2).
+    /// let eta = BySide::same(dmatrix![0.5]);
+    /// let problem = ModeProblem::from_influence(&InfluenceCoefficients {
+    ///     eta: eta.clone(),
+    ///     eta_preload: eta,
+    ///     mu: BySide::same(dvector![0.4]),
+    ///     preload: BySide::same(dvector![0.0]),
+    ///     velocity_signs: dvector![1.0],
+    ///     frictionless: dvector![4.0],
+    /// })?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert!((solutions.solutions[0].normal_force[0] - 5.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_influence(influence: &InfluenceCoefficients) -> Result<Self, ModeProblemError> {
+        let contacts = influence.frictionless.len();
+        let signs = &influence.velocity_signs;
+        check_vector(ProblemPart::VelocitySigns, signs, contacts)?;
+        if let Some((contact, &value)) =
+            signs.iter().enumerate().find(|&(_, &sign)| sign != 0.0 && sign.abs() != 1.0)
+        {
+            return Err(ModeProblemError::VelocitySign { contact, value });
+        }
+        for side in Side::BOTH {
+            check_matrix(ProblemPart::Columns(side), influence.eta.get(side), contacts)?;
+            check_matrix(ProblemPart::Jumps(side), influence.eta_preload.get(side), contacts)?;
+            check_vector(ProblemPart::Friction(side), influence.mu.get(side), contacts)?;
+            check_vector(ProblemPart::Preload(side), influence.preload.get(side), contacts)?;
+        }
+        // c_k^{sigma} = sigma e_k - mu_k s_k eta_k^{sigma}
+        let columns = |side: Side| {
+            let friction = DMatrix::from_diagonal(&influence.mu.get(side).component_mul(signs));
+            DMatrix::from_diagonal_element(contacts, contacts, side.sign())
+                - influence.eta.get(side) * friction
+        };
+        // d_k^{sigma} = s_k F_k0 eta_k^{sigma}
+        let jumps = |side: Side| {
+            influence.eta_preload.get(side)
+                * DMatrix::from_diagonal(&influence.preload.get(side).component_mul(signs))
+        };
+        Self::new(
+            columns(Side::Positive),
+            columns(Side::Negative),
+            jumps(Side::Positive),
+            jumps(Side::Negative),
+            influence.frictionless.clone(),
+        )
+    }
+
+    /// The problem whose signed solutions `N` are all solutions `x` of `A x + B |x| = b`:
+    /// columns `sigma A_k + B_k`, no jumps. `a` and `b` are r x r, `right_hand_side` has r entries.
+    ///
+    /// # Errors
+    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`].
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::{enumerate, Limits, ModeProblem};
+    /// // x + 2 |x| = 3 has the solutions 1 and -3.
+    /// let problem = ModeProblem::from_absolute_value_equation(&dmatrix![1.0], &dmatrix![2.0], dvector![3.0])?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert_eq!(solutions.solutions[0].normal_force[0], 1.0);
+    /// assert_eq!(solutions.solutions[1].normal_force[0], -3.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_absolute_value_equation(
+        a: &DMatrix<f64>,
+        b: &DMatrix<f64>,
+        right_hand_side: DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let contacts = right_hand_side.len();
+        check_matrix(ProblemPart::Columns(Side::Positive), a, contacts)?;
+        check_matrix(ProblemPart::Columns(Side::Negative), b, contacts)?;
+        let none = DMatrix::zeros(contacts, contacts);
+        let mut problem = Self::new(a + b, b - a, none.clone(), none, right_hand_side)?;
+        let lost = |one: &DMatrix<f64>, other: &DMatrix<f64>, sum: &DMatrix<f64>| {
+            one.zip_zip_map(other, sum, two_sum_remainder)
+        };
+        problem.remainder = Remainder::new(BySide {
+            positive: lost(a, b, &problem.columns.positive),
+            negative: lost(b, &-a, &problem.columns.negative),
+        });
+        Ok(problem)
+    }
+
+    /// The problem that lists all solutions of the linear complementarity problem
+    /// `w = M z + q, w >= 0, z >= 0, w^T z = 0`.
+    ///
+    /// On the positive side of contact `k` the unknown `y_k` is `z_k` (column `-M_k`), on the
+    /// negative side it is `w_k` (column `e_k`); the right-hand side is `q`. So `z` is the positive
+    /// part of the signed solution `N` and `w` its negative part.
+    ///
+    /// # Errors
+    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`].
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::{enumerate, Limits, ModeProblem};
+    /// // w = 2 z - 4: only z = 2, w = 0.
+    /// let problem = ModeProblem::from_linear_complementarity(&dmatrix![2.0], dvector![-4.0])?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert_eq!(solutions.solutions.len(), 1);
+    /// assert_eq!(solutions.solutions[0].normal_force[0], 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_linear_complementarity(m: &DMatrix<f64>, q: DVector<f64>) -> Result<Self, ModeProblemError> {
+        let contacts = q.len();
+        let none = DMatrix::zeros(contacts, contacts);
+        Self::new(-m, DMatrix::identity(contacts, contacts), none.clone(), none, q)
+    }
+
+    /// The problem whose solutions are all `(w, z)` of the horizontal linear complementarity problem
+    /// `A w - B z = q, w >= 0, z >= 0, w^T z = 0` (the form of Sznajder and Gowda, Linear Algebra and
+    /// its Applications 223/224 (1995)). With `A = I` it is the linear complementarity problem of `B`.
+    ///
+    /// On the positive side of contact `k` the unknown `y_k` is `z_k` (column `-B_k`), on the
+    /// negative side it is `w_k` (column `A_k`), as in [`Self::from_linear_complementarity`].
+    ///
+    /// # Errors
+    /// [`ModeProblemError::Shape`] and [`ModeProblemError::NotFinite`].
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::{enumerate, Limits, ModeProblem};
+    /// // 2 w - 3 z = 6: only w = 3, z = 0.
+    /// let problem = ModeProblem::from_horizontal_complementarity(&dmatrix![2.0], &dmatrix![3.0], dvector![6.0])?;
+    /// let solutions = enumerate(&problem, &Limits::default())?;
+    /// assert_eq!(solutions.solutions.len(), 1);
+    /// assert_eq!(solutions.solutions[0].normal_force[0], -3.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_horizontal_complementarity(
+        a: &DMatrix<f64>,
+        b: &DMatrix<f64>,
+        q: DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let none = DMatrix::zeros(q.len(), q.len());
+        Self::new(-b, a.clone(), none.clone(), none, q)
+    }
+
+    /// The number `r` of contacts.
+    pub fn contacts(&self) -> usize {
+        self.right_hand_side.len()
+    }
+
+    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`.
+    pub(super) fn restricted(
+        &self,
+        contacts: &[usize],
+        right_hand_side: &DVector<f64>,
+    ) -> Result<Self, ModeProblemError> {
+        let size = contacts.len();
+        let of = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
+        };
+        let by_side = |part: &BySide<DMatrix<f64>>| BySide {
+            positive: of(&part.positive),
+            negative: of(&part.negative),
+        };
+        let (columns, jumps) = (by_side(&self.columns), by_side(&self.jumps));
+        let right = DVector::from_fn(size, |row, _| right_hand_side[contacts[row]]);
+        let problem = Self::new(columns.positive, columns.negative, jumps.positive, jumps.negative, right)?;
+        let remainder = self.remainder.as_ref();
+        Ok(Self { remainder: remainder.and_then(|lost| Remainder::new(by_side(&lost.columns))), ..problem })
+    }
+
+    /// The columns `c_k` of one side (r x r); where they are sums of two matrices, rounded: see
+    /// [`Self::remainder`].
+    pub fn columns(&self, side: Side) -> &DMatrix<f64> {
+        self.columns.get(side)
+    }
+
+    /// What rounding took from [`Self::columns`] (r x r), exactly; none if that is nothing. The problem is the
+    /// one with the columns `columns + remainder`.
+    ///
+    /// ```
+    /// use nalgebra::{dmatrix, dvector};
+    /// use slideway_modes::{ModeProblem, Side};
+    /// let problem = ModeProblem::from_absolute_value_equation(&dmatrix![1.0], &dmatrix![1e-20], dvector![1.0])?;
+    /// assert_eq!(problem.columns(Side::Positive)[0], 1.0);
+    /// assert_eq!(problem.remainder(Side::Positive).map(|lost| lost[0]), Some(1e-20));
+    /// # Ok::<(), slideway_modes::ModeProblemError>(())
+    /// ```
+    pub fn remainder(&self, side: Side) -> Option<&DMatrix<f64>> {
+        self.remainder.as_ref().map(|lost| lost.columns.get(side))
+    }
+
+    /// The sizes of the remainder as radii of the rounded columns; none if nothing was rounded.
+    pub(super) fn remainder_radii(&self) -> Option<&Radii> {
+        self.remainder.as_ref().map(|lost| &lost.radii)
+    }
+
+    /// The problem with the rounded columns.
+    pub(super) fn rounded(&self) -> Self {
+        Self { remainder: None, ..self.clone() }
+    }
+
+    /// The jump vectors `d_k` of one side (r x r).
+    pub fn jumps(&self, side: Side) -> &DMatrix<f64> {
+        self.jumps.get(side)
+    }
+
+    /// The right-hand side `N(0)` (r).
+    pub fn right_hand_side(&self) -> &DVector<f64> {
+        &self.right_hand_side
+    }
+
+    /// Whether the right-hand side jumps where this contact changes its side: `d_k^+ != d_k^-`, exactly.
+    ///
+    /// # Panics
+    /// If there is no such contact.
+    pub fn has_jump(&self, contact: usize) -> bool {
+        self.has_jump[contact]
+    }
+
+    /// [`has_jump`](Self::has_jump) of every contact.
+    pub fn jumps_of_contacts(&self) -> Vec<bool> {
+        self.has_jump.clone()
+    }
+}
+
+fn check_matrix(part: ProblemPart, matrix: &DMatrix<f64>, contacts: usize) -> Result<(), ModeProblemError> {
+    if matrix.shape() != (contacts, contacts) {
+        let expected = (contacts, contacts);
+        return Err(ModeProblemError::Shape { part, expected, found: matrix.shape() });
+    }
+    for column in 0..contacts {
+        for row in 0..contacts {
+            let value = matrix[(row, column)];
+            if !value.is_finite() {
+                return Err(ModeProblemError::NotFinite { part, row, column, value });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_vector(part: ProblemPart, vector: &DVector<f64>, contacts: usize) -> Result<(), ModeProblemError> {
+    if vector.len() != contacts {
+        return Err(ModeProblemError::Shape { part, expected: (contacts, 1), found: vector.shape() });
+    }
+    match vector.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        Some((row, &value)) => Err(ModeProblemError::NotFinite { part, row, column: 0, value }),
+        None => Ok(()),
+    }
+}

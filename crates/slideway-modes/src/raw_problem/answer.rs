@@ -1,0 +1,282 @@
+//! From a problem to its report: the search, and what is told of it.
+
+use super::continuum;
+use super::listing::{Counts, Listing, Sort, list};
+use super::nearby;
+use super::range::in_range;
+use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, Unknowns};
+use super::residual::Equations;
+use super::values::Values;
+use super::{RawKind, RawProblem};
+use crate::certificate::{Decision, Interval, decide};
+use crate::{
+    CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem, ModeProblemError,
+    SearchOptions, SearchResult, SolutionProduct, StopReason, search,
+};
+use crate::progress::Callback;
+use crate::Status;
+
+/// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
+const ENCLOSURE_WORK: f64 = 3e7;
+/// ... and of the first solution for up to so many unknowns.
+const ENCLOSED_UNKNOWNS: usize = 500;
+/// Solutions on a boundary are decided in rational numbers: only for so many unknowns.
+const EXACT_UNKNOWNS: usize = 24;
+
+/// All solutions of a raw problem.
+///
+/// Searches with `options` and lists up to `listed` solutions, gap states and continua each; the
+/// counts are those of all. What is part of a continuum is not listed beside it. `progress` is called at every
+/// node, and in the midst of long work, and ends the search when it breaks.
+///
+/// # Errors
+/// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
+pub fn solve(
+    raw: &RawProblem,
+    options: &SearchOptions,
+    listed: usize,
+    progress: &mut Callback<'_>,
+) -> Result<RawReport, ModeProblemError> {
+    solve_with(raw, options, Listing { most: listed, all_faces: false }, progress)
+}
+
+/// [`solve`], with more to say about what is listed.
+///
+/// # Errors
+/// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
+pub fn solve_with(
+    raw: &RawProblem,
+    options: &SearchOptions,
+    listing: Listing,
+    progress: &mut Callback<'_>,
+) -> Result<RawReport, ModeProblemError> {
+    let problem = raw.mode_problem()?;
+    let result = search(&problem, options, progress)?;
+    let counts = Counts::of(&result.product, false);
+    let all = Counts::of(&result.product, true);
+    let faces = all.minus(&counts);
+    let listed = if listing.all_faces { &all } else { &counts };
+    let open = open(&result, options);
+    let mut report = RawReport {
+        schema: SCHEMA,
+        kind: raw.kind(),
+        size: problem.contacts(),
+        status: status(&result, &counts),
+        complete: if open.is_empty() { "proven" } else { "not proven" },
+        partial: is_partial(result.completeness),
+        open,
+        count: counts.points.to_string(),
+        gap_state_count: counts.gaps.to_string(),
+        continuum_count: counts.continua.to_string(),
+        faces: Faces {
+            solutions: faces.points.to_string(),
+            gap_states: faces.gaps.to_string(),
+            continua: faces.continua.to_string(),
+            listed: listing.all_faces,
+        },
+        within_rounding: None,
+        totals: [&listed.points, &listed.gaps, &listed.continua].map(ToString::to_string),
+        solutions: Vec::new(),
+        gap_states: Vec::new(),
+        continua: Vec::new(),
+        // Whoever has matrices has unknowns, no contacts.
+        strategy: result.strategy().replace("contacts", "unknowns"),
+        nodes: result.nodes(),
+        groups: result.groups.iter().map(group).collect(),
+    };
+    let teller = Teller { raw, problem: &problem, equations: Equations::of(raw) };
+    teller.list(&result.product, listed, listing, &mut report);
+    if report.status == Status::None {
+        let spent = (options, report.nodes);
+        report.within_rounding = nearby::within_rounding(raw, &problem, spent, progress);
+    }
+    Ok(report)
+}
+
+fn is_partial(completeness: Completeness) -> bool {
+    matches!(completeness, Completeness::Partial(_) | Completeness::Unexamined)
+}
+
+fn status(result: &SearchResult, counts: &Counts) -> Status {
+    if !counts.continua.is_zero() {
+        return Status::Continuum;
+    }
+    match counts.points.to_u64() {
+        Some(1) => Status::One,
+        Some(0) if !counts.gaps.is_zero() => Status::PreloadGap,
+        Some(0) if result.completeness == Completeness::Proven => Status::None,
+        Some(0) => Status::Unknown,
+        _ => Status::Several,
+    }
+}
+
+/// What keeps the list from being proven complete.
+fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
+    match result.completeness {
+        Completeness::Proven => Vec::new(),
+        Completeness::NotProven => vec![not_proven(&result.groups)],
+        Completeness::Unexamined => {
+            vec![format!(
+                "singular patterns were not examined: more than {} of a group of unknowns, or too many corners",
+                options.limits.singular
+            )]
+        }
+        Completeness::Partial(reason) => {
+            let groups = result.groups.iter().filter(|group| group.shares.unexplored > 0.0).count();
+            let reason = match reason {
+                StopReason::Cancelled => "the search was ended by a time limit or on request".to_owned(),
+                StopReason::SolutionLimit => {
+                    format!("the limit of {} solutions of a group of unknowns", options.limits.solutions)
+                        + " was reached (--max-found)"
+                }
+                StopReason::NodeLimit => {
+                    format!("the limit of {} nodes was reached (--max-nodes)", options.nodes)
+                }
+            };
+            vec![format!("{reason}; {}", unexplored(groups))]
+        }
+    }
+}
+
+fn unexplored(groups: usize) -> String {
+    match groups {
+        0 => "some groups of unknowns were not searched".to_owned(),
+        1 => "a group of unknowns was not searched to its end".to_owned(),
+        groups => format!("{groups} groups of unknowns were not searched to their end"),
+    }
+}
+
+fn not_proven(groups: &[GroupReport]) -> String {
+    let patterns: u64 = groups.iter().map(|group| group.unproven_patterns).sum();
+    match patterns {
+        0 => "the search was complete, but exclusions or solutions that others depend on are not proven"
+            .to_owned(),
+        1 => "the search was complete, but the outcome of 1 pattern is not proven".to_owned(),
+        patterns => {
+            format!("the search was complete, but the outcomes of {patterns} patterns are not proven")
+        }
+    }
+}
+
+fn group(report: &GroupReport) -> RawGroup {
+    let shares = &report.shares;
+    RawGroup {
+        indices: report.contacts.clone(),
+        method: report.method.to_string(),
+        nodes: report.nodes,
+        patterns: RawShares {
+            uniqueness: shares.uniqueness,
+            cells: shares.cells,
+            propagation: shares.propagation,
+            relaxation: shares.relaxation,
+            examined: shares.examined,
+            // An empty sum is -0.
+            unexplored: shares.unexplored + 0.0,
+        },
+        proven: report.proven,
+    }
+}
+
+/// Tells states of the search in the words of the problem.
+struct Teller<'a> {
+    raw: &'a RawProblem,
+    problem: &'a ModeProblem,
+    equations: Equations<'a>,
+}
+
+impl Teller<'_> {
+    /// Fills the lists of the report.
+    fn list(&self, product: &SolutionProduct, counts: &Counts, listing: Listing, report: &mut RawReport) {
+        let size = self.problem.contacts();
+        let mut ends = Vec::new();
+        list(product, (counts, Sort::Point), listing, &mut |state| {
+            let number = report.solutions.len();
+            report.solutions.push(self.point(state, number));
+            ends.push(state.support(size));
+        });
+        list(product, (counts, Sort::Gap), listing, &mut |state| {
+            report.gap_states.push(self.point(state, 0));
+        });
+        let mut continua = Vec::new();
+        list(product, (counts, Sort::Continuum), listing, &mut |state| {
+            report.continua.push(continuum::told(state, self.kind(), size, listing.most));
+            continua.push(state.support(size));
+        });
+        for (solution, end) in report.solutions.iter_mut().zip(&ends).filter(|(one, _)| !one.maximal) {
+            solution.end_of_continuum = continua.iter().position(|continuum| end.is_part_of(continuum));
+        }
+    }
+
+    fn kind(&self) -> RawKind {
+        self.raw.kind()
+    }
+
+    fn point(&self, state: &CombinedState<'_>, number: usize) -> RawSolution {
+        let size = self.problem.contacts();
+        let pattern = state.pattern(size);
+        let mut values = Values::new(state, size);
+        let signs: Vec<i8> = values.signed.iter().map(|value| sign(*value)).collect();
+        let in_gap = |at: usize| pattern[at] == ContactState::Gap;
+        let on_boundary = signs.iter().enumerate().any(|(at, &sign)| sign == 0 && !in_gap(at));
+        let beyond_range = values.settle(self.kind(), self.problem, &pattern);
+        let singular = state.parts.iter().any(|(_, part)| matches!(part, GroupState::Singular(_)));
+        let work = (number as f64 + 1.0) * (size as f64).powi(3);
+        let exactly = on_boundary || !beyond_range.is_empty();
+        let affordable = (work <= ENCLOSURE_WORK || (number == 0 && size <= ENCLOSED_UNKNOWNS))
+            && (!exactly || size <= EXACT_UNKNOWNS);
+        let enclosure_radius = (affordable && !singular && values.gaps.is_empty())
+            .then(|| radius(self.problem, &pattern, &values.signed))
+            .flatten();
+        RawSolution {
+            unknowns: Unknowns::new(self.kind(), &values.signed),
+            signs,
+            on_boundary,
+            maximal: state.is_maximal(),
+            enclosure_radius,
+            residual: values.residual(&self.equations, &pattern),
+            beyond_range,
+            gaps: values.gaps,
+            end_of_continuum: None,
+        }
+    }
+}
+
+/// How far values of a pattern may be from those of its exact solution; none if that is not known. Values that have
+/// no floating-point number are left out.
+fn radius(problem: &ModeProblem, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
+    let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
+        decide(problem, pattern).decision
+    else {
+        return None;
+    };
+    let distance = |(bounds, value): (&Interval, &f64)| {
+        let largest = (bounds.upper() - value.abs()).max(value.abs() - bounds.lower());
+        if largest > 0.0 { largest.next_up() } else { 0.0 }
+    };
+    let known = unknowns.iter().zip(values).filter(|(_, value)| in_range(**value));
+    let radius = known.map(distance).fold(0.0, f64::max);
+    radius.is_finite().then_some(radius)
+}
+
+fn sign(value: f64) -> i8 {
+    i8::from(value > 0.0) - i8::from(value < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ops::ControlFlow;
+
+    #[test]
+    fn a_ray_is_told_with_its_end_and_direction() {
+        let raw = RawProblem::from_json(br#"{"type": "lcp", "M": [[1, -1], [-1, 1]], "q": [-1, 1]}"#)
+            .expect("a problem");
+        let report =
+            solve(&raw, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(())).expect("finite");
+        assert_eq!(report.status, Status::Continuum);
+        let [ray] = report.continua.as_slice() else { panic!("one ray") };
+        let [ray] = ray.parts.as_slice() else { panic!("one part") };
+        assert_eq!(ray.vertices, [Unknowns::Complementary { z: vec![1.0, 0.0], w: vec![0.0, 0.0] }]);
+        assert_eq!(ray.directions, [Unknowns::Complementary { z: vec![1.0, 1.0], w: vec![0.0, 0.0] }]);
+    }
+}

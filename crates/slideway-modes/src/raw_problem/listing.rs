@@ -1,0 +1,128 @@
+//! Which combinations of groups' states are listed, and how many there are of each sort.
+
+use crate::{BigCount, CombinedState, ContactState, GroupState, SolutionProduct};
+
+/// How much of the answer is listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Listing {
+    /// The most entries of each list: solutions, gap states, continua, and the vertices and the directions of
+    /// each part of a continuum.
+    pub most: usize,
+    /// Whether what is part of a larger continuum is listed, too: its ends, and its faces.
+    pub all_faces: bool,
+}
+
+/// What a combination of groups' states is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Sort {
+    Point,
+    Gap,
+    Continuum,
+}
+
+impl Sort {
+    fn of_part(state: &GroupState) -> Self {
+        match state {
+            GroupState::Singular(mode) if mode.set.is_continuum() => Self::Continuum,
+            // Raw problems are exact: every pattern is decided.
+            GroupState::Undecided(_) => Self::Continuum,
+            GroupState::Gap(_) => Self::Gap,
+            GroupState::Singular(mode) if mode.pattern.contains(&ContactState::Gap) => Self::Gap,
+            GroupState::Solution(_) | GroupState::Singular(_) => Self::Point,
+        }
+    }
+
+    /// Of a combination: that of the part of which most has to be said.
+    pub(super) fn of(state: &CombinedState<'_>) -> Self {
+        state.parts.iter().map(|(_, part)| Self::of_part(part)).max().unwrap_or(Self::Point)
+    }
+}
+
+/// Numbers of combinations.
+pub(super) struct Counts {
+    pub(super) points: BigCount,
+    pub(super) gaps: BigCount,
+    pub(super) continua: BigCount,
+}
+
+impl Counts {
+    /// Of a product, with or without what is part of a larger continuum.
+    pub(super) fn of(product: &SolutionProduct, all_faces: bool) -> Self {
+        let [points, with_gaps, all] = cumulated(product, all_faces);
+        Self { gaps: with_gaps.minus(&points), continua: all.minus(&with_gaps), points }
+    }
+
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        Self {
+            points: self.points.minus(&other.points),
+            gaps: self.gaps.minus(&other.gaps),
+            continua: self.continua.minus(&other.continua),
+        }
+    }
+
+    /// How many of a sort to list.
+    fn wanted(&self, sort: Sort, most: usize) -> usize {
+        let count = match sort {
+            Sort::Point => &self.points,
+            Sort::Gap => &self.gaps,
+            Sort::Continuum => &self.continua,
+        };
+        count.to_u64().and_then(|count| usize::try_from(count).ok()).map_or(most, |count| count.min(most))
+    }
+}
+
+/// Numbers of combinations: of points; with gap states; with continua.
+fn cumulated(product: &SolutionProduct, all_faces: bool) -> [BigCount; 3] {
+    let mut total = [1, 1, 1].map(BigCount::from);
+    for factor in &product.factors {
+        let mut sums = <[BigCount; 3]>::default();
+        for alternative in factor.alternatives.iter().filter(|one| all_faces || one.state.is_maximal()) {
+            let dependents = cumulated(&alternative.dependents, all_faces);
+            for sort in Sort::of_part(&alternative.state) as usize..3 {
+                sums[sort] = sums[sort].plus(&dependents[sort]);
+            }
+        }
+        total = [0, 1, 2].map(|sort| total[sort].times(&sums[sort]));
+    }
+    total
+}
+
+/// Calls `take` with each combination of a sort that is to be listed, given how many there are.
+pub(super) fn list(
+    product: &SolutionProduct,
+    (counts, sort): (&Counts, Sort),
+    listing: Listing,
+    take: &mut dyn FnMut(&CombinedState<'_>),
+) {
+    let wanted = counts.wanted(sort, listing.most);
+    if wanted > 0 {
+        // Those of this sort come first, so that none has to be sought among many of the others.
+        let mut product = product.clone();
+        restrict(&mut product, sort, listing.all_faces);
+        let states = product.states().filter(|state| Sort::of(state) == sort);
+        states.take(wanted).for_each(|state| take(&state));
+    }
+}
+
+/// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the combinations
+/// that are left; none if there are no combinations.
+fn restrict(product: &mut SolutionProduct, most: Sort, all_faces: bool) -> Option<Sort> {
+    let mut greatest = Some(Sort::Point);
+    for factor in &mut product.factors {
+        let mut sorted = Vec::new();
+        for mut alternative in std::mem::take(&mut factor.alternatives) {
+            let own = Sort::of_part(&alternative.state);
+            if own <= most
+                && (all_faces || alternative.state.is_maximal())
+                && let Some(dependents) = restrict(&mut alternative.dependents, most, all_faces)
+            {
+                sorted.push((own.max(dependents), alternative));
+            }
+        }
+        sorted.sort_by_key(|(sort, _)| std::cmp::Reverse(*sort));
+        let first = sorted.first().map(|(sort, _)| *sort);
+        greatest = greatest.zip(first).map(|(one, other)| one.max(other));
+        factor.alternatives = sorted.into_iter().map(|(_, alternative)| alternative).collect();
+    }
+    greatest
+}

@@ -1,0 +1,201 @@
+//! Problems given as matrices, by themselves: no mechanism needed.
+//!
+//! Many questions lead to a system of linear equations in which each unknown switches between two
+//! versions of its coefficients, according to its sign. Slideway finds *all* solutions of such a
+//! system, and says whether it is proven that there are no others. Four forms are read:
+//!
+//! | type | arrays | problem | source |
+//! |---|---|---|---|
+//! | `lcp` | `M`, `q` | `w = M z + q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | linear complementarity problem (Cottle, Pang, Stone, The Linear Complementarity Problem, 1992) |
+//! | `ave` | `A`, `B`, `b` | `A x + B abs(x) = b` | absolute value equation (Rohn, 2004; Mangasarian, 2007) |
+//! | `hlcp` | `A`, `B`, `q` | `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0` | horizontal linear complementarity problem (Sznajder and Gowda, 1995); with `A = I` an LCP with `M = B` |
+//! | `modes` | `columns_positive`, `columns_negative`, `right_hand_side`, and perhaps `jumps_positive`, `jumps_negative` | [`ModeProblem`] | Klepp (2002), eqs. (6), (8) |
+//!
+//! The way of the data: bytes -> [`RawProblem`] -> [`solve`] -> [`RawReport`] -> text, JSON or `.npz`.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use slideway_modes::SearchOptions;
+//! use slideway_modes::raw_problem::{RawProblem, solve};
+//!
+//! let problem = RawProblem::from_json(br#"{"type": "lcp", "M": [[1, 2], [2, 1]], "q": [-1, -1]}"#)?;
+//! let report = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(()))?;
+//! assert_eq!(report.count, "3");
+//! assert_eq!(report.complete, "proven");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Numbers
+//! Every number is a 64-bit floating-point number; decimal fractions and large integers are rounded
+//! to the nearest one. Proofs refer to these numbers, taken as exact; sums of two of them are not rounded. An
+//! unknown whose value is beyond the range of such numbers has none, and is told as text: [`BeyondRange`].
+
+mod answer;
+mod assemble;
+mod continuum;
+mod fault;
+#[cfg(feature = "json")]
+mod json;
+mod kind;
+mod listing;
+mod nearby;
+#[cfg(feature = "npz")]
+mod npy;
+#[cfg(feature = "npz")]
+mod npz;
+mod range;
+mod report;
+mod residual;
+mod shape;
+#[cfg(feature = "npz")]
+mod tables;
+mod values;
+
+pub use answer::{solve, solve_with};
+pub use fault::{RawFault, RawFaults};
+pub use kind::RawKind;
+pub use listing::Listing;
+pub use report::{
+    BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution, SCHEMA,
+    Unknowns, WithinRounding,
+};
+pub use shape::Shape;
+#[cfg(feature = "npz")]
+pub use tables::to_npz;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::{ModeProblem, ModeProblemError};
+
+/// The most bytes of a problem.
+pub const SIZE_LIMIT: u64 = 64 << 20;
+/// The most unknowns of a problem.
+pub const GREATEST_SIZE: usize = 2000;
+
+/// A problem as it was given. Matrices are n x n, vectors have n entries.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RawProblem {
+    /// `w = M z + q`, `w >= 0`, `z >= 0`, `w_k z_k = 0`.
+    LinearComplementarity {
+        /// The matrix.
+        m: DMatrix<f64>,
+        /// The constant part.
+        q: DVector<f64>,
+    },
+    /// `A x + B |x| = b`, `|x|` entry by entry.
+    AbsoluteValue {
+        /// The matrix of `x`.
+        a: DMatrix<f64>,
+        /// The matrix of `|x|`.
+        b: DMatrix<f64>,
+        /// The right-hand side `b`.
+        right_hand_side: DVector<f64>,
+    },
+    /// `A w - B z = q`, `w >= 0`, `z >= 0`, `w_k z_k = 0`.
+    HorizontalComplementarity {
+        /// The matrix of `w`.
+        a: DMatrix<f64>,
+        /// The matrix of `z`.
+        b: DMatrix<f64>,
+        /// The right-hand side.
+        q: DVector<f64>,
+    },
+    /// The mode problem itself.
+    Modes(ModeProblem),
+}
+
+impl RawProblem {
+    /// The problem in a file: a NumPy archive if it begins as one, else JSON.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, as far as reading could go on.
+    #[cfg(all(feature = "json", feature = "npz"))]
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, RawFaults> {
+        if bytes.starts_with(b"PK") { Self::from_npz(bytes) } else { Self::from_json(bytes) }
+    }
+
+    /// The problem in a JSON text: an object with `type` and the arrays of that type, a matrix being a
+    /// list of rows. `type` may be absent where the names of the arrays tell it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, as far as reading could go on.
+    ///
+    /// ```
+    /// use slideway_modes::raw_problem::{RawFault, RawProblem, Shape};
+    ///
+    /// let faults = RawProblem::from_json(br#"{"type": "lcp", "M": [[1, 2]], "q": [0, 1]}"#).unwrap_err();
+    /// assert_eq!(faults.to_string(), "`M` is a 1 x 2 matrix, but must be a 2 x 2 matrix, as `q` has 2 entries");
+    /// ```
+    #[cfg(feature = "json")]
+    pub fn from_json(bytes: &[u8]) -> Result<Self, RawFaults> {
+        check_length(bytes)?;
+        if bytes.iter().all(u8::is_ascii_whitespace) {
+            return Err(RawFault::Empty.into());
+        }
+        // Some editors begin a file with a byte order mark.
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let mut faults = Vec::new();
+        json::read(bytes, &mut faults)?.assemble(faults)
+    }
+
+    /// The problem in a NumPy archive (`.npz`): arrays under the same names as in JSON. Entries may be
+    /// floating-point numbers of 32 or 64 bits or integers, in either order of rows and columns.
+    /// `type`, a text, may be absent where the names of the arrays tell it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, as far as reading could go on.
+    #[cfg(feature = "npz")]
+    pub fn from_npz(bytes: &[u8]) -> Result<Self, RawFaults> {
+        check_length(bytes)?;
+        let mut faults = Vec::new();
+        npz::read(bytes, &mut faults)?.assemble(faults)
+    }
+
+    /// Its type.
+    pub fn kind(&self) -> RawKind {
+        match self {
+            Self::LinearComplementarity { .. } => RawKind::Lcp,
+            Self::AbsoluteValue { .. } => RawKind::Ave,
+            Self::HorizontalComplementarity { .. } => RawKind::Hlcp,
+            Self::Modes(_) => RawKind::Modes,
+        }
+    }
+
+    /// The mode problem with the same solutions. Its signed `N` is `z - w`, or `x`.
+    ///
+    /// # Errors
+    /// If shapes do not fit, an entry is not finite, or `A + B` overflows.
+    pub fn mode_problem(&self) -> Result<ModeProblem, ModeProblemError> {
+        match self {
+            Self::LinearComplementarity { m, q } => ModeProblem::from_linear_complementarity(m, q.clone()),
+            Self::AbsoluteValue { a, b, right_hand_side } => {
+                ModeProblem::from_absolute_value_equation(a, b, right_hand_side.clone())
+            }
+            Self::HorizontalComplementarity { a, b, q } => {
+                ModeProblem::from_horizontal_complementarity(a, b, q.clone())
+            }
+            Self::Modes(problem) => Ok(problem.clone()),
+        }
+    }
+
+    /// Whether `A + B` and `B - A`, the columns of an absolute value equation, are finite.
+    fn check_range(&self) -> Result<(), RawFault> {
+        let Self::AbsoluteValue { a, b, .. } = self else { return Ok(()) };
+        let overflows = |at: &usize| !(a[*at] + b[*at]).is_finite() || !(b[*at] - a[*at]).is_finite();
+        match (0..a.len()).find(overflows) {
+            Some(at) => Err(RawFault::Overflow { row: at % a.nrows(), column: at / a.nrows() }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(any(feature = "json", feature = "npz"))]
+fn check_length(bytes: &[u8]) -> Result<(), RawFault> {
+    if bytes.is_empty() {
+        return Err(RawFault::Empty);
+    }
+    if bytes.len() as u64 > SIZE_LIMIT {
+        return Err(RawFault::TooLarge { limit: SIZE_LIMIT });
+    }
+    Ok(())
+}

@@ -1,0 +1,278 @@
+//! What is told of a raw problem: plain data, which are the JSON output.
+
+use serde::{Serialize, Serializer};
+
+use super::kind::RawKind;
+use super::range::in_range;
+use crate::Status;
+
+/// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
+pub const SCHEMA: &str = "slideway/modes/2";
+
+/// All solutions of a raw problem.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawReport {
+    /// Version of this layout: [`SCHEMA`].
+    pub schema: &'static str,
+    /// Type of the problem.
+    #[serde(rename = "type")]
+    pub kind: RawKind,
+    /// Number n of unknowns (of pairs of them in a complementarity problem).
+    pub size: usize,
+    /// How many solutions there are; of those that were found if the search ended early.
+    pub status: Status,
+    /// "proven" or "not proven": whether these are certainly all solutions.
+    pub complete: &'static str,
+    /// Whether the search ended before every possibility was dealt with.
+    pub partial: bool,
+    /// What remains open, in words; empty if `complete` is "proven".
+    pub open: Vec<String>,
+    /// Number of solutions found that are part of no continuum, as decimal text: it may be beyond any
+    /// integer type. Gap states are not among them.
+    pub count: String,
+    /// Number of states with an unknown in its preload gap, likewise.
+    pub gap_state_count: String,
+    /// Number of continua that are not part of larger ones, likewise.
+    pub continuum_count: String,
+    /// What is part of a larger continuum.
+    pub faces: Faces,
+    /// How many solutions, gap states and continua there are to list, likewise.
+    #[serde(skip)]
+    pub totals: [String; 3],
+    /// Whether there is a solution within rounding of the numbers; only if there is none for the numbers
+    /// themselves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within_rounding: Option<WithinRounding>,
+    /// The solutions, not more than was asked for.
+    pub solutions: Vec<RawSolution>,
+    /// States with an unknown in its preload gap, likewise (theory, section 3).
+    pub gap_states: Vec<RawSolution>,
+    /// Infinite sets of solutions, likewise.
+    pub continua: Vec<RawContinuum>,
+    /// How they were found: groups of unknowns and methods, in words.
+    pub strategy: String,
+    /// Nodes of the search that were visited.
+    pub nodes: u64,
+    /// The groups of unknowns that were searched one by one.
+    pub groups: Vec<RawGroup>,
+}
+
+/// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of other
+/// patterns.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Faces {
+    /// Number of solutions, as decimal text.
+    pub solutions: String,
+    /// Number of states in preload gaps, likewise.
+    pub gap_states: String,
+    /// Number of continua, likewise.
+    pub continua: String,
+    /// Whether they are listed with the others.
+    pub listed: bool,
+}
+
+/// The unknowns by the names that the problem's type has for them. NaN (in JSON `null`) is no value: see
+/// [`BeyondRange`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Unknowns {
+    /// Of a linear or horizontal complementarity problem.
+    Complementary {
+        /// `z`.
+        #[serde(serialize_with = "known_values")]
+        z: Vec<f64>,
+        /// `w`.
+        #[serde(serialize_with = "known_values")]
+        w: Vec<f64>,
+    },
+    /// Of an absolute value equation.
+    AbsoluteValue {
+        /// `x`.
+        #[serde(serialize_with = "known_values")]
+        x: Vec<f64>,
+    },
+    /// Of a mode problem.
+    Modes {
+        /// Signed normal forces `N_k = sigma_k y_k`.
+        #[serde(serialize_with = "known_values")]
+        normal_forces: Vec<f64>,
+        /// `y_k = |N_k|`.
+        #[serde(serialize_with = "known_values")]
+        y: Vec<f64>,
+    },
+}
+
+/// Numbers; nothing in place of those beyond the range of floating-point numbers, which are NaN here.
+fn known_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(values.iter().map(|value| (!value.is_nan()).then_some(*value)))
+}
+
+/// The same of one number.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn known_value<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    (!value.is_nan()).then_some(*value).serialize(serializer)
+}
+
+impl Unknowns {
+    /// The unknowns that have these signed values `N`, which are `z - w`, or `x`.
+    pub(super) fn new(kind: RawKind, signed: &[f64]) -> Self {
+        // Without the sign of a zero.
+        let number = |value: f64| if in_range(value) { value + 0.0 } else { f64::NAN };
+        let all = |of: fn(f64) -> f64| signed.iter().map(|&value| number(of(value))).collect();
+        match kind {
+            RawKind::Lcp | RawKind::Hlcp => {
+                Self::Complementary { z: all(|value| value.max(0.0)), w: all(|value| (-value).max(0.0)) }
+            }
+            RawKind::Ave => Self::AbsoluteValue { x: all(|value| value) },
+            RawKind::Modes => Self::Modes { normal_forces: all(|value| value), y: all(f64::abs) },
+        }
+    }
+
+    /// The names of the unknown that a signed value other than zero belongs to, with its sign under that name.
+    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(&'static str, f64)] {
+        match kind {
+            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[("z", 1.0)],
+            RawKind::Lcp | RawKind::Hlcp => &[("w", 1.0)],
+            RawKind::Ave if signed > 0.0 => &[("x", 1.0)],
+            RawKind::Ave => &[("x", -1.0)],
+            RawKind::Modes if signed > 0.0 => &[("normal_forces", 1.0), ("y", 1.0)],
+            RawKind::Modes => &[("normal_forces", -1.0), ("y", 1.0)],
+        }
+    }
+
+    /// Names and values.
+    pub fn named(&self) -> Vec<(&'static str, &[f64])> {
+        match self {
+            Self::Complementary { z, w } => vec![("z", z), ("w", w)],
+            Self::AbsoluteValue { x } => vec![("x", x)],
+            Self::Modes { normal_forces, y } => vec![("normal_forces", normal_forces), ("y", y)],
+        }
+    }
+}
+
+/// What numbers that differ from those given by rounding alone have for solutions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WithinRounding {
+    /// Every number may differ by this part of its size.
+    pub relative: f64,
+    /// "solution": some such numbers have the solution that is told; "none": none have any, which is proven;
+    /// "unknown".
+    pub answer: &'static str,
+    /// The solution.
+    #[serde(flatten)]
+    pub unknowns: Option<Unknowns>,
+}
+
+/// One solution, or one state with an unknown in its gap.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawSolution {
+    /// The unknowns.
+    #[serde(flatten)]
+    pub unknowns: Unknowns,
+    /// Sign of every `z_k - w_k`, `x_k` or `N_k`; 0 where it vanishes.
+    pub signs: Vec<i8>,
+    /// Whether some sign is 0 outside of a gap: the solution is on the boundary between patterns.
+    pub on_boundary: bool,
+    /// Whether it is part of no continuum.
+    pub maximal: bool,
+    /// No unknown that has a number is farther than this from the exact solution of the numbers given; absent
+    /// if that was not established.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enclosure_radius: Option<f64>,
+    /// What is left over in the problem's equations, relative to the largest sum of sizes of terms
+    /// in an equation; absent where an unknown has no value at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual: Option<f64>,
+    /// Unknowns that exist and have no floating-point number: theirs is `null`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beyond_range: Vec<BeyondRange>,
+    /// The first continuum of the list `continua`, from 0, of which this is an end; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_of_continuum: Option<usize>,
+    /// Unknowns in their gap.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<GapShare>,
+}
+
+/// An unknown that is not zero and beyond the range of floating-point numbers of full precision: larger than
+/// 1.8e308, or smaller than 2.2e-308 in size.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct BeyondRange {
+    /// The name of the unknown: "z", "w", "x", "normal_forces", "y" or "lambda".
+    pub name: &'static str,
+    /// Which unknown, from 0.
+    pub index: usize,
+    /// The exact value rounded to 17 digits ("1.5e310"); in words where it was not computed.
+    pub value: String,
+}
+
+/// An unknown in its preload gap.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct GapShare {
+    /// Which unknown, from 0.
+    pub index: usize,
+    /// The share lambda of `jumps_positive`, from 0 to 1; NaN (`null`) if that is beyond the range.
+    #[serde(serialize_with = "known_value")]
+    pub lambda: f64,
+}
+
+/// Infinitely many solutions: the unknowns of each part are in its set, whatever those of the other parts. NaN (in
+/// JSON `null`) is a value that is not zero and beyond the range of floating-point numbers, as of a [`BeyondRange`];
+/// its sign is that of the pattern.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawContinuum {
+    /// "+", "-" or "0" (in the gap) for every unknown.
+    pub pattern: String,
+    /// Whether it is not part of a larger continuum.
+    pub maximal: bool,
+    /// Its parts: unknowns that vary together, and last those that are fixed, if any.
+    pub parts: Vec<ContinuumPart>,
+}
+
+/// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of the
+/// directions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContinuumPart {
+    /// The unknowns, from 0; vertices and directions have one entry for each.
+    pub indices: Vec<usize>,
+    /// The vertices, not more than was asked for: the ends of a segment, the end of a ray.
+    pub vertices: Vec<Unknowns>,
+    /// Directions in which the set is unbounded, likewise.
+    pub directions: Vec<Unknowns>,
+    /// Number of all vertices.
+    pub vertex_count: usize,
+    /// Number of all directions.
+    pub direction_count: usize,
+}
+
+/// A group of unknowns that was searched by itself.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RawGroup {
+    /// Its unknowns, from 0.
+    pub indices: Vec<usize>,
+    /// The method, in words.
+    pub method: String,
+    /// Nodes visited.
+    pub nodes: u64,
+    /// The fractions of its patterns that each argument dealt with; they add up to 1.
+    pub patterns: RawShares,
+    /// Whether every exclusion and every outcome is proven.
+    pub proven: bool,
+}
+
+/// Fractions of the patterns of a group.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RawShares {
+    /// Excluded by a proof that there is exactly one solution.
+    pub uniqueness: f64,
+    /// Excluded because they are no cell of an arrangement of hyperplanes.
+    pub cells: f64,
+    /// Excluded by interval propagation.
+    pub propagation: f64,
+    /// Excluded by a linear relaxation.
+    pub relaxation: f64,
+    /// Solved one by one.
+    pub examined: f64,
+    /// Not dealt with.
+    pub unexplored: f64,
+}

@@ -1,0 +1,127 @@
+//! What a solution leaves over in the equations as they were given.
+
+use std::borrow::Cow;
+
+use dashu_ratio::RBig;
+use nalgebra::{DMatrix, DVector};
+
+use super::RawProblem;
+use super::range::nearest;
+use crate::Side;
+
+/// What a matrix of the equations is multiplied with, of each unknown `N` with its share `lambda` of the positive jump.
+#[derive(Clone, Copy)]
+enum Factor {
+    Signed,
+    Size,
+    /// `max(N, 0)`.
+    Positive,
+    /// `max(-N, 0)`.
+    Negative,
+    Share,
+    /// `1 - lambda`.
+    OtherShare,
+}
+
+/// `sum of matrices times factors = load`, without use of the mode problem for types that are not one.
+pub(super) struct Equations<'a> {
+    terms: Vec<(Cow<'a, DMatrix<f64>>, Factor)>,
+    load: &'a DVector<f64>,
+}
+
+impl<'a> Equations<'a> {
+    pub(super) fn of(raw: &'a RawProblem) -> Self {
+        let given = |matrix: &'a DMatrix<f64>, factor| (Cow::Borrowed(matrix), factor);
+        let negated = |matrix: &DMatrix<f64>, factor| (Cow::Owned(-matrix), factor);
+        match raw {
+            // w - M z = q
+            RawProblem::LinearComplementarity { m, q } => {
+                let identity = DMatrix::identity(q.len(), q.len());
+                let terms = vec![(Cow::Owned(identity), Factor::Negative), negated(m, Factor::Positive)];
+                Self { terms, load: q }
+            }
+            // A x + B |x| = b
+            RawProblem::AbsoluteValue { a, b, right_hand_side } => {
+                Self { terms: vec![given(a, Factor::Signed), given(b, Factor::Size)], load: right_hand_side }
+            }
+            // A w - B z = q
+            RawProblem::HorizontalComplementarity { a, b, q } => {
+                Self { terms: vec![given(a, Factor::Negative), negated(b, Factor::Positive)], load: q }
+            }
+            // sum c_k y_k - sum d_k = N(0)
+            RawProblem::Modes(problem) => Self {
+                terms: vec![
+                    given(problem.columns(Side::Positive), Factor::Positive),
+                    given(problem.columns(Side::Negative), Factor::Negative),
+                    negated(problem.jumps(Side::Positive), Factor::Share),
+                    negated(problem.jumps(Side::Negative), Factor::OtherShare),
+                ],
+                load: problem.right_hand_side(),
+            },
+        }
+    }
+
+    /// What is left over for these `N` and shares, relative to the largest sum of sizes of terms in an equation;
+    /// none if numbers overflow or underflow.
+    pub(super) fn residual(&self, signed: &[f64], shares: &[f64]) -> Option<f64> {
+        let factor = |factor, at: usize| match factor {
+            Factor::Signed => signed[at],
+            Factor::Size => signed[at].abs(),
+            Factor::Positive => signed[at].max(0.0),
+            Factor::Negative => (-signed[at]).max(0.0),
+            Factor::Share => shares[at],
+            Factor::OtherShare => 1.0 - shares[at],
+        };
+        let mut sum = -self.load;
+        let mut size = self.load.abs();
+        for (matrix, kind) in &self.terms {
+            let factors = DVector::from_fn(self.load.len(), |at, _| factor(*kind, at));
+            sum += &**matrix * &factors;
+            size += matrix.abs() * factors.abs();
+        }
+        let (sum, size) = (sum.amax(), size.amax());
+        (sum.is_finite() && size.is_normal() && size < f64::MAX).then(|| sum / size)
+    }
+
+    /// The same in exact arithmetic.
+    pub(super) fn exact_residual(&self, signed: &[RBig], shares: &[RBig]) -> f64 {
+        let size = |value: &RBig| if *value < RBig::ZERO { -value } else { value.clone() };
+        let above_zero = |value: RBig| if value < RBig::ZERO { RBig::ZERO } else { value };
+        let factor = |factor, at: usize| match factor {
+            Factor::Signed => signed[at].clone(),
+            Factor::Size => size(&signed[at]),
+            Factor::Positive => above_zero(signed[at].clone()),
+            Factor::Negative => above_zero(-&signed[at]),
+            Factor::Share => shares[at].clone(),
+            Factor::OtherShare => RBig::ONE - &shares[at],
+        };
+        let factors: Vec<Vec<RBig>> = self
+            .terms
+            .iter()
+            .map(|(_, kind)| (0..signed.len()).map(|at| factor(*kind, at)).collect())
+            .collect();
+        let (mut most_left, mut most) = (RBig::ZERO, RBig::ZERO);
+        for row in 0..signed.len() {
+            let mut left = -exact(self.load[row]);
+            let mut sizes = size(&left);
+            for ((matrix, _), factors) in self.terms.iter().zip(&factors) {
+                for (column, factor) in factors.iter().enumerate() {
+                    let entry = matrix[(row, column)];
+                    if entry != 0.0 && !factor.is_zero() {
+                        let term = exact(entry) * factor;
+                        sizes += size(&term);
+                        left += term;
+                    }
+                }
+            }
+            most_left = most_left.max(size(&left));
+            most = most.max(sizes);
+        }
+        if most.is_zero() { 0.0 } else { nearest(&(most_left / most)) }
+    }
+}
+
+/// A finite number as a fraction.
+pub(super) fn exact(value: f64) -> RBig {
+    RBig::try_from(value).unwrap_or(RBig::ZERO)
+}

@@ -1,0 +1,94 @@
+//! The values of one solution: floating-point numbers, and exact ones where these do not reach.
+
+use dashu_ratio::RBig;
+
+use super::RawKind;
+use super::range::{exact_unknown, in_range, nearest, told};
+use super::report::{BeyondRange, GapShare, Unknowns};
+use super::residual::{Equations, exact};
+use crate::{CombinedState, ContactState, GroupState, ModeProblem};
+
+/// Signed values `N` and shares of a state. One beyond the range of floating-point numbers is infinite or subnormal,
+/// with its sign.
+pub(super) struct Values {
+    pub(super) signed: Vec<f64>,
+    pub(super) gaps: Vec<GapShare>,
+    /// The exact sizes, or shares, of unknowns beyond the range; none where they are not known.
+    beyond: Vec<(usize, Option<RBig>)>,
+}
+
+impl Values {
+    pub(super) fn new(state: &CombinedState<'_>, size: usize) -> Self {
+        let signed =
+            state.normal_force(size).map_or_else(|| vec![0.0; size], |force| force.as_slice().to_vec());
+        let mut gaps: Vec<GapShare> = Vec::new();
+        for (indices, part) in &state.parts {
+            if let GroupState::Gap(gap) = part {
+                let own = gap.shares.iter();
+                gaps.extend(own.map(|one| GapShare { index: indices[one.contact], lambda: one.lambda }));
+            }
+        }
+        gaps.sort_by_key(|share| share.index);
+        Self { signed, gaps, beyond: Vec::new() }
+    }
+
+    /// Puts the numbers nearest to the exact values where the search had none of full precision, and tells of the
+    /// unknowns that have none.
+    pub(super) fn settle(
+        &mut self,
+        kind: RawKind,
+        problem: &ModeProblem,
+        pattern: &[ContactState],
+    ) -> Vec<BeyondRange> {
+        let mut told_of = Vec::new();
+        for at in (0..self.signed.len()).filter(|&at| !in_range(self.signed[at])).collect::<Vec<_>>() {
+            let exact = exact_unknown(problem, pattern, at);
+            if let Some(value) = exact.as_ref().map(nearest).filter(|value| value.is_normal()) {
+                self.signed[at] = value.copysign(self.signed[at]);
+                continue;
+            }
+            for &(name, sign) in Unknowns::names(kind, self.signed[at]) {
+                let value = told(sign, self.signed[at], exact.as_ref());
+                told_of.push(BeyondRange { name, index: at, value });
+            }
+            self.beyond.push((at, exact));
+        }
+        for gap in self.gaps.iter_mut().filter(|gap| !in_range(gap.lambda)) {
+            let exact = exact_unknown(problem, pattern, gap.index);
+            if let Some(value) = exact.as_ref().map(nearest).filter(|value| value.is_normal()) {
+                gap.lambda = value;
+                continue;
+            }
+            let value = told(1.0, gap.lambda, exact.as_ref());
+            told_of.push(BeyondRange { name: "lambda", index: gap.index, value });
+            self.beyond.push((gap.index, exact));
+            gap.lambda = f64::NAN;
+        }
+        told_of
+    }
+
+    /// What these values leave over in the equations; none if one of them is not known.
+    pub(super) fn residual(&self, equations: &Equations<'_>, pattern: &[ContactState]) -> Option<f64> {
+        let share = |(at, state): (usize, &ContactState)| match state {
+            ContactState::Positive => 1.0,
+            ContactState::Negative => 0.0,
+            ContactState::Gap => self.gaps.iter().find(|gap| gap.index == at).map_or(0.5, |gap| gap.lambda),
+        };
+        let shares: Vec<f64> = pattern.iter().enumerate().map(share).collect();
+        let plain = || equations.residual(&self.signed, &shares);
+        if let Some(residual) = Some(()).filter(|()| self.beyond.is_empty()).and_then(|()| plain()) {
+            return Some(residual);
+        }
+        let mut exact_signed: Vec<RBig> = self.signed.iter().map(|&value| exact(value)).collect();
+        let mut exact_shares: Vec<RBig> = shares.iter().map(|&value| exact(value)).collect();
+        for (at, value) in &self.beyond {
+            let value = value.clone()?;
+            if pattern[*at] == ContactState::Gap {
+                exact_shares[*at] = value;
+            } else {
+                exact_signed[*at] = if self.signed[*at] < 0.0 { -value } else { value };
+            }
+        }
+        Some(equations.exact_residual(&exact_signed, &exact_shares))
+    }
+}

@@ -1,0 +1,283 @@
+//! Solves groups of contacts one after the other and puts their solutions together.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::group::{GroupAnswer, search_group};
+use super::groups::Groups;
+use super::load::{Load, LoadedProblem};
+use super::monitor::Monitor;
+use super::product::{Alternative, Factor, GroupState, SolutionProduct};
+use super::report::{GroupReport, SearchOptions};
+use crate::certificate::{Interval, ProblemView};
+use crate::problem::{ModeProblemError, Side};
+use crate::scaling::patterns_of;
+use crate::solutions::{
+    Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern,
+};
+
+/// A problem of so few patterns is not split into groups, so that the outcome of each is known.
+const WHOLE_UP_TO: u64 = 64;
+
+/// Answers of groups that are kept for the same right-hand side, at most.
+const MOST_KEPT: usize = 10_000;
+
+/// A group's contacts and the right-hand side of its equations, bit by bit.
+type GroupKey = (Vec<usize>, Vec<u64>);
+
+pub(super) struct Composer<'p, 'm, 'c> {
+    problem: ProblemView<'p>,
+    options: &'p SearchOptions,
+    groups: Groups,
+    monitor: &'m mut Monitor<'c>,
+    solved: HashMap<GroupKey, Arc<SolvedGroup>>,
+    /// Reports of all groups, those of one group with several right-hand sides added up.
+    pub(super) reports: Vec<GroupReport>,
+    /// Whether every solution that other groups depend on is enclosed by proof.
+    pub(super) chain_proven: bool,
+    pub(super) all_examined: bool,
+}
+
+impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
+    pub(super) fn new(
+        problem: ProblemView<'p>,
+        options: &'p SearchOptions,
+        monitor: &'m mut Monitor<'c>,
+    ) -> Self {
+        let few = options.arguments.every_pattern && patterns_of(problem) <= WHOLE_UP_TO;
+        let split = options.arguments.groups && !few;
+        let groups = if split { Groups::new(problem) } else { Groups::whole(problem) };
+        Self {
+            problem,
+            options,
+            groups,
+            monitor,
+            solved: HashMap::new(),
+            reports: Vec::new(),
+            chain_proven: true,
+            all_examined: true,
+        }
+    }
+
+    /// All solutions of the problem.
+    pub(super) fn solve(&mut self) -> Result<SolutionProduct, ModeProblemError> {
+        let all: Vec<usize> = (0..self.groups.members.len()).collect();
+        self.solve_groups(&all, &Load::of(self.problem), (0.0, 1.0))
+    }
+
+    /// The solutions of some groups, given in increasing order, where `load` is the right-hand side
+    /// with everything that acts on them. They are the work from `work.0` on, of size `work.1`.
+    fn solve_groups(
+        &mut self,
+        groups: &[usize],
+        load: &Load,
+        work: (f64, f64),
+    ) -> Result<SolutionProduct, ModeProblemError> {
+        let contacts = |part: &[usize]| -> usize { part.iter().map(|&g| self.groups.members[g].len()).sum() };
+        let total = contacts(groups).max(1) as f64;
+        let parts: Vec<(Vec<usize>, f64)> = self
+            .groups
+            .independent_parts(groups)
+            .into_iter()
+            .map(|part| {
+                let share = work.1 * contacts(&part) as f64 / total;
+                (part, share)
+            })
+            .collect();
+        let mut product = SolutionProduct::default();
+        let mut done = work.0;
+        for (part, share) in parts {
+            product.factors.push(self.solve_part(&part, load, (done, share))?);
+            done += share;
+        }
+        Ok(product)
+    }
+
+    /// The solutions of groups that hang together: those of the first, and for each of them those of
+    /// the others.
+    fn solve_part(
+        &mut self,
+        part: &[usize],
+        load: &Load,
+        work: (f64, f64),
+    ) -> Result<Factor, ModeProblemError> {
+        let rest = &part[1..];
+        let first = self.groups.members[part[0]].clone();
+        let part_size: usize = part.iter().map(|&group| self.groups.members[group].len()).sum();
+        let own = work.1 * first.len() as f64 / part_size.max(1) as f64;
+        self.monitor.start_group(work.0, own);
+        let answer = self.solve_group(&first, load)?;
+        if rest.is_empty() {
+            return Ok(Factor { alternatives: answer.alternatives(), contacts: first });
+        }
+        let left = (work.0 + own, work.1 - own);
+        if answer.admits_sets {
+            // The others would have to be solved for a whole set of loads.
+            return self.solve_together(part, load, left);
+        }
+        let share = (work.1 - own) / answer.states.len().max(1) as f64;
+        let mut done = work.0 + own;
+        let mut alternatives = Vec::new();
+        for state in &answer.states {
+            let acting = self.load_with(&first, state, load);
+            if !acting.is_finite() {
+                // No floating-point number tells the others what acts on them.
+                return self.solve_together(part, load, left);
+            }
+            let dependents = self.solve_groups(rest, &acting, (done, share))?;
+            // What has no solution of the others is none, and there may be very many of such.
+            if !dependents.is_empty() {
+                alternatives.push(Alternative { state: Arc::clone(state), dependents });
+            }
+            if self.monitor.stopped().is_some() {
+                break;
+            }
+            done += share;
+        }
+        Ok(Factor { contacts: first, alternatives })
+    }
+
+    /// The solutions of groups that hang together, searched as one.
+    fn solve_together(
+        &mut self,
+        part: &[usize],
+        load: &Load,
+        work: (f64, f64),
+    ) -> Result<Factor, ModeProblemError> {
+        let mut contacts: Vec<usize> =
+            part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
+        contacts.sort_unstable();
+        self.monitor.start_group(work.0, work.1);
+        let answer = self.solve_group(&contacts, load)?;
+        Ok(Factor { alternatives: answer.alternatives(), contacts })
+    }
+
+    /// The solutions of one group's equations, each right-hand side solved once.
+    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Result<Arc<SolvedGroup>, ModeProblemError> {
+        let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
+        let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
+        if let Some(answer) = self.solved.get(&key) {
+            return Ok(Arc::clone(answer));
+        }
+        let restricted = LoadedProblem::restricted(self.problem, contacts, load)?;
+        let GroupAnswer { solutions, mut report, depends_on_ancestors } =
+            search_group(&restricted, self.options, self.monitor);
+        self.monitor.count_found(solutions.solutions.len() + solutions.gaps.len());
+        report.contacts = contacts.to_vec();
+        self.all_examined &= solutions.is_complete();
+        self.file_report(&report);
+        let answer = Arc::new(SolvedGroup::of(solutions));
+        // What was decided together with other contacts holds for their states only.
+        if !depends_on_ancestors && self.solved.len() < MOST_KEPT {
+            self.solved.insert(key, Arc::clone(&answer));
+        }
+        Ok(answer)
+    }
+
+    fn file_report(&mut self, report: &GroupReport) {
+        let same = |known: &&mut GroupReport| known.contacts == report.contacts;
+        match self.reports.iter_mut().rev().find(same) {
+            Some(known) => known.add(report),
+            None => self.reports.push(report.clone()),
+        }
+    }
+
+    /// The right-hand side with `sum_k d_k - c_k y_k` of a group's contacts.
+    fn load_with(&mut self, contacts: &[usize], state: &GroupState, load: &Load) -> Load {
+        let mut load = load.clone();
+        let unknowns = state.unknowns();
+        self.chain_proven &= unknowns.is_some();
+        let force = state.normal_force();
+        for (at, (&contact, state)) in contacts.iter().zip(state.pattern()).enumerate() {
+            let bounds = unknowns.map(|unknowns| non_negative(unknowns[at]));
+            let y = match (force, bounds) {
+                (Some(force), _) => force[at].abs(),
+                (None, Some(bounds)) => bounds.middle(),
+                (None, None) => 0.0,
+            };
+            let radius = bounds.map_or(0.0, |bounds| distance(bounds, y));
+            load.add_contact(self.problem, contact, state, (y, radius));
+        }
+        self.add_doubts(contacts, state, &mut load);
+        load
+    }
+
+    /// What contacts add that may just have changed their side, in patterns that were merged with the state's
+    /// own.
+    fn add_doubts(&self, contacts: &[usize], state: &GroupState, load: &mut Load) {
+        let Some(Certificate::OnBoundaryWithinBounds { unknowns: Some(unknowns), in_doubt }) =
+            state.certificate()
+        else {
+            return;
+        };
+        let pattern = state.pattern();
+        for &at in in_doubt {
+            let other = match pattern[at] {
+                ContactState::Positive => Side::Negative,
+                ContactState::Negative => Side::Positive,
+                ContactState::Gap => continue,
+            };
+            load.add_doubt(self.problem, contacts[at], other, unknowns[at].magnitude());
+        }
+    }
+}
+
+/// The part of an interval from 0 on; zero if there is none.
+fn non_negative(interval: Interval) -> Interval {
+    let all = Interval::new(0.0, f64::INFINITY).unwrap_or(Interval::REAL_LINE);
+    interval.intersection(all).unwrap_or(Interval::ZERO)
+}
+
+/// How far a number within bounds may be from `y`, rounded up.
+fn distance(bounds: Interval, y: f64) -> f64 {
+    let largest = (bounds.upper() - y).max(y - bounds.lower());
+    if largest > 0.0 { largest.next_up() } else { 0.0 }
+}
+
+/// What a group admits.
+struct SolvedGroup {
+    states: Vec<Arc<GroupState>>,
+    /// Whether there is something besides states whose unknowns are known, up to errors.
+    admits_sets: bool,
+}
+
+impl SolvedGroup {
+    fn of(solutions: Solutions) -> Self {
+        let admits_sets = admits_sets(&solutions);
+        let singular: Vec<GroupState> = solutions.singular.iter().filter_map(singular_state).collect();
+        let states = solutions.solutions.into_iter().map(GroupState::Solution);
+        let states = states.chain(solutions.gaps.into_iter().map(GroupState::Gap));
+        let states = states.chain(singular);
+        let states = states.chain(solutions.undecided.into_iter().map(GroupState::Undecided));
+        Self { states: states.map(Arc::new).collect(), admits_sets }
+    }
+
+    /// The states as alternatives without dependents.
+    fn alternatives(&self) -> Vec<Alternative> {
+        let alternative =
+            |state| Alternative { state: Arc::clone(state), dependents: SolutionProduct::default() };
+        self.states.iter().map(alternative).collect()
+    }
+}
+
+/// What a singular pattern admits, unless that is nothing or a solution of its own already.
+fn singular_state(mode: &SingularMode) -> Option<GroupState> {
+    match mode.set {
+        SolutionSet::Empty | SolutionSet::NotComputed => None,
+        SolutionSet::Point(_) if !mode.contains.is_empty() => {
+            // For other values within bounds it may be another solution.
+            let undecided = UndecidedPattern::new(&mode.pattern, None, Vec::new());
+            let undecided = UndecidedPattern { patterns: mode.patterns.clone(), ..undecided };
+            mode.certificate.has_open_determinant().then_some(GroupState::Undecided(undecided))
+        }
+        _ => Some(GroupState::Singular(mode.clone())),
+    }
+}
+
+/// Whether there is something besides states whose unknowns are known, up to errors.
+fn admits_sets(solutions: &Solutions) -> bool {
+    solutions.singular.iter().any(|mode| mode.set != SolutionSet::Empty)
+        || solutions.undecided.iter().any(|undecided| undecided.unknowns.is_none())
+        || solutions.solutions.iter().any(|solution| solution.certificate.has_open_determinant())
+        || solutions.gaps.iter().any(|gap| gap.certificate.has_open_determinant())
+}

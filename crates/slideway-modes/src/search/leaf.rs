@@ -1,0 +1,164 @@
+//! The outcome of single patterns, and whether it is proven.
+
+use super::load::LoadedProblem;
+use super::monitor::Monitor;
+use super::relaxation::Relaxation;
+use super::report::StopReason;
+use super::states::StateSet;
+use crate::certificate::{Decision, decide_while, proves_empty};
+use crate::decided::Filed;
+use crate::findings::Findings;
+use crate::solutions::ContactState;
+
+/// Decides patterns one by one.
+pub(super) struct Leaves<'a> {
+    problem: &'a LoadedProblem<'a>,
+    findings: Findings<'a>,
+    certify: bool,
+    /// Patterns whose outcome is not proven.
+    unproven: u64,
+    decided_jointly: bool,
+}
+
+impl<'a> Leaves<'a> {
+    /// Patterns of `problem`, of which `findings` has the scaled form.
+    pub(super) fn new(problem: &'a LoadedProblem<'a>, findings: Findings<'a>, certify: bool) -> Self {
+        let exact = certify && problem.is_part_of_exact_problem();
+        let findings = if exact { findings.exact() } else { findings };
+        Self { problem, findings, certify, unproven: 0, decided_jointly: false }
+    }
+
+    /// Files what a pattern admits.
+    pub(super) fn examine(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        if !self.certify {
+            return self.examine_within_tolerances(pattern, monitor);
+        }
+        // Rational arithmetic on very many patterns takes too long.
+        if self.findings.has_examined_enough() && self.findings.is_suspect(pattern) {
+            self.findings.leave_unexamined(pattern, pattern.len());
+            return Ok(());
+        }
+        let decision = self.decide(pattern, monitor)?;
+        if matches!(decision, Decision::Undecided { .. }) && self.is_infeasible(pattern) {
+            self.exclude(pattern);
+            return Ok(());
+        }
+        self.file(pattern, decision, monitor)
+    }
+
+    /// Whether the linear program of a pattern has no solution for any value within bounds, proven by a Farkas vector.
+    ///
+    /// This decides patterns whose determinant is zero by theory, as of a block with both ends in their preload gaps:
+    /// both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel but for rounding. Shares are from 0 to 1, so that
+    /// such columns reach nothing across their direction.
+    fn is_infeasible(&self, pattern: &[ContactState]) -> bool {
+        let problem = self.findings.problem;
+        let load_radius = problem.scaled_load_radius(&self.problem.right_hand_side_radius());
+        let relaxation = Relaxation::new(problem, &load_radius, vec![f64::INFINITY; pattern.len()]);
+        let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
+        let Some(farkas) = relaxation.farkas(&states) else { return false };
+        let decided: Vec<Option<ContactState>> = pattern.iter().copied().map(Some).collect();
+        let weights: Vec<f64> = problem.unscaled_rows(&farkas).iter().map(|entry| -entry).collect();
+        proves_empty(self.problem.view(), &decided, &weights)
+    }
+
+    /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
+    /// together with the contacts that the right-hand side comes from.
+    fn decide(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Decision, StopReason> {
+        let mut proceed = || monitor.goes_on();
+        let verdict = decide_while(self.problem.view(), pattern, &mut proceed);
+        let mut decision = verdict.map(|verdict| verdict.decision);
+        let open = matches!(decision, Some(Decision::Undecided { .. }));
+        if open && self.problem.is_part_of_exact_problem() {
+            self.decided_jointly = true;
+            decision = self.problem.decide_jointly(pattern, &mut proceed).or(decision);
+        }
+        match monitor.stopped() {
+            Some(reason) => Err(reason),
+            None => decision.ok_or(StopReason::Cancelled),
+        }
+    }
+
+    /// Files a pattern by its decision.
+    fn file(
+        &mut self,
+        pattern: &[ContactState],
+        decision: Decision,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        let undecided = matches!(decision, Decision::Undecided { .. });
+        if undecided && self.problem.is_part_of_exact_problem() {
+            return self.examine_within_tolerances(pattern, monitor);
+        }
+        let filed = self.findings.file_decision(pattern, decision, &mut || monitor.goes_on());
+        let filed = filed.map_err(|_| StopReason::SolutionLimit)?;
+        self.unproven += u64::from(filed == Filed::NotProven);
+        Ok(())
+    }
+
+    fn examine_within_tolerances(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        self.unproven += 1;
+        let examined = self.findings.examine_leaf(pattern, &mut || monitor.goes_on());
+        examined.map_err(|_| StopReason::SolutionLimit)
+    }
+
+    /// Files the only pattern that can have a solution. False, with nothing filed, if it is not certain to
+    /// have it for all values within bounds.
+    pub(super) fn examine_only(
+        &mut self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<bool, StopReason> {
+        if !self.certify {
+            return self.examine_within_tolerances(pattern, monitor).map(|()| true);
+        }
+        let decision = self.decide(pattern, monitor)?;
+        let certain = matches!(decision, Decision::Solution { .. } | Decision::Boundary { .. });
+        if certain { self.file(pattern, decision, monitor).map(|()| true) } else { Ok(false) }
+    }
+
+    /// Counts a pattern that is proven to have no solution.
+    pub(super) fn exclude(&mut self, pattern: &[ContactState]) {
+        self.findings.count_no_solution(pattern.contains(&ContactState::Gap));
+    }
+
+    /// Whether there is a solution without gaps.
+    pub(super) fn has_solutions(&self) -> bool {
+        self.findings.has_solutions()
+    }
+
+    /// Offers a pattern as one of those closest to locking.
+    pub(super) fn offer_closest(&mut self, pattern: &[ContactState]) {
+        self.findings.offer_if_regular(pattern);
+    }
+
+    /// How many solutions, gap states, singular sets and undecided patterns have been found so far.
+    pub(super) fn found(&self) -> usize {
+        self.findings.found()
+    }
+
+    /// Whether some pattern was decided together with the contacts that the right-hand side comes from.
+    pub(super) fn depends_on_ancestors(&self) -> bool {
+        self.decided_jointly
+    }
+
+    pub(super) fn unproven(&self) -> u64 {
+        self.unproven
+    }
+
+    pub(super) fn into_findings(self) -> Findings<'a> {
+        self.findings
+    }
+}

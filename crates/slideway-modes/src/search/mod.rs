@@ -1,0 +1,134 @@
+//! Pruned search: every solution without trying every pattern.
+//!
+//! # Method
+//! 1. Contacts are split into groups that act on one another in one direction only (theory, section
+//!    4 (d)). Groups are solved in that order; independent groups multiply, and their solutions are
+//!    kept as a product, [`SolutionProduct`].
+//! 2. A group with few patterns has each of them decided, so that all outcomes are known, locked modes
+//!    included ([`GroupReport::outcomes`]).
+//! 3. A larger group has exactly one solution if one of two cheap proofs says so (section 4 (a), (c)).
+//! 4. Where a large group is coupled through one to six quantities only, all patterns that can
+//!    occur are the cells of a hyperplane arrangement in so many dimensions (section 4 (e)): the space
+//!    of these quantities is subdivided until each part is excluded or has few patterns.
+//! 5. Otherwise branch and bound over the states of the contacts. A node is excluded by interval
+//!    propagation or by an infeasible linear relaxation (section 4 (a), (b)); a node with all
+//!    contacts decided is a pattern to decide. The next contact to branch on is the one for which, as far
+//!    as one dual step tells, forbidding either side costs most.
+//!
+//! # What is proven
+//! The problem is exact ([`ModeProblem`](super::ModeProblem)), or given within bounds
+//! ([`IntervalModeProblem`](super::certificate::IntervalModeProblem)); then everything is proven for
+//! all values within the bounds. Exclusions are made with rounding errors and bounds accounted for: a node
+//! that is excluded by the relaxation has a Farkas vector that was verified in that sense, and a node whose
+//! exclusion cannot be verified is split further. Patterns that are left are decided by
+//! [`certificate::decide`](super::certificate::decide), and each state carries what is proven of it, its
+//! [`Certificate`](super::Certificate).
+//!
+//! - Exact numbers (sums of two matrices are not rounded): every pattern is decided, in rational numbers if need be. A group's right-hand side that
+//!   follows from other groups has a rounding error; where that leaves a pattern open, it is decided together
+//!   with their contacts (up to 48 of them).
+//! - Numbers within bounds: a pattern whose outcome differs between values, or of which that could not be
+//!   ruled out, is labelled. If it is a solution in the middle of the bounds it is listed as such, on the
+//!   boundary within the bounds; else as an [`UndecidedPattern`](super::UndecidedPattern). Such patterns do not
+//!   make a list less proven: it holds everything that is a solution for some value. A contact may rest in its
+//!   gap if `d_k^+` and `d_k^-` may differ within the bounds; where both are one number that is known within
+//!   bounds, let it be part of the right-hand side.
+//!
+//! [`SearchResult::completeness`] tells whether all of this worked. Not proven are singular sets that take too
+//! much work to describe exactly. Without [`SearchOptions::certify`] patterns are solved with the tolerances of
+//! [`modes`](super), and nothing is proven.
+//!
+//! # Cost
+//! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
+//! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low
+//! rank beyond that of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a
+//! boundary is met in up to `2^m` patterns, each of which is decided.
+//!
+//! Outside of groups whose every pattern is tried, singular patterns that admit nothing (locking of the mode)
+//! are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
+
+mod cells;
+mod composition;
+mod count;
+mod every;
+mod group;
+mod groups;
+mod inverse;
+mod joined;
+mod leaf;
+mod load;
+mod low_rank;
+mod monitor;
+mod product;
+mod propagation;
+mod relaxation;
+mod report;
+mod result;
+mod sieve;
+mod simplex;
+mod states;
+#[cfg(test)]
+mod test_problems;
+mod tree;
+mod uniqueness;
+
+pub use count::BigCount;
+pub use product::{Alternative, CombinedState, Factor, GroupState, SolutionProduct, StateCounts, StateKind};
+pub use report::{
+    Arguments, Completeness, Exclusion, ExclusionArgument, GroupReport, Method, PatternOutcomes,
+    PatternShares, SearchOptions, StopReason,
+};
+pub use result::{SearchResult, StateLists};
+pub use states::StateSet;
+
+use super::certificate::ProblemView;
+use super::problem::ModeProblemError;
+use crate::progress::Callback;
+use composition::Composer;
+use monitor::Monitor;
+
+/// All solutions of a mode problem of any size, and how they were found.
+///
+/// Finds every solution of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` (Klepp
+/// (2002), eqs. (6) and (8)), states in preload gaps and what singular patterns admit, as
+/// [`enumerate`](super::enumerate) does, but without trying every pattern, and proves it. `problem` is a reference
+/// to a [`ModeProblem`](super::ModeProblem), or to an
+/// [`IntervalModeProblem`](super::certificate::IntervalModeProblem) whose numbers lie within bounds. The work depends on the
+/// problem and can grow like `2^r`: `progress` is called at every node, and in the midst of long work, and ends the
+/// search when it breaks (the library has no clock; compare times there). The answer is then labelled as partial.
+///
+/// # Errors
+/// [`ModeProblemError`] if a part of the problem were no mode problem, which no problem of finite numbers has: groups of
+/// contacts whose solutions overflow are searched together with those that they act on.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use nalgebra::{DMatrix, DVector};
+/// use slideway_modes::{ModeProblem, SearchOptions, search};
+/// // w = -z + 1 for each of 100 contacts: z = 0 or z = 1.
+/// let m = -DMatrix::identity(100, 100);
+/// let problem = ModeProblem::from_linear_complementarity(&m, DVector::from_element(100, 1.0))?;
+/// let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))?;
+/// assert_eq!(result.counts().solutions.to_string(), "1267650600228229401496703205376");
+/// assert_eq!(result.product.states().take(10).count(), 10);
+/// # Ok::<(), slideway_modes::ModeProblemError>(())
+/// ```
+pub fn search<'a>(
+    problem: impl Into<ProblemView<'a>>,
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+) -> Result<SearchResult, ModeProblemError> {
+    let problem = problem.into().without_zero_radii();
+    let mut monitor = Monitor::new(options.nodes, progress);
+    let mut composer = Composer::new(problem, options, &mut monitor);
+    let product = composer.solve()?;
+    let (groups, all_examined) = (composer.reports, composer.all_examined);
+    let proven = composer.chain_proven && groups.iter().all(|group| group.proven);
+    let completeness = match monitor.stopped() {
+        Some(reason) => Completeness::Partial(reason),
+        None if !all_examined => Completeness::Unexamined,
+        None if proven => Completeness::Proven,
+        None => Completeness::NotProven,
+    };
+    Ok(SearchResult { product, completeness, groups, contacts: problem.contacts() })
+}

@@ -1,0 +1,335 @@
+//! Solutions in product form: what independent groups of contacts find multiplies.
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::count::BigCount;
+use crate::certificate::Interval;
+use crate::solutions::{
+    Certificate, ContactState, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
+};
+use crate::support::Support;
+
+/// All solutions of a set of contacts: one alternative of every factor, in any combination.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SolutionProduct {
+    /// Independent factors; without any there is exactly one (empty) solution.
+    pub factors: Vec<Factor>,
+}
+
+/// A group of contacts and its alternatives. None means that there is no solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// The contacts of the group, from 0, in increasing order.
+    pub contacts: Vec<usize>,
+    /// What the group admits.
+    pub alternatives: Vec<Alternative>,
+}
+
+/// One solution of a group, with the solutions of the groups that depend on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// The state of the group's own contacts; shared where the group has it beside several states of others.
+    pub state: Arc<GroupState>,
+    /// The solutions of the contacts that this group acts on.
+    pub dependents: SolutionProduct,
+}
+
+/// A solution of one group; numbered as the contacts of its factor are.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GroupState {
+    /// Every contact is pressed on a side, or about to change it.
+    Solution(ModeSolution),
+    /// Some contact rests in its gap.
+    Gap(GapState),
+    /// What a singular pattern admits; not empty.
+    Singular(SingularMode),
+    /// Data within bounds only: no solution in the middle of the bounds, but perhaps for other values.
+    Undecided(UndecidedPattern),
+}
+
+/// How many solutions there are of each kind.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct StateCounts {
+    /// Solutions with every contact pressed on a side or on a boundary.
+    pub solutions: BigCount,
+    /// States with some contact in its gap.
+    pub gap_states: BigCount,
+    /// Combinations with the set of a singular pattern.
+    pub singular: BigCount,
+    /// Combinations that may be solutions for some of the values within bounds only.
+    pub undecided: BigCount,
+}
+
+/// A combination of solutions of all groups.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CombinedState<'a> {
+    /// Each group's contacts and what they do.
+    pub parts: Vec<(&'a [usize], &'a GroupState)>,
+}
+
+impl GroupState {
+    /// The kind of the state.
+    pub fn kind(&self) -> StateKind {
+        match self {
+            Self::Solution(_) => StateKind::Solution,
+            Self::Gap(_) => StateKind::Gap,
+            Self::Singular(_) => StateKind::Singular,
+            Self::Undecided(_) => StateKind::Undecided,
+        }
+    }
+
+    /// The state of each contact of the group.
+    pub fn pattern(&self) -> Vec<ContactState> {
+        match self {
+            Self::Solution(solution) => solution.pattern.iter().map(|&side| side.into()).collect(),
+            Self::Gap(gap) => gap.pattern.clone(),
+            Self::Singular(mode) => mode.pattern.clone(),
+            Self::Undecided(undecided) => undecided.pattern.clone(),
+        }
+    }
+
+    /// What is proven of it; none for an undecided pattern.
+    pub fn certificate(&self) -> Option<&Certificate> {
+        match self {
+            Self::Solution(solution) => Some(&solution.certificate),
+            Self::Gap(gap) => Some(&gap.certificate),
+            Self::Singular(mode) => Some(&mode.certificate),
+            Self::Undecided(_) => None,
+        }
+    }
+
+    /// Proven bounds of its unknowns: `y_k`, or the share `lambda_k` of a contact in its gap.
+    pub fn unknowns(&self) -> Option<&[Interval]> {
+        match self {
+            Self::Undecided(undecided) => undecided.unknowns.as_deref(),
+            state => state.certificate().and_then(Certificate::unknowns),
+        }
+    }
+
+    /// Whether it is not part of a larger continuum that the group admits.
+    pub fn is_maximal(&self) -> bool {
+        match self {
+            Self::Solution(solution) => solution.maximal,
+            Self::Gap(gap) => gap.maximal,
+            Self::Singular(mode) => mode.maximal,
+            Self::Undecided(_) => true,
+        }
+    }
+
+    fn support(&self) -> Option<&Support> {
+        match self {
+            Self::Solution(solution) => Some(&solution.support),
+            Self::Gap(gap) => Some(&gap.support),
+            Self::Singular(mode) => Some(&mode.support),
+            Self::Undecided(_) => None,
+        }
+    }
+
+    /// The signed normal forces of the group; none for a continuum and an undecided pattern.
+    pub fn normal_force(&self) -> Option<&DVector<f64>> {
+        match self {
+            Self::Solution(solution) => Some(&solution.normal_force),
+            Self::Gap(gap) => Some(&gap.normal_force),
+            Self::Singular(SingularMode { set: SolutionSet::Point(point), .. }) => Some(point),
+            Self::Singular(_) | Self::Undecided(_) => None,
+        }
+    }
+}
+
+/// The kind of a state, in increasing order of what has to be said about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum StateKind {
+    /// Every contact is pressed on a side, or about to change it.
+    Solution,
+    /// Some contact rests in its gap.
+    Gap,
+    /// Some group is in a singular pattern.
+    Singular,
+    /// Some group is in a pattern that is not decided within the bounds of the data.
+    Undecided,
+}
+
+/// Cumulated counts: solutions; with gap states; with singular sets; with undecided patterns.
+type Cumulated = [BigCount; 4];
+
+impl SolutionProduct {
+    /// The numbers of solutions, gap states and combinations with singular sets.
+    pub fn counts(&self) -> StateCounts {
+        let [solutions, with_gaps, with_sets, all] = self.cumulated();
+        StateCounts {
+            gap_states: with_gaps.minus(&solutions),
+            singular: with_sets.minus(&with_gaps),
+            undecided: all.minus(&with_sets),
+            solutions,
+        }
+    }
+
+    /// All combinations one after the other. There may be very many: take what is needed.
+    pub fn states(&self) -> impl Iterator<Item = CombinedState<'_>> {
+        Combinations { product: self, choices: Vec::new(), state: Walk::Start }
+    }
+
+    /// The combinations that are at most of a kind; those of that kind come early.
+    #[must_use]
+    pub fn up_to(&self, kind: StateKind) -> Self {
+        let mut product = self.clone();
+        product.restrict(kind);
+        product
+    }
+
+    /// Drops what is beyond a kind, and returns the last kind of the combinations that are left; none if there
+    /// are no combinations.
+    fn restrict(&mut self, most: StateKind) -> Option<StateKind> {
+        let mut last = Some(StateKind::Solution);
+        for factor in &mut self.factors {
+            let mut sorted = Vec::new();
+            for mut alternative in std::mem::take(&mut factor.alternatives) {
+                let own = alternative.state.kind();
+                if own <= most
+                    && let Some(dependents) = alternative.dependents.restrict(most)
+                {
+                    sorted.push((own.max(dependents), alternative));
+                }
+            }
+            // The order among those of one kind stays.
+            sorted.sort_by_key(|(kind, _)| std::cmp::Reverse(*kind));
+            let first = sorted.first().map(|(kind, _)| *kind);
+            last = last.zip(first).map(|(one, other)| one.max(other));
+            factor.alternatives = sorted.into_iter().map(|(_, alternative)| alternative).collect();
+        }
+        last
+    }
+
+    fn cumulated(&self) -> Cumulated {
+        let mut product = [1; 4].map(BigCount::from);
+        for factor in &self.factors {
+            let mut sums = Cumulated::default();
+            for alternative in &factor.alternatives {
+                let counts = alternative.dependents.cumulated();
+                for kind in alternative.state.kind() as usize..4 {
+                    sums[kind] = sums[kind].plus(&counts[kind]);
+                }
+            }
+            product = [0, 1, 2, 3].map(|kind| product[kind].times(&sums[kind]));
+        }
+        product
+    }
+
+    /// Whether some factor has no alternatives.
+    pub(super) fn is_empty(&self) -> bool {
+        self.factors.iter().any(|factor| factor.alternatives.is_empty())
+    }
+}
+
+impl CombinedState<'_> {
+    /// The kind of the combination: that of the part of which most has to be said.
+    pub fn kind(&self) -> StateKind {
+        self.parts.iter().map(|(_, state)| state.kind()).max().unwrap_or(StateKind::Solution)
+    }
+
+    /// Whether it is not part of a larger continuum: none of its parts is.
+    pub fn is_maximal(&self) -> bool {
+        self.parts.iter().all(|(_, state)| state.is_maximal())
+    }
+
+    /// The unknowns of all contacts, given their number, that are positive; of undecided patterns none.
+    pub(crate) fn support(&self, contacts: usize) -> Support {
+        let mut support = Support::none_of(contacts);
+        for (members, state) in &self.parts {
+            if let Some(part) = state.support() {
+                support.add_part(members, part);
+            }
+        }
+        support
+    }
+
+    /// The state of every contact, given their number.
+    pub fn pattern(&self, contacts: usize) -> Vec<ContactState> {
+        let mut pattern = vec![ContactState::Positive; contacts];
+        for (members, state) in &self.parts {
+            for (&contact, state) in members.iter().zip(state.pattern()) {
+                pattern[contact] = state;
+            }
+        }
+        pattern
+    }
+
+    /// The signed normal forces of all contacts, given their number; none if a group has a
+    /// continuum of them.
+    pub fn normal_force(&self, contacts: usize) -> Option<DVector<f64>> {
+        let mut force = DVector::zeros(contacts);
+        for (members, state) in &self.parts {
+            for (&contact, &value) in members.iter().zip(state.normal_force()?) {
+                force[contact] = value;
+            }
+        }
+        Some(force)
+    }
+}
+
+enum Walk {
+    Start,
+    Under,
+    End,
+}
+
+/// Combinations in the order of the alternatives, the last group changing fastest.
+struct Combinations<'a> {
+    product: &'a SolutionProduct,
+    /// The factors in the order in which they are met, with the alternative taken.
+    choices: Vec<(&'a Factor, usize)>,
+    state: Walk,
+}
+
+impl<'a> Combinations<'a> {
+    /// Extends the choices by the first alternative of every factor that is left; false if some
+    /// factor has none.
+    fn complete(&mut self) -> bool {
+        let mut pending: Vec<&'a Factor> = self.product.factors.iter().rev().collect();
+        let mut known = 0;
+        while let Some(factor) = pending.pop() {
+            if known == self.choices.len() {
+                self.choices.push((factor, 0));
+            }
+            let taken = self.choices[known].1;
+            let Some(alternative) = factor.alternatives.get(taken) else { return false };
+            pending.extend(alternative.dependents.factors.iter().rev());
+            known += 1;
+        }
+        true
+    }
+
+    /// Takes the next alternative of the last factor that has one; false if none has.
+    fn advance(&mut self) -> bool {
+        while let Some((factor, taken)) = self.choices.pop() {
+            if taken + 1 < factor.alternatives.len() {
+                self.choices.push((factor, taken + 1));
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl<'a> Iterator for Combinations<'a> {
+    type Item = CombinedState<'a>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let more = match self.state {
+            Walk::Start => true,
+            Walk::Under => self.advance(),
+            Walk::End => false,
+        };
+        if !more || !self.complete() {
+            self.state = Walk::End;
+            return None;
+        }
+        self.state = Walk::Under;
+        let part = |&(factor, taken): &(&'a Factor, usize)| {
+            (factor.contacts.as_slice(), factor.alternatives[taken].state.as_ref())
+        };
+        Some(CombinedState { parts: self.choices.iter().map(part).collect() })
+    }
+}

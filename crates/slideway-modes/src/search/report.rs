@@ -1,0 +1,265 @@
+//! How a search went: methods, counts of what excluded what, and how far the answer can be trusted.
+
+use std::fmt;
+
+use super::states::StateSet;
+use crate::enumeration::Limits;
+use crate::solutions::{ClosestMode, PatternCounts, SingularMode, Solutions};
+
+/// What a search may use, and how much.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SearchOptions {
+    /// Largest number of nodes, over all groups of contacts.
+    pub nodes: u64,
+    /// Limits on what is found and examined. [`Limits::contacts`] and [`Limits::patterns`] do not
+    /// apply to a search.
+    pub limits: Limits,
+    /// Which arguments the search may use; by default all of them.
+    pub arguments: Arguments,
+    /// Whether the outcome of every pattern that is solved is also decided by proof, for the numbers
+    /// as given. Without it nothing is [`Completeness::Proven`].
+    pub certify: bool,
+    /// Whether every excluded node is kept with its proof, in [`GroupReport::exclusions`].
+    pub keep_exclusions: bool,
+}
+
+impl Default for SearchOptions {
+    /// 100 million nodes, all arguments, proofs, no list of exclusions.
+    fn default() -> Self {
+        Self {
+            nodes: 100_000_000,
+            limits: Limits::default(),
+            arguments: Arguments::default(),
+            certify: true,
+            keep_exclusions: false,
+        }
+    }
+}
+
+/// The arguments that a search may use besides the linear relaxation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "five independent switches")]
+pub struct Arguments {
+    /// Splitting into groups of contacts.
+    pub groups: bool,
+    /// Interval propagation.
+    pub propagation: bool,
+    /// Proofs that there is exactly one solution.
+    pub uniqueness: bool,
+    /// Cells of a hyperplane arrangement where the coupling is of low rank.
+    pub low_rank: bool,
+    /// Trying every pattern of groups of few contacts.
+    pub every_pattern: bool,
+}
+
+impl Default for Arguments {
+    fn default() -> Self {
+        Self { groups: true, propagation: true, uniqueness: true, low_rank: true, every_pattern: true }
+    }
+}
+
+/// Why a search ended before it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// [`SearchOptions::nodes`].
+    NodeLimit,
+    /// [`Limits::solutions`].
+    SolutionLimit,
+    /// The callback asked for it.
+    Cancelled,
+}
+
+impl fmt::Display for StopReason {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::NodeLimit => "the limit of nodes was reached",
+            Self::SolutionLimit => "the limit of solutions was reached",
+            Self::Cancelled => "the search was cancelled",
+        })
+    }
+}
+
+/// How a group of contacts was solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// The spectral radius of `|G|` is below 1: one solution.
+    Contraction,
+    /// The largest singular value of `G` is below 1: one solution.
+    SingularValue,
+    /// Every pattern that can occur, by the cells of a hyperplane arrangement.
+    Cells {
+        /// The rank of the coupling.
+        rank: usize,
+    },
+    /// Branch and bound with interval propagation and linear relaxation.
+    BranchAndBound,
+    /// Every pattern decided by itself, because there are few.
+    EveryPattern,
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Contraction => formatter.write_str("one solution, because rho(|G|) < 1"),
+            Self::SingularValue => formatter.write_str("one solution, because sigma_max(G) < 1"),
+            Self::Cells { rank } => write!(formatter, "cells of an arrangement, coupling of rank {rank}"),
+            Self::BranchAndBound => formatter.write_str("branch and bound with linear relaxation"),
+            Self::EveryPattern => formatter.write_str("every pattern"),
+        }
+    }
+}
+
+/// The fraction of a group's patterns (with gap states) that each argument dealt with. They add up
+/// to 1. Times `2^`[`GroupReport::log2_patterns`] these are numbers of patterns.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PatternShares {
+    /// Excluded by a proof of uniqueness.
+    pub uniqueness: f64,
+    /// Excluded because they are no cell of the arrangement.
+    pub cells: f64,
+    /// Excluded by interval propagation.
+    pub propagation: f64,
+    /// Excluded by the linear relaxation.
+    pub relaxation: f64,
+    /// Solved one by one.
+    pub examined: f64,
+    /// Not dealt with, because the search ended early.
+    pub unexplored: f64,
+}
+
+impl PatternShares {
+    /// The fraction of patterns that is dealt with.
+    pub fn done(&self) -> f64 {
+        self.uniqueness + self.cells + self.propagation + self.relaxation + self.examined
+    }
+
+    fn mean(&self, other: &Self, weight: f64) -> Self {
+        let mean = |one: f64, other: f64| weight * one + (1.0 - weight) * other;
+        Self {
+            uniqueness: mean(self.uniqueness, other.uniqueness),
+            cells: mean(self.cells, other.cells),
+            propagation: mean(self.propagation, other.propagation),
+            relaxation: mean(self.relaxation, other.relaxation),
+            examined: mean(self.examined, other.examined),
+            unexplored: mean(self.unexplored, other.unexplored),
+        }
+    }
+}
+
+/// An excluded node and why it holds no solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exclusion {
+    /// The states that every contact of the group could still take.
+    pub states: Vec<StateSet>,
+    /// The proof.
+    pub argument: ExclusionArgument,
+}
+
+/// Why a node holds no solution.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExclusionArgument {
+    /// Interval propagation leaves a contact without a state.
+    Propagation,
+    /// A vector `v` with `v . (left side) < v . (right side)` for all that the states allow, for the
+    /// equations in the problem's own units.
+    Farkas(Vec<f64>),
+}
+
+/// The outcome of every pattern of a group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PatternOutcomes {
+    /// Outcomes of the patterns without gap states.
+    pub counts: PatternCounts,
+    /// Outcomes of the patterns with gap states.
+    pub gap_counts: PatternCounts,
+    /// Singular patterns that admit nothing, and those that were not examined.
+    pub locked: Vec<SingularMode>,
+    /// Up to four regular patterns with the smallest `|D|`, if the group has no solution.
+    pub closest: Vec<ClosestMode>,
+}
+
+impl PatternOutcomes {
+    pub(super) fn of(solutions: &Solutions) -> Self {
+        let locked = solutions.singular.iter().filter(|mode| mode.set.vertices().is_empty());
+        Self {
+            counts: solutions.counts,
+            gap_counts: solutions.gap_counts,
+            locked: locked.cloned().collect(),
+            closest: solutions.closest.clone(),
+        }
+    }
+}
+
+/// How one group of contacts was searched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroupReport {
+    /// The contacts, from 0, in increasing order.
+    pub contacts: Vec<usize>,
+    /// The method that gave the answer.
+    pub method: Method,
+    /// Binary logarithm of the number of patterns, gap states included.
+    pub log2_patterns: f64,
+    /// Nodes visited, or patterns tried with [`Method::EveryPattern`] and [`Method::Cells`] (a cell may be met
+    /// several times).
+    pub nodes: u64,
+    /// Pivots of the linear programs.
+    pub pivots: u64,
+    /// What became of the patterns.
+    pub shares: PatternShares,
+    /// Right-hand sides that the group was searched with.
+    pub loads: u64,
+    /// Right-hand sides with which the group admits nothing: no solution, no gap state, no singular set.
+    pub barren_loads: u64,
+    /// The outcome of every pattern; only where each was tried, with one right-hand side.
+    pub outcomes: Option<PatternOutcomes>,
+    /// Patterns whose outcome is known within tolerances only.
+    pub unproven_patterns: u64,
+    /// Whether every exclusion and every outcome is established with error bounds, for the
+    /// right-hand sides as given.
+    pub proven: bool,
+    /// Excluded nodes, if [`SearchOptions::keep_exclusions`] asks for them.
+    pub exclusions: Vec<Exclusion>,
+}
+
+impl GroupReport {
+    /// Adds the report on the same group with another right-hand side; shares become means.
+    pub(super) fn add(&mut self, other: &Self) {
+        let weight = self.loads as f64 / (self.loads + other.loads) as f64;
+        self.shares = self.shares.mean(&other.shares, weight);
+        self.loads += other.loads;
+        self.barren_loads += other.barren_loads;
+        self.outcomes = None;
+        self.nodes += other.nodes;
+        self.pivots += other.pivots;
+        self.unproven_patterns += other.unproven_patterns;
+        self.proven &= other.proven;
+        self.exclusions.extend(other.exclusions.iter().cloned());
+        if self.method != other.method {
+            self.method = Method::BranchAndBound;
+        }
+    }
+}
+
+/// Whether the list is all there is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Completeness {
+    /// Every exclusion and every pattern's outcome is established with error bounds.
+    Proven,
+    /// The search is complete, but not every step of it is established with error bounds.
+    NotProven,
+    /// Patterns are left that were not dealt with.
+    Partial(StopReason),
+    /// Singular patterns are left that were not examined within the limits.
+    Unexamined,
+}
+
+impl fmt::Display for Completeness {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Proven => formatter.write_str("complete: proven"),
+            Self::NotProven => formatter.write_str("complete: not proven"),
+            Self::Partial(reason) => write!(formatter, "partial: {reason}"),
+            Self::Unexamined => formatter.write_str("partial: singular patterns were not examined"),
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Branch and bound over the states of contacts.
+
+use std::rc::Rc;
+
+use nalgebra::DVector;
+
+use super::leaf::Leaves;
+use super::monitor::Monitor;
+use super::propagation::Propagation;
+use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
+use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
+use super::simplex::Basis;
+use super::states::{StateSet, all_states, fraction_of_patterns};
+use crate::scaling::ScaledProblem;
+use crate::solutions::ContactState;
+
+/// Costs of forbidding a side are compared within these limits.
+const LEAST_COST: f64 = 1e-6;
+const MOST_COST: f64 = 1e9;
+
+/// A node that waits for its turn, with the basis of its parent.
+struct Node {
+    states: Vec<StateSet>,
+    basis: Rc<Basis>,
+}
+
+/// What a tree did.
+#[derive(Default)]
+pub(super) struct TreeReport {
+    pub(super) shares: PatternShares,
+    pub(super) nodes: u64,
+    pub(super) pivots: u64,
+    pub(super) exclusions: Vec<Exclusion>,
+}
+
+pub(super) struct Tree<'a> {
+    problem: &'a ScaledProblem,
+    propagation: Option<&'a Propagation>,
+    relaxation: Relaxation,
+    keep_exclusions: bool,
+    report: TreeReport,
+}
+
+impl<'a> Tree<'a> {
+    pub(super) fn new(
+        problem: &'a ScaledProblem,
+        propagation: Option<&'a Propagation>,
+        load_radius: &DVector<f64>,
+        options: &SearchOptions,
+    ) -> Self {
+        let unbounded = || vec![f64::INFINITY; problem.contacts()];
+        let largest = propagation.map_or_else(unbounded, |propagation| propagation.largest.clone());
+        Self {
+            problem,
+            // Without bounds there is nothing to propagate.
+            propagation: propagation.filter(|propagation| propagation.is_contraction()),
+            relaxation: Relaxation::new(problem, load_radius, largest),
+            keep_exclusions: options.keep_exclusions,
+            report: TreeReport::default(),
+        }
+    }
+
+    /// Visits nodes until none is left or the monitor says stop; `leaves` takes patterns that are left.
+    pub(super) fn run(mut self, leaves: &mut Leaves<'_>, monitor: &mut Monitor<'_>) -> TreeReport {
+        let root = Node { states: all_states(self.problem), basis: Rc::new(self.relaxation.first_basis()) };
+        let mut open = vec![root];
+        while let Some(node) = open.pop() {
+            if !monitor.visit(self.report.shares.done(), leaves.found()) {
+                open.push(node);
+                break;
+            }
+            self.report.nodes += 1;
+            if let Err(reason) = self.visit(node, &mut open, leaves, monitor) {
+                monitor.stop(reason);
+            }
+        }
+        self.report.shares.unexplored +=
+            open.iter().map(|node| fraction_of_patterns(self.problem, &node.states)).sum::<f64>();
+        self.report
+    }
+
+    /// Excludes a node, examines its only pattern, or leaves its children in `open`.
+    fn visit(
+        &mut self,
+        mut node: Node,
+        open: &mut Vec<Node>,
+        leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        if !self.propagate(&mut node.states) {
+            return Ok(());
+        }
+        let (relaxed, basis) = self.relaxation.solve(&node.states, &node.basis, &mut self.report.pivots);
+        let relaxed = match relaxed {
+            Relaxed::Excluded(farkas) => {
+                self.report.shares.relaxation += fraction_of_patterns(self.problem, &node.states);
+                let problem = self.problem;
+                self.keep(&node.states, || ExclusionArgument::Farkas(problem.unscaled_rows(&farkas)));
+                return Ok(());
+            }
+            Relaxed::Feasible(relaxed) => Some(relaxed),
+            Relaxed::Undecided => None,
+        };
+        let pattern: Vec<ContactState> = node.states.iter().filter_map(|states| states.decided()).collect();
+        if pattern.len() == node.states.len() {
+            return self.examine(&pattern, leaves, monitor);
+        }
+        let (contact, preferred) = branching(&node.states, relaxed.as_deref());
+        let basis = if relaxed.is_some() { Rc::new(basis) } else { node.basis };
+        let mut children: Vec<ContactState> = node.states[contact].iter().collect();
+        // The last one is visited first.
+        children.sort_by_key(|&state| (state == preferred, std::cmp::Reverse(state)));
+        for state in children {
+            let mut states = node.states.clone();
+            states[contact] = StateSet::only(state);
+            open.push(Node { states, basis: Rc::clone(&basis) });
+        }
+        Ok(())
+    }
+
+    /// False if propagation excludes the node.
+    fn propagate(&mut self, states: &mut [StateSet]) -> bool {
+        let Some(propagation) = self.propagation else { return true };
+        let before = states.to_vec();
+        let all = fraction_of_patterns(self.problem, states);
+        if !propagation.fix_sides(states) {
+            self.report.shares.propagation += all;
+            self.keep(&before, || ExclusionArgument::Propagation);
+            return false;
+        }
+        self.report.shares.propagation += all - fraction_of_patterns(self.problem, states);
+        true
+    }
+
+    fn examine(
+        &mut self,
+        pattern: &[ContactState],
+        leaves: &mut Leaves<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), StopReason> {
+        let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
+        let examined = leaves.examine(pattern, monitor);
+        let shares = &mut self.report.shares;
+        let share = if examined == Err(StopReason::Cancelled) {
+            &mut shares.unexplored
+        } else {
+            &mut shares.examined
+        };
+        *share += fraction_of_patterns(self.problem, &states);
+        examined
+    }
+
+    fn keep(&mut self, states: &[StateSet], argument: impl FnOnce() -> ExclusionArgument) {
+        if self.keep_exclusions {
+            let argument = argument();
+            self.report.exclusions.push(Exclusion { states: states.to_vec(), argument });
+        }
+    }
+}
+
+/// The contact to branch on and the state to look at first. Of the contacts that press on both sides
+/// the one for which forbidding either side costs most, as a product; if there are none, the one that
+/// presses most, whose other states are furthest from the solution at hand.
+fn branching(states: &[StateSet], relaxed: Option<&[RelaxedContact]>) -> (usize, ContactState) {
+    let undecided = (0..states.len()).filter(|&contact| states[contact].decided().is_none());
+    let Some(relaxed) = relaxed else {
+        return (undecided.min().unwrap_or(0), ContactState::Positive);
+    };
+    let mut best = (0, (f64::NEG_INFINITY, f64::NEG_INFINITY));
+    for contact in undecided {
+        let RelaxedContact { positive, negative, share, cost_without } = relaxed[contact];
+        let mut violation = positive.min(negative);
+        if states[contact].len() > 2 || states[contact].contains(ContactState::Gap) {
+            violation = violation.max(positive.min(1.0 - share)).max(negative.min(share));
+        }
+        let cost: f64 = cost_without.iter().map(|cost| cost.clamp(LEAST_COST, MOST_COST)).product();
+        let score = (if violation > 0.0 { cost } else { 0.0 }, positive.max(negative));
+        if score > best.1 {
+            best = (contact, score);
+        }
+    }
+    let at = relaxed[best.0];
+    let preferred = if at.positive >= at.negative { ContactState::Positive } else { ContactState::Negative };
+    (best.0, preferred)
+}

@@ -1,0 +1,408 @@
+//! What an enumeration finds.
+
+use nalgebra::DVector;
+
+use super::certificate::Interval;
+use super::problem::Side;
+use super::support::Support;
+
+/// What one contact does in a pattern: pressed on one of its sides, or between its faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ContactState {
+    /// `N > 0`.
+    Positive,
+    /// `N < 0`.
+    Negative,
+    /// `N = 0`, and the preload friction acts between the faces (theory, section 3).
+    Gap,
+}
+
+impl ContactState {
+    pub(super) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
+    pub(super) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
+
+    /// The side on which the contact is pressed; none in the gap.
+    pub fn side(self) -> Option<Side> {
+        match self {
+            Self::Positive => Some(Side::Positive),
+            Self::Negative => Some(Side::Negative),
+            Self::Gap => None,
+        }
+    }
+
+    /// The sign of the normal force, 0 in the gap.
+    pub fn sign(self) -> f64 {
+        self.side().map_or(0.0, Side::sign)
+    }
+}
+
+impl From<Side> for ContactState {
+    fn from(side: Side) -> Self {
+        match side {
+            Side::Positive => Self::Positive,
+            Side::Negative => Self::Negative,
+        }
+    }
+}
+
+/// What is proven of a solution, a gap state or a singular set.
+///
+/// Intervals hold one unknown per contact, as [`decide`](super::certificate::decide) has them for the state's
+/// first pattern: `y_k`, or the share `lambda_k` of a contact in its gap.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Certificate {
+    /// It exists for all values within the bounds of the data, strictly inside of its pattern.
+    Proven {
+        /// Encloses the solution for every value.
+        unknowns: Vec<Interval>,
+    },
+    /// The data are exact, and so is this solution on the boundary between patterns.
+    Boundary {
+        /// Encloses the solution.
+        unknowns: Vec<Interval>,
+        /// Contacts with `y_k = 0` or `lambda_k = 0`.
+        zero: Vec<usize>,
+        /// Contacts with `lambda_k = 1`.
+        full_share: Vec<usize>,
+    },
+    /// The data are exact, `D = 0`, and this is all that the pattern admits, but for the rounding of the result.
+    Singular,
+    /// It is a solution in the middle of the bounds, but may be none for other values within them.
+    OnBoundaryWithinBounds {
+        /// Encloses the solution of the pattern's equations for every value; none if `D = 0` could not be ruled
+        /// out.
+        unknowns: Option<Vec<Interval>>,
+        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
+        in_doubt: Vec<usize>,
+    },
+    /// It was found within tolerances only.
+    NotProven,
+}
+
+impl Certificate {
+    /// Proven bounds of the unknowns; none where there are none, and for singular sets.
+    pub fn unknowns(&self) -> Option<&[Interval]> {
+        match self {
+            Self::Proven { unknowns }
+            | Self::Boundary { unknowns, .. }
+            | Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), .. } => Some(unknowns),
+            Self::Singular | Self::OnBoundaryWithinBounds { unknowns: None, .. } | Self::NotProven => None,
+        }
+    }
+}
+
+impl Certificate {
+    /// Replaces the bounds of the unknown of a contact, where there are bounds.
+    pub fn set_bounds(&mut self, contact: usize, bounds: Interval) {
+        if let Self::Proven { unknowns }
+        | Self::Boundary { unknowns, .. }
+        | Self::OnBoundaryWithinBounds { unknowns: Some(unknowns), .. } = self
+        {
+            unknowns[contact] = bounds;
+        }
+    }
+
+    /// Whether `D = 0` could not be ruled out for all values within bounds.
+    pub fn has_open_determinant(&self) -> bool {
+        matches!(self, Self::OnBoundaryWithinBounds { unknowns: None, .. })
+    }
+}
+
+/// A pattern of a problem within bounds that has no solution in the middle of the bounds, but may have one for
+/// other values within them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UndecidedPattern {
+    /// The state of each contact.
+    pub pattern: Vec<ContactState>,
+    /// All patterns that are meant, at most [`Limits::listed`](super::Limits::listed): more than one where another
+    /// group of contacts is in a state that several patterns share.
+    pub patterns: Vec<Vec<ContactState>>,
+    /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None if
+    /// `D = 0` could not be ruled out.
+    pub unknowns: Option<Vec<Interval>>,
+    /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
+    pub in_doubt: Vec<usize>,
+}
+
+impl UndecidedPattern {
+    pub(super) fn new(
+        pattern: &[ContactState],
+        unknowns: Option<Vec<Interval>>,
+        in_doubt: Vec<usize>,
+    ) -> Self {
+        Self { pattern: pattern.to_vec(), patterns: vec![pattern.to_vec()], unknowns, in_doubt }
+    }
+}
+
+/// A solution with every contact pressed on a side or just about to change it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeSolution {
+    /// The first pattern, in the order of enumeration, that gives the solution.
+    pub pattern: Vec<Side>,
+    /// Sign of every normal force, 0 for a contact on the boundary.
+    pub signs: Vec<i8>,
+    /// `y_k = |N_k|`, exactly 0 on the boundary. Of an exact problem it is infinite where `y_k` is too large for
+    /// `f64`, and no less than the least positive number where it is too small.
+    pub y: DVector<f64>,
+    /// Signed normal forces `N_k = sigma_k y_k`.
+    pub normal_force: DVector<f64>,
+    /// `D = det [c_k^{sigma_k}]` of `pattern`.
+    pub determinant: f64,
+    /// `p = D prod_k sigma_k` of `pattern` (theory, section 5).
+    pub oriented_determinant: f64,
+    /// Contacts with `y_k = 0` within `tolerance`.
+    pub on_boundary: Vec<usize>,
+    /// The patterns that give this same solution, at most [`Limits::listed`](super::Limits::listed).
+    pub patterns: Vec<Vec<Side>>,
+    /// How many patterns give this same solution.
+    pub pattern_count: u64,
+    /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
+    pub tolerance: f64,
+    /// Whether it is not part of a continuum that was found, too: exactly, if the data are exact, else within
+    /// tolerances.
+    pub maximal: bool,
+    pub(crate) support: Support,
+    /// What is proven of it.
+    pub certificate: Certificate,
+}
+
+/// A state with at least one contact between its faces (theory, section 3, "Preload gap").
+#[derive(Debug, Clone, PartialEq)]
+pub struct GapState {
+    /// The first pattern, in the order of enumeration, that gives the state.
+    pub pattern: Vec<ContactState>,
+    /// The contacts in their gap and the share `lambda` of `d_k^+` in their preload friction
+    /// `lambda d_k^+ + (1 - lambda) d_k^-`, `0 <= lambda <= 1`.
+    pub shares: Vec<GapShare>,
+    /// Sign of every normal force, 0 in the gap and on the boundary.
+    pub signs: Vec<i8>,
+    /// `y_k = |N_k|`, exactly 0 in the gap and on the boundary.
+    pub y: DVector<f64>,
+    /// Signed normal forces.
+    pub normal_force: DVector<f64>,
+    /// Determinant of the pattern's matrix, which has `-(d_k^+ - d_k^-)` as the column of a
+    /// contact in its gap.
+    pub determinant: f64,
+    /// Pressed contacts with `y_k = 0` within `tolerance`.
+    pub on_boundary: Vec<usize>,
+    /// The patterns that give this same state, at most [`Limits::listed`](super::Limits::listed).
+    pub patterns: Vec<Vec<ContactState>>,
+    /// How many patterns give this same state.
+    pub pattern_count: u64,
+    /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
+    pub tolerance: f64,
+    /// Whether it is not part of a continuum that was found, too: exactly, if the data are exact, else within
+    /// tolerances.
+    pub maximal: bool,
+    pub(crate) support: Support,
+    /// What is proven of it.
+    pub certificate: Certificate,
+}
+
+/// How the preload friction of a contact in its gap is shared between the faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapShare {
+    /// The contact, from 0.
+    pub contact: usize,
+    /// The share of the positive side, from 0 to 1.
+    pub lambda: f64,
+}
+
+/// The signed normal forces that a singular pattern admits.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SolutionSet {
+    /// No solution: locking of the mode.
+    Empty,
+    /// One solution.
+    Point(DVector<f64>),
+    /// All `N` between two ends.
+    Segment {
+        /// One end.
+        from: DVector<f64>,
+        /// The other end.
+        to: DVector<f64>,
+    },
+    /// All `from + t direction`, `t >= 0`.
+    Ray {
+        /// The end of the ray.
+        from: DVector<f64>,
+        /// The direction, its largest component being 1 in size.
+        direction: DVector<f64>,
+    },
+    /// Convex combinations of the vertices plus non-negative combinations of the directions.
+    Polytope {
+        /// The vertices.
+        vertices: Vec<DVector<f64>>,
+        /// Extreme directions, the largest component of each being 1 in size.
+        directions: Vec<DVector<f64>>,
+    },
+    /// Describing the set takes more work than [`Limits::bases`](super::Limits::bases) allows.
+    NotComputed,
+}
+
+impl SolutionSet {
+    /// The set with the given vertices and extreme directions, which are all different.
+    pub(super) fn from_corners(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> Self {
+        match (vertices.len(), directions.len()) {
+            (0, _) => Self::Empty,
+            (1, 0) => Self::Point(vertices.swap_remove(0)),
+            (2, 0) => Self::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
+            (1, 1) => Self::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
+            _ => Self::Polytope { vertices, directions },
+        }
+    }
+
+    /// The vertices of the set, none if it is empty or was not computed.
+    pub fn vertices(&self) -> Vec<&DVector<f64>> {
+        match self {
+            Self::Empty | Self::NotComputed => Vec::new(),
+            Self::Point(point) => vec![point],
+            Self::Segment { from, to } => vec![from, to],
+            Self::Ray { from, .. } => vec![from],
+            Self::Polytope { vertices, .. } => vertices.iter().collect(),
+        }
+    }
+
+    /// The extreme directions of the set, none if it is bounded or was not computed.
+    pub fn directions(&self) -> Vec<&DVector<f64>> {
+        match self {
+            Self::Ray { direction, .. } => vec![direction],
+            Self::Polytope { directions, .. } => directions.iter().collect(),
+            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
+        }
+    }
+
+    /// Whether the set holds more than one point.
+    pub fn is_continuum(&self) -> bool {
+        matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
+    }
+}
+
+/// A pattern with `D = 0` within tolerance and what it admits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SingularMode {
+    /// The first pattern, in the order of enumeration; with gap states where they were tried.
+    pub pattern: Vec<ContactState>,
+    /// The singular patterns that admit this same set: several only if it is not empty; at most
+    /// [`Limits::listed`](super::Limits::listed).
+    pub patterns: Vec<Vec<ContactState>>,
+    /// How many singular patterns admit this same set.
+    pub pattern_count: u64,
+    /// What the pattern admits. For a pattern with gap states these are its normal forces; the
+    /// shares `lambda` may vary besides.
+    pub set: SolutionSet,
+    /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
+    /// reported there as well.
+    pub contains: Vec<usize>,
+    /// Whether it is not part of a larger continuum that was found, too: exactly, if the data are exact, else within
+    /// tolerances.
+    pub maximal: bool,
+    pub(crate) support: Support,
+    /// What is proven of it.
+    pub certificate: Certificate,
+}
+
+/// A regular pattern close to locking.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClosestMode {
+    /// The pattern.
+    pub pattern: Vec<Side>,
+    /// `D = det [c_k^{sigma_k}]`, not zero.
+    pub determinant: f64,
+    /// `p = D prod_k sigma_k`.
+    pub oriented_determinant: f64,
+    /// The solution of the pattern's equations; at least one `y_k` is negative.
+    pub y: DVector<f64>,
+}
+
+/// How many patterns had which outcome. Every pattern is in exactly one of the counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PatternCounts {
+    /// All `y_k > 0`.
+    pub solution: u64,
+    /// Solutions with at least one `y_k = 0`, or a share `lambda` of 0 or 1; for data within bounds those for
+    /// which that could not be ruled out.
+    pub boundary: u64,
+    /// Some `y_k < 0`.
+    pub no_solution: u64,
+    /// `D = 0` and nothing that solves the equations with `y >= 0`: locking of the mode.
+    pub singular_empty: u64,
+    /// `D = 0` and exactly one `y >= 0`.
+    pub singular_point: u64,
+    /// `D = 0` and a continuum of `y >= 0`.
+    pub singular_continuum: u64,
+    /// `D = 0`, or so close to it that only a closer look could tell, and no such look was taken
+    /// or completed: it would have passed [`Limits::singular`](super::Limits::singular) or
+    /// [`Limits::bases`](super::Limits::bases), or numbers overflowed.
+    pub not_examined: u64,
+    /// Data within bounds only: [`UndecidedPattern`].
+    pub undecided: u64,
+}
+
+impl PatternCounts {
+    /// The sum of all counts.
+    pub fn total(&self) -> u64 {
+        self.solution
+            + self.boundary
+            + self.no_solution
+            + self.singular_empty
+            + self.singular_point
+            + self.singular_continuum
+            + self.not_examined
+            + self.undecided
+    }
+
+    pub(super) fn count_set(&mut self, set: &SolutionSet) {
+        match set {
+            SolutionSet::Empty => self.singular_empty += 1,
+            SolutionSet::Point(_) => self.singular_point += 1,
+            SolutionSet::NotComputed => self.not_examined += 1,
+            SolutionSet::Segment { .. } | SolutionSet::Ray { .. } | SolutionSet::Polytope { .. } => {
+                self.singular_continuum += 1;
+            }
+        }
+    }
+}
+
+/// Everything that an enumeration found. Lists are in the order of enumeration: lexicographic by
+/// pattern, contact 0 first, positive before negative before gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solutions {
+    /// The outcome of all `2^r` patterns.
+    pub counts: PatternCounts,
+    /// The outcome of the `2^(r-j) 3^j - 2^r` patterns with gap states that `j` contacts with a
+    /// jump add.
+    pub gap_counts: PatternCounts,
+    /// Solutions of regular patterns, each reported once.
+    pub solutions: Vec<ModeSolution>,
+    /// Preload-gap states that are not already in `solutions`.
+    pub gaps: Vec<GapState>,
+    /// Singular patterns that were examined, each set reported once, and those without a solution
+    /// one by one.
+    pub singular: Vec<SingularMode>,
+    /// Patterns that have a solution for some of the values within bounds only, if any, and none in their middle.
+    pub undecided: Vec<UndecidedPattern>,
+    /// Up to four regular patterns with the smallest `|D|`, if `solutions` is empty.
+    pub closest: Vec<ClosestMode>,
+}
+
+impl Solutions {
+    /// Whether every pattern's outcome is known.
+    pub fn is_complete(&self) -> bool {
+        self.counts.not_examined == 0 && self.gap_counts.not_examined == 0
+    }
+
+    /// Whether there is nothing at all: no solution, no gap state, no singular pattern that admits
+    /// something, and nothing left unexamined.
+    pub fn is_jammed(&self) -> bool {
+        self.is_complete() && self.admits_nothing()
+    }
+
+    /// Whether nothing was found.
+    pub(super) fn admits_nothing(&self) -> bool {
+        self.solutions.is_empty()
+            && self.gaps.is_empty()
+            && self.undecided.is_empty()
+            && self.singular.iter().all(|mode| mode.set == SolutionSet::Empty)
+    }
+}

@@ -1,0 +1,22 @@
+//! What an answer comes to.
+
+use serde::Serialize;
+
+/// How many solutions there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// No solution: in a mechanism friction locks it.
+    None,
+    /// Exactly one.
+    One,
+    /// Several, each in its own contact mode.
+    Several,
+    /// Infinitely many: a mode with a vanishing determinant admits a continuum.
+    Continuum,
+    /// No solution in a sign pattern was found, but a state with the preload between the faces; what may be open besides is
+    /// told by `partial` and `undecided_modes`.
+    PreloadGap,
+    /// Nothing was found, but not every pattern could be decided.
+    Unknown,
+}

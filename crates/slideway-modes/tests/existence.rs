@@ -1,0 +1,319 @@
+//! Where modes exist along a line of parameters: the paper's intervals, closed forms, and dense scanning.
+
+mod klepp_example;
+mod search_support;
+
+use std::error::Error;
+
+use klepp_example::{example, reference};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use search_support::Random;
+use slideway_modes::existence::{
+    CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeInterval, ModeProblemLine, OutputBound,
+    counts,
+};
+use slideway_modes::{ContactState, Limits, ModeProblem, Side, enumerate};
+
+const ALL: u64 = 1 << 20;
+
+fn options(from: f64, to: f64) -> ExistenceOptions {
+    ExistenceOptions { range: [from, to], greatest_normal_force: None, patterns: ALL }
+}
+
+fn signs(mode: &ModeInterval) -> String {
+    let sign = |state: &ContactState| match state {
+        ContactState::Positive => '+',
+        ContactState::Negative => '-',
+        ContactState::Gap => '0',
+    };
+    mode.pattern.iter().map(sign).collect()
+}
+
+fn paper(preload: [f64; 3], velocity: f64) -> Result<ModeProblemLine, Box<dyn Error>> {
+    let parameters = reference()?.parameters;
+    let at = |mu_1| example(&parameters, mu_1, preload, velocity);
+    Ok(ModeProblemLine::between(&at(0.0), &at(1.0)))
+}
+
+/// Modes without gap, longer than rounding.
+fn pressed(existence: &Existence) -> Vec<&ModeInterval> {
+    existence.modes.iter().filter(|mode| !mode.pattern.contains(&ContactState::Gap)).collect()
+}
+
+#[test]
+fn the_papers_intervals_without_scanning() -> Result<(), Box<dyn Error>> {
+    for expected in reference()?.intervals {
+        let existence = paper(expected.preload, expected.velocity)?.existence(&options(0.0, 0.8))?;
+        let mut found: Vec<_> = pressed(&existence);
+        found.sort_by(|one, other| {
+            one.from.at.total_cmp(&other.from.at).then(one.to.at.total_cmp(&other.to.at))
+        });
+        let mut wanted: Vec<_> = expected.modes.iter().collect();
+        wanted.sort_by(|one, other| one.from.total_cmp(&other.from).then(one.to.total_cmp(&other.to)));
+        assert_eq!(found.len(), wanted.len(), "{found:#?}");
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert_eq!(signs(found), wanted.signs);
+            assert!((found.from.at - wanted.from).abs() < 1e-8 && (found.to.at - wanted.to).abs() < 1e-8);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_papers_closed_forms_to_machine_precision() -> Result<(), Box<dyn Error>> {
+    // Without preload: locking at 2 cot(alpha) + 0.1, both ends of the block change side at cot(alpha).
+    let cotangent = reference()?.parameters.alpha_deg.to_radians().tan().recip();
+    let line = paper([0.0; 3], -1.0)?;
+    let existence = line.existence(&options(0.0, 0.8))?;
+    let [first, second] = pressed(&existence)[..] else { panic!("two modes") };
+    assert!((first.to.at - cotangent).abs() < 1e-15);
+    assert_eq!(first.to.cause, EndCause::SideChange(vec![1, 2]));
+    let locking = 2.0 * cotangent + 0.1;
+    assert!((second.to.at - locking).abs() < 1e-14, "{:e}", second.to.at - locking);
+    assert_eq!(second.to.cause, EndCause::Locking);
+    let limits = second.to.normal_force.as_deref().ok_or("limits")?;
+    assert_eq!(limits, [Limit::Infinite(1.0), Limit::Infinite(-1.0), Limit::Infinite(1.0)]);
+    assert_eq!(
+        counts(&line, &existence, [0.0, 0.8])
+            .iter()
+            .map(|interval| (interval.solutions, interval.gap_states))
+            .collect::<Vec<_>>(),
+        [(1, 0), (0, 0)]
+    );
+    Ok(())
+}
+
+#[test]
+fn one_two_three_solutions_in_the_last_example() -> Result<(), Box<dyn Error>> {
+    // Theory, section 9: the erratum's 0.47647077, and one gap state from there on.
+    let line = paper([0.0, 1.0, 0.0], 1.0)?;
+    let existence = line.existence(&options(0.0, 0.8))?;
+    let counts: Vec<CountInterval> = counts(&line, &existence, [0.0, 0.8]);
+    let solutions: Vec<usize> = counts.iter().map(|interval| interval.solutions).collect();
+    assert_eq!(solutions, [1, 2, 3]);
+    assert!((counts[0].to - 0.452_653_96).abs() < 1e-8);
+    assert!((counts[1].to - 0.476_470_77).abs() < 1e-8);
+    Ok(())
+}
+
+#[test]
+fn reactions_beyond_a_limit_end_a_mode_early() -> Result<(), Box<dyn Error>> {
+    let line = paper([0.0; 3], -1.0)?;
+    let limited = ExistenceOptions { greatest_normal_force: Some(20.0), ..options(0.0, 0.8) };
+    let existence = line.existence(&limited)?;
+    let last = pressed(&existence).into_iter().next_back().ok_or("a mode")?;
+    let EndCause::GreatestNormalForce(contacts) = &last.to.cause else { panic!("{:?}", last.to.cause) };
+    let force = line.normal_force(&last.pattern, last.to.at).ok_or("regular")?;
+    assert!((force[contacts[0]].abs() - 20.0).abs() < 1e-9);
+    assert!(force.amax() < 20.0 + 1e-9);
+    Ok(())
+}
+
+#[test]
+fn up_to_infinity() -> Result<(), Box<dyn Error>> {
+    // The mode (+,+,-) of the paper's example never ends; its reactions have finite limits.
+    let line = paper([0.0; 3], 1.0)?;
+    let existence = line.existence(&options(0.1, f64::INFINITY))?;
+    let [first, second] = pressed(&existence)[..] else { panic!("{existence:#?}") };
+    assert_eq!((signs(first).as_str(), signs(second).as_str()), ("++-", "-+-"));
+    assert_eq!(first.to.at, f64::INFINITY);
+    assert_eq!(first.to.cause, EndCause::Range);
+    let finite = |limit: &Limit| matches!(limit, Limit::Finite(_));
+    assert!(first.to.normal_force.as_deref().ok_or("limits")?.iter().all(finite));
+    assert!((second.from.at - 0.452_653_96).abs() < 1e-8);
+    assert_eq!(second.from.cause, EndCause::Locking);
+    let counts: Vec<(f64, usize)> = counts(&line, &existence, [0.1, f64::INFINITY])
+        .iter()
+        .map(|interval| (interval.to, interval.solutions))
+        .collect();
+    assert_eq!(counts.iter().map(|count| count.1).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(counts[1].0, f64::INFINITY);
+    Ok(())
+}
+
+#[test]
+fn nothing_is_left_up_to_infinity_beyond_locking() -> Result<(), Box<dyn Error>> {
+    let line = paper([0.0; 3], -1.0)?;
+    let existence = line.existence(&options(0.3, f64::INFINITY))?;
+    let counts = counts(&line, &existence, [0.3, f64::INFINITY]);
+    assert_eq!(counts.iter().map(|count| count.solutions).collect::<Vec<_>>(), [1, 0]);
+    // Uniqueness for every load is lost at 2 cot(alpha) - 0.1 already.
+    let lost = line.first_locking(ALL)?.ok_or("a determinant vanishes")?.0;
+    let cotangent = reference()?.parameters.alpha_deg.to_radians().tan().recip();
+    assert!((lost - (2.0 * cotangent - 0.1)).abs() < 1e-12);
+    Ok(())
+}
+
+/// What a scan over the problems of a line finds at a place, by patterns.
+fn scanned(line: &[ModeProblem; 2], at: f64) -> Vec<Vec<ContactState>> {
+    let solutions = enumerate(&on_line(line, at), &Limits::default()).expect("small");
+    let pressed = solutions.solutions.iter().map(|s| s.pattern.iter().map(|&side| side.into()).collect());
+    pressed.chain(solutions.gaps.iter().map(|gap| gap.pattern.clone())).collect()
+}
+
+fn on_line([start, end]: &[ModeProblem; 2], at: f64) -> ModeProblem {
+    let mix = |part: fn(&ModeProblem, Side) -> &DMatrix<f64>, side| {
+        part(start, side) * (1.0 - at) + part(end, side) * at
+    };
+    ModeProblem::new(
+        mix(ModeProblem::columns, Side::Positive),
+        mix(ModeProblem::columns, Side::Negative),
+        mix(ModeProblem::jumps, Side::Positive),
+        mix(ModeProblem::jumps, Side::Negative),
+        start.right_hand_side() * (1.0 - at) + end.right_hand_side() * at,
+    )
+    .expect("shapes fit")
+}
+
+/// A random line with this many varying columns, with preload at some contacts.
+fn random_line(random: &mut Random, size: usize, varying: usize, jumps: bool) -> [ModeProblem; 2] {
+    let columns =
+        [1.0, -1.0].map(|sign| DMatrix::identity(size, size) * sign + random.matrix(size, size) * 0.4);
+    let jump =
+        |random: &mut Random| if jumps { random.some_columns(size) } else { DMatrix::zeros(size, size) };
+    let (plus, minus, load) = (jump(random), jump(random), random.vector(size));
+    let mut changed = columns.clone();
+    for matrix in &mut changed {
+        for column in 0..varying {
+            let slope = random.vector(size) * 3.0;
+            let mut target = matrix.column_mut(column);
+            target += slope;
+        }
+    }
+    [columns, changed].map(|[positive, negative]| {
+        ModeProblem::new(positive, negative, plus.clone(), minus.clone(), load.clone()).expect("shapes fit")
+    })
+}
+
+#[test]
+fn intervals_agree_with_dense_scanning() {
+    let mut random = Random::new(20);
+    for case in 0..120 {
+        let size = 1 + case % 4;
+        let ends = random_line(&mut random, size, 1 + case % size, case % 3 == 0);
+        let line = ModeProblemLine::between(&ends[0], &ends[1]);
+        let existence = line.existence(&options(0.0, 1.0)).expect("small");
+        assert!(existence.not_computed.is_empty());
+        for step in 0..60 {
+            let at = (f64::from(step) + 0.37) / 60.0;
+            let near_end =
+                |mode: &ModeInterval| (mode.from.at - at).abs() < 1e-6 || (mode.to.at - at).abs() < 1e-6;
+            if existence.modes.iter().any(near_end) {
+                continue;
+            }
+            let inside = existence.modes.iter().filter(|mode| mode.from.at < at && at < mode.to.at);
+            let mut found: Vec<_> = inside.map(|mode| mode.pattern.clone()).collect();
+            let mut expected = scanned(&ends, at);
+            found.sort();
+            expected.sort();
+            assert_eq!(found, expected, "case {case}, t = {at}");
+        }
+    }
+}
+
+#[test]
+fn every_end_is_a_zero_of_what_it_names() {
+    let mut random = Random::new(21);
+    let mut ends_seen = 0;
+    for case in 0..60 {
+        let size = 2 + case % 3;
+        let ends = random_line(&mut random, size, size, false);
+        let line = ModeProblemLine::between(&ends[0], &ends[1]);
+        for mode in line.existence(&options(0.0, 1.0)).expect("small").modes {
+            for end in [&mode.from, &mode.to] {
+                ends_seen += 1;
+                match &end.cause {
+                    EndCause::Range => assert!(end.at == 0.0 || end.at == 1.0),
+                    EndCause::Locking => {
+                        let problem = on_line(&ends, end.at);
+                        let columns: Vec<DVector<f64>> = mode
+                            .pattern
+                            .iter()
+                            .enumerate()
+                            .map(|(k, state)| {
+                                problem.columns(state.side().expect("pressed")).column(k).into()
+                            })
+                            .collect();
+                        let matrix = DMatrix::from_columns(&columns);
+                        assert!(
+                            matrix.determinant().abs() < 1e-11 * matrix.amax().max(1.0).powf(size as f64)
+                        );
+                    }
+                    EndCause::SideChange(contacts) => {
+                        // The end is exact to rounding: close on both sides the sign differs.
+                        let near =
+                            |factor: f64| line.normal_force(&mode.pattern, end.at * factor).expect("regular");
+                        let (before, after) = (near(1.0 - 1e-11), near(1.0 + 1e-11));
+                        assert!(contacts.iter().all(|&k| before[k] * after[k] <= 0.0), "{contacts:?}");
+                    }
+                    other => panic!("{other:?} without gaps or bounds"),
+                }
+            }
+        }
+    }
+    assert!(ends_seen > 200);
+}
+
+#[test]
+fn an_output_bound_ends_a_mode() -> Result<(), Box<dyn Error>> {
+    // y (1 - t/2) = 4 and the output C = t y with |C| <= 0.5 y: tips at t = 0.5.
+    let side = |sign: f64| [dmatrix![sign; 0.0], dmatrix![-0.5; -1.0]];
+    let ([p0, p1], [n0, n1]) = (side(1.0), side(-1.0));
+    let both = |positive, negative| slideway_modes::BySide { positive, negative };
+    let zero = slideway_modes::BySide::same(DMatrix::zeros(2, 1));
+    let line = ModeProblemLine {
+        columns: [both(p0, n0), both(p1, n1)],
+        jumps: [zero.clone(), zero],
+        right_hand_side: [dvector![4.0, 0.0], dvector![0.0, 0.0]],
+        bounds: vec![OutputBound { output: 0, contact: 0, factor: 0.5 }],
+        has_jump: vec![false],
+    };
+    let existence = line.existence(&options(0.0, 5.0))?;
+    let [mode] = &existence.modes[..] else { panic!("{existence:#?}") };
+    assert!((mode.to.at - 0.5).abs() < 1e-15);
+    assert_eq!(mode.to.cause, EndCause::OutputBound(vec![0]));
+    Ok(())
+}
+
+#[test]
+fn a_load_that_vanishes_or_a_pattern_that_is_always_singular() -> Result<(), Box<dyn Error>> {
+    // Load t - 1: the side changes at t = 1. The second contact's negative column repeats the first's positive one.
+    let none = DMatrix::zeros(2, 2);
+    let at = |t: f64| {
+        ModeProblem::new(
+            dmatrix![1.0, 0.0; 0.0, 1.0],
+            dmatrix![-1.0, 1.0; 0.0, 0.0],
+            none.clone(),
+            none.clone(),
+            dvector![t - 1.0, 1.0],
+        )
+    };
+    let line = ModeProblemLine::between(&at(0.0)?, &at(1.0)?);
+    let existence = line.existence(&options(0.0, 3.0))?;
+    let found: Vec<(String, f64, f64)> =
+        existence.modes.iter().map(|mode| (signs(mode), mode.from.at, mode.to.at)).collect();
+    assert_eq!(found, [("++".into(), 1.0, 3.0), ("-+".into(), 0.0, 1.0)]);
+    assert_eq!(existence.singular_throughout.len(), 2);
+    Ok(())
+}
+
+#[test]
+fn without_contacts_there_is_one_mode_throughout() -> Result<(), Box<dyn Error>> {
+    let none = DMatrix::zeros(0, 0);
+    let empty = ModeProblem::new(none.clone(), none.clone(), none.clone(), none, DVector::zeros(0))?;
+    let line = ModeProblemLine::between(&empty, &empty);
+    let existence = line.existence(&options(0.0, 1.0))?;
+    assert_eq!((existence.modes.len(), existence.modes[0].to.at), (1, 1.0));
+    assert_eq!(line.first_locking(ALL)?, None);
+    Ok(())
+}
+
+#[test]
+fn too_many_patterns_are_refused() -> Result<(), Box<dyn Error>> {
+    let line = paper([0.0, 1.0, 0.0], 1.0)?;
+    let error =
+        line.existence(&ExistenceOptions { patterns: 11, ..options(0.0, 1.0) }).expect_err("12 patterns");
+    assert_eq!((error.contacts, error.with_jump, error.limit), (3, 1, 11));
+    assert!(line.existence(&ExistenceOptions { patterns: 12, ..options(0.0, 1.0) }).is_ok());
+    Ok(())
+}
