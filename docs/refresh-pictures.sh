@@ -18,6 +18,7 @@ draw() {
     "$slideway" draw "$@" --output "$pictures/$file" --force
 }
 
+draw drawer.svg models/drawer.toml
 draw klepp-2002.svg models/klepp-2002.toml
 draw klepp-2002-dark.svg models/klepp-2002.toml --theme dark
 draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set direction=-1

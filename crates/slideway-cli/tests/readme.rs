@@ -34,7 +34,7 @@ fn console_blocks_are_what_the_program_prints() {
         present += &["```console\n", command, "\n", printed.trim_end(), "\n```", rest].concat();
         blocks += 1;
     }
-    assert!(blocks >= 2, "the README shows the paper's example and a jam");
+    assert!(blocks >= 2, "the README shows a jam and what helps against it");
     if std::env::var_os("UPDATE_README").is_some() {
         std::fs::write(&path, &present).unwrap();
     }

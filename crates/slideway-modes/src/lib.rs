@@ -1,5 +1,32 @@
-//! The mode problem: every solution of a set of contacts with dry friction.
+//! All solutions of absolute value equations, linear complementarity problems and contacts with dry friction, with a proof that
+//! the list is complete.
 //!
+//! ```
+//! use nalgebra::{dmatrix, dvector};
+//! use slideway_modes::SearchOptions;
+//! use slideway_modes::raw_problem::{RawProblem, Unknowns, solve};
+//! use std::ops::ControlFlow;
+//!
+//! // w = M z + q, w >= 0, z >= 0, w_k z_k = 0
+//! let problem = RawProblem::LinearComplementarity { m: dmatrix![1.0, 2.0; 2.0, 1.0], q: dvector![-1.0, -1.0] };
+//! let answer = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(()))?;
+//! assert_eq!((answer.solutions.len(), answer.complete), (3, "proven"));
+//! for solution in &answer.solutions {
+//!     let Unknowns::Complementary { z, .. } = &solution.unknowns else { unreachable!() };
+//!     println!("z = {z:?}");
+//! }
+//! # Ok::<(), slideway_modes::ModeProblemError>(())
+//! ```
+//!
+//! [`raw_problem`] takes these problems as they are written, [`search`] the mode problem to which all of them come.
+//!
+//! # Features
+//! Both are on by default; without them the crate reads no files.
+//!
+//! - `json`: raw problems from JSON texts;
+//! - `npz`: raw problems from NumPy archives, and their answers as such.
+//!
+//! # The mode problem
 //! With `y_k = |N_k|` and `sigma_k = sign(N_k)` the normal forces of `r` contacts satisfy
 //!
 //! ```text

@@ -11,8 +11,8 @@ use slideway_modes::certificate::{Decision, IntervalModeProblem, ProblemView, de
 use slideway_modes::exhaustive::{
     Instructions, Pattern, Screening, prove, prove_with, screen, screen_by, screen_with,
 };
-use slideway_modes::{ContactState, Limits, ModeProblem, Side, enumerate};
 use slideway_modes::progress::Progress;
+use slideway_modes::{ContactState, Limits, ModeProblem, Side, enumerate};
 
 /// The patterns that the simple enumerator finds to have a solution, inside or on the boundary.
 fn with_solution(problem: &ModeProblem) -> Vec<Pattern> {

@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 use slideway_modes::certificate::{Interval, IntervalMatrix, IntervalModeProblem};
-use slideway_modes::{BySide, Certificate, Completeness, ModeSolution, SearchOptions, Side, search};
 use slideway_modes::raw_problem::{RawProblem, Unknowns, solve};
+use slideway_modes::{BySide, Certificate, Completeness, ModeSolution, SearchOptions, Side, search};
 
 /// Half a unit of the last printed decimal, and a little for the rounding of the decimals to `f64`.
 const PRINTED: f64 = 5.000_000_1e-5;

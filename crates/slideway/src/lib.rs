@@ -51,3 +51,8 @@ pub mod sweep;
 
 pub use slideway_modes as modes;
 pub use slideway_modes::{interval, printable, progress};
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -81,7 +81,8 @@ fn a_stage_imports_only_stages_to_its_left() {
 fn foundations_of_the_mode_problem_stand_alone_and_raw_problems_on_top() {
     let raw = source_of_modes().join("raw_problem");
     for file in files(&source_of_modes()) {
-        let foundation = FOUNDATIONS.iter().find(|module| files_of(&source_of_modes(), module).contains(&file));
+        let foundation =
+            FOUNDATIONS.iter().find(|module| files_of(&source_of_modes(), module).contains(&file));
         for (name, line) in imports(&file) {
             assert!(foundation.is_none_or(|module| name == **module), "{}: `{line}`", file.display());
             assert!(name != "raw_problem" || file.starts_with(&raw), "{}: `{line}`", file.display());

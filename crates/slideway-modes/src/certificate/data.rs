@@ -38,10 +38,10 @@ pub struct IntervalModeProblem {
 
 /// How far the numbers of a problem may be from its middle.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate) struct Radii {
-    pub(in crate) columns: BySide<DMatrix<f64>>,
-    pub(in crate) jumps: BySide<DMatrix<f64>>,
-    pub(in crate) right_hand_side: DVector<f64>,
+pub(crate) struct Radii {
+    pub(crate) columns: BySide<DMatrix<f64>>,
+    pub(crate) jumps: BySide<DMatrix<f64>>,
+    pub(crate) right_hand_side: DVector<f64>,
 }
 
 impl IntervalModeProblem {
@@ -142,13 +142,13 @@ impl IntervalModeProblem {
 
 impl Radii {
     /// Those of exact numbers.
-    pub(in crate) fn zero(contacts: usize) -> Self {
+    pub(crate) fn zero(contacts: usize) -> Self {
         let none = BySide::same(DMatrix::zeros(contacts, contacts));
         Self { columns: none.clone(), jumps: none, right_hand_side: DVector::zeros(contacts) }
     }
 
     /// Whether all numbers are exact.
-    pub(in crate) fn are_zero(&self) -> bool {
+    pub(crate) fn are_zero(&self) -> bool {
         let parts = [&self.columns, &self.jumps].map(|part| part.positive.iter().chain(&part.negative));
         parts.into_iter().flatten().chain(&self.right_hand_side).all(|&radius| radius == 0.0)
     }
@@ -171,11 +171,11 @@ impl Radii {
 /// Made from a reference to a [`ModeProblem`] or to an [`IntervalModeProblem`].
 #[derive(Debug, Clone, Copy)]
 pub struct ProblemView<'a> {
-    pub(in crate) centre: &'a ModeProblem,
+    pub(crate) centre: &'a ModeProblem,
     /// How far numbers may be from those of `centre`; of an exact problem what its remainder amounts to.
-    pub(in crate) radii: Option<&'a Radii>,
+    pub(crate) radii: Option<&'a Radii>,
     /// Whether the problem is `centre` itself, with its remainder.
-    pub(in crate) exact: bool,
+    pub(crate) exact: bool,
 }
 
 impl<'a> From<&'a ModeProblem> for ProblemView<'a> {
@@ -192,9 +192,9 @@ impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
 
 /// One column of the data: its middle, and how far it may be off.
 #[derive(Debug, Clone, Copy)]
-pub(in crate) struct Column<'a> {
-    pub(in crate) centre: &'a [f64],
-    pub(in crate) radius: Option<&'a [f64]>,
+pub(crate) struct Column<'a> {
+    pub(crate) centre: &'a [f64],
+    pub(crate) radius: Option<&'a [f64]>,
     /// If there is one, the column is exactly `centre + remainder`, and `radius` is the size of the remainder.
     remainder: Option<&'a [f64]>,
 }
@@ -208,7 +208,7 @@ impl Column<'_> {
     }
 
     /// The middle of an entry, and how far it may be off.
-    pub(in crate) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
+    pub(crate) fn centre_and_radius(&self, row: usize) -> (f64, f64) {
         (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
     }
 
@@ -219,18 +219,18 @@ impl Column<'_> {
 }
 
 impl<'a> ProblemView<'a> {
-    pub(in crate) fn contacts(self) -> usize {
+    pub(crate) fn contacts(self) -> usize {
         self.centre.contacts()
     }
 
     /// The same problem, as an exact one if all radii are zero.
-    pub(in crate) fn without_zero_radii(self) -> Self {
+    pub(crate) fn without_zero_radii(self) -> Self {
         let radii = self.radii.filter(|radii| !radii.are_zero());
         Self { exact: self.exact || radii.is_none(), radii, ..self }
     }
 
     /// `c_k^{side}`.
-    pub(in crate) fn column(self, contact: usize, side: Side) -> Column<'a> {
+    pub(crate) fn column(self, contact: usize, side: Side) -> Column<'a> {
         Column {
             centre: column_slice(self.centre.columns(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.columns.get(side), contact)),
@@ -239,7 +239,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// `d_k^{side}`.
-    pub(in crate) fn jump(self, contact: usize, side: Side) -> Column<'a> {
+    pub(crate) fn jump(self, contact: usize, side: Side) -> Column<'a> {
         Column {
             centre: column_slice(self.centre.jumps(side), contact),
             radius: self.radii.map(|radii| column_slice(radii.jumps.get(side), contact)),
@@ -248,7 +248,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// `N(0)`.
-    pub(in crate) fn load(self) -> Column<'a> {
+    pub(crate) fn load(self) -> Column<'a> {
         Column {
             centre: self.centre.right_hand_side().as_slice(),
             radius: self.radii.map(|radii| radii.right_hand_side.as_slice()),
@@ -258,14 +258,14 @@ impl<'a> ProblemView<'a> {
 
     /// Whether the right-hand side may jump where this contact changes its side: whether `d_k^+` and `d_k^-`
     /// differ for some value within the bounds.
-    pub(in crate) fn has_jump(self, contact: usize) -> bool {
+    pub(crate) fn has_jump(self, contact: usize) -> bool {
         let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
         let spread = |column: Column<'_>| column.radius.is_some_and(|r| r.iter().any(|&value| value > 0.0));
         one.centre != other.centre || spread(one) || spread(other)
     }
 
     /// Whether an entry of a column or a jump vector differs from zero for some value within the bounds.
-    pub(in crate) fn couples(self, contact: usize, row: usize) -> bool {
+    pub(crate) fn couples(self, contact: usize, row: usize) -> bool {
         let nonzero = |column: Column<'_>| {
             column.centre[row] != 0.0 || column.radius.is_some_and(|radius| radius[row] != 0.0)
         };
@@ -275,7 +275,7 @@ impl<'a> ProblemView<'a> {
     }
 
     /// Whether `d_k^+` and `d_k^-` differ in a row for some value within the bounds.
-    pub(in crate) fn jumps_in_row(self, contact: usize, row: usize) -> bool {
+    pub(crate) fn jumps_in_row(self, contact: usize, row: usize) -> bool {
         let [one, other] = Side::BOTH.map(|side| self.jump(contact, side));
         let spread = |column: Column<'_>| column.radius.is_some_and(|radius| radius[row] != 0.0);
         one.centre[row] != other.centre[row] || spread(one) || spread(other)

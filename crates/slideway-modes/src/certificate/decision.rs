@@ -8,8 +8,8 @@ use super::enclosure::ApproximateInverse;
 use super::exact::ExactSolution;
 use super::polyhedron::ExactSet;
 use super::system::{BoundedVector, PatternSystem};
-use crate::interval::{Interval, Sign};
 use crate::ContactState;
+use crate::interval::{Interval, Sign};
 
 /// Vertices and directions tried, at most, to describe what a singular pattern admits.
 const BASES: u64 = 20_000;
@@ -146,7 +146,7 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
 }
 
 /// [`decide`], none once `proceed` is false, which is asked now and then: rational numbers may take long.
-pub(in crate) fn decide_while(
+pub(crate) fn decide_while(
     problem: ProblemView<'_>,
     pattern: &[ContactState],
     proceed: &mut dyn FnMut() -> bool,

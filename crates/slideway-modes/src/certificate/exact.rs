@@ -102,7 +102,7 @@ pub fn solve_part_exactly(
 }
 
 /// The sign of `D`.
-pub(in crate) fn determinant_sign(problem: &ModeProblem, pattern: &[ContactState]) -> Sign {
+pub(crate) fn determinant_sign(problem: &ModeProblem, pattern: &[ContactState]) -> Sign {
     IntegerSystem::new(problem, pattern).eliminate().determinant_sign()
 }
 
@@ -140,7 +140,7 @@ impl ExactSolution {
 impl Interval {
     /// The middle; the least number on the interval's side of zero if that would be zero by underflow. So the sign
     /// is that of what the interval encloses, and a number too large for `f64` is infinite.
-    pub(in crate) fn nonzero_middle(self) -> f64 {
+    pub(crate) fn nonzero_middle(self) -> f64 {
         match self.middle() {
             0.0 if self.lower() == 0.0 => self.upper(),
             0.0 if self.upper() == 0.0 => self.lower(),

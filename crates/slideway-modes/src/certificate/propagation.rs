@@ -5,8 +5,8 @@ use nalgebra::DVector;
 use super::data::ProblemView;
 use super::matrix::{upper_product, upper_sum};
 use super::preconditioned::{BaseSystem, Preconditioned};
-use crate::interval::{Interval, Sign};
 use crate::ContactState;
+use crate::interval::{Interval, Sign};
 
 /// How often bounds are tightened, at most.
 const SWEEPS: usize = 8;

@@ -8,13 +8,13 @@ use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, 
 use super::residual::Equations;
 use super::values::Values;
 use super::{RawKind, RawProblem};
+use crate::Status;
 use crate::certificate::{Decision, Interval, decide};
+use crate::progress::Callback;
 use crate::{
     CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem, ModeProblemError,
     SearchOptions, SearchResult, SolutionProduct, StopReason, search,
 };
-use crate::progress::Callback;
-use crate::Status;
 
 /// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
 const ENCLOSURE_WORK: f64 = 3e7;

@@ -31,8 +31,10 @@
 //! unknown whose value is beyond the range of such numbers has none, and is told as text: [`BeyondRange`].
 
 mod answer;
+#[cfg(any(feature = "json", feature = "npz"))]
 mod assemble;
 mod continuum;
+#[cfg(any(feature = "json", feature = "npz"))]
 mod fault;
 #[cfg(feature = "json")]
 mod json;
@@ -46,19 +48,22 @@ mod npz;
 mod range;
 mod report;
 mod residual;
+#[cfg(any(feature = "json", feature = "npz"))]
 mod shape;
 #[cfg(feature = "npz")]
 mod tables;
 mod values;
 
 pub use answer::{solve, solve_with};
+#[cfg(any(feature = "json", feature = "npz"))]
 pub use fault::{RawFault, RawFaults};
 pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
-    BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution, SCHEMA,
-    Unknowns, WithinRounding,
+    BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution,
+    SCHEMA, Unknowns, WithinRounding,
 };
+#[cfg(any(feature = "json", feature = "npz"))]
 pub use shape::Shape;
 #[cfg(feature = "npz")]
 pub use tables::to_npz;
@@ -68,8 +73,10 @@ use nalgebra::{DMatrix, DVector};
 use crate::{ModeProblem, ModeProblemError};
 
 /// The most bytes of a problem.
+#[cfg(any(feature = "json", feature = "npz"))]
 pub const SIZE_LIMIT: u64 = 64 << 20;
 /// The most unknowns of a problem.
+#[cfg(any(feature = "json", feature = "npz"))]
 pub const GREATEST_SIZE: usize = 2000;
 
 /// A problem as it was given. Matrices are n x n, vectors have n entries.
@@ -179,6 +186,7 @@ impl RawProblem {
     }
 
     /// Whether `A + B` and `B - A`, the columns of an absolute value equation, are finite.
+    #[cfg(any(feature = "json", feature = "npz"))]
     fn check_range(&self) -> Result<(), RawFault> {
         let Self::AbsoluteValue { a, b, .. } = self else { return Ok(()) };
         let overflows = |at: &usize| !(a[*at] + b[*at]).is_finite() || !(b[*at] - a[*at]).is_finite();

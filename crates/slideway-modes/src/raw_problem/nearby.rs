@@ -12,11 +12,11 @@ use nalgebra::{DMatrix, DVector};
 use super::RawProblem;
 use super::report::{Unknowns, WithinRounding};
 use crate::certificate::{IntervalMatrix, IntervalModeProblem};
+use crate::progress::{Callback, Progress};
 use crate::{
     Arguments, BySide, CombinedState, Completeness, GroupState, Limits, ModeProblem, SearchOptions, Side,
     search,
 };
-use crate::progress::{Callback, Progress};
 
 /// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the rounding of
 /// `A + B` and `B - A`.

@@ -6,9 +6,9 @@ use super::dimension::Inferred;
 use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::inference::whole_exponent;
 use super::lexer::TokenKind;
-use super::{names::is_reserved, nearest_names};
 use super::parser::{Parser, Read};
 use super::unit::{self, Scale, UNITS, Unit};
+use super::{names::is_reserved, nearest_names};
 use crate::interval::Interval;
 
 /// How a unit is joined to what stands before it.
