@@ -21,8 +21,8 @@ pub use number::precise;
 pub use text::{Style, followed, to_text};
 pub(crate) use text::{count, locked, spaced};
 
-pub use crate::modes::Status;
 use serde::Serialize;
+pub use slideway_modes::Status;
 
 /// Version of the layout of a [`Report`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/solve/2";
