@@ -100,6 +100,7 @@ impl<'w> Work<'w> {
     }
 
     /// One of several parts that are not counted.
+    #[must_use]
     pub fn part(self, index: usize, all: usize) -> Self {
         let at = |index: usize| self.from + (self.to - self.from) * index as f64 / all as f64;
         Self { from: at(index), to: at(index + 1), ..self }
