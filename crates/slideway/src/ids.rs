@@ -48,3 +48,9 @@ impl Frame {
         }
     }
 }
+
+impl From<BodyId> for Frame {
+    fn from(body: BodyId) -> Self {
+        Self::Body(body)
+    }
+}

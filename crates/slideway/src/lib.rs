@@ -29,6 +29,7 @@
 pub mod attainability;
 pub mod check;
 pub mod configuration;
+pub mod drawing;
 pub mod drive;
 pub mod enclosure;
 pub mod expression;
@@ -48,6 +49,19 @@ pub mod size;
 pub mod solve;
 pub mod standstill;
 pub mod sweep;
+
+pub use check::check;
+pub use drawing::{Drawing, GROUND};
+pub use drive::drive;
+pub use fault::Faults;
+pub use limits::limits;
+pub use model::{Model, Settings};
+pub use motion::simulate;
+pub use nalgebra;
+pub use report::Report;
+pub use size::size;
+pub use solve::solve;
+pub use standstill::hold;
 
 pub use slideway_modes as modes;
 pub use slideway_modes::{interval, printable, progress};

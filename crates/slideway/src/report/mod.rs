@@ -21,6 +21,7 @@ pub use number::precise;
 pub use text::{Style, followed, to_text};
 pub(crate) use text::{count, locked, spaced};
 
+use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
 use serde::Serialize;
 pub use slideway_modes::Status;
 
@@ -180,6 +181,40 @@ pub struct Solution {
     pub drives: Vec<Drive>,
     /// Greatest relative residual of a body's force and moment balance, recomputed independently.
     pub residual: f64,
+}
+
+impl Solution {
+    /// What it has at a contact.
+    ///
+    /// # Panics
+    /// If the mechanism has no such contact.
+    pub fn contact(&self, id: ContactId) -> &Contact {
+        &self.contacts[id.index()]
+    }
+
+    /// The acceleration of a body.
+    ///
+    /// # Panics
+    /// If the mechanism has no such body.
+    pub fn body(&self, id: BodyId) -> &Body {
+        &self.bodies[id.index()]
+    }
+
+    /// The acceleration of a chosen coordinate.
+    ///
+    /// # Panics
+    /// If the mechanism has no such coordinate.
+    pub fn coordinate(&self, id: CoordinateId) -> &CoordinateAcceleration {
+        &self.coordinates[id.index()]
+    }
+
+    /// The effort of a drive.
+    ///
+    /// # Panics
+    /// If the mechanism has no such drive.
+    pub fn drive(&self, id: DriveId) -> &Drive {
+        &self.drives[id.index()]
+    }
 }
 
 /// What is proven of a solution.

@@ -1,6 +1,8 @@
 //! A mechanism as plain numbers: written out as a model file, and transformed.
 
-use std::fmt::Write;
+use slideway::GROUND as GROUND_FRAME;
+use slideway::drawing::ContactBuilder;
+use slideway::ids::{BodyId, Frame, JointId};
 
 /// A point or vector.
 pub(crate) type Vector = [f64; 2];
@@ -145,206 +147,131 @@ impl Drawing {
         contacts
     }
 
-    fn name(&self, body: Option<usize>) -> &str {
-        body.map_or("ground", |body| &self.bodies[body].name)
-    }
-
     /// The text of its model file.
     pub(crate) fn text(&self) -> String {
-        Writer { drawing: self, points: Vec::new(), text: String::new() }.write()
-    }
-}
-
-/// Writes the sections while it collects the named points and their owners.
-struct Writer<'d> {
-    drawing: &'d Drawing,
-    points: Vec<(Option<usize>, Vector)>,
-    text: String,
-}
-
-impl Writer<'_> {
-    fn write(mut self) -> String {
-        self.joints();
-        self.loads();
-        self.coordinates();
-        self.drives();
-        let mut head = format!("gravity = {:?}\n[points]\n", self.drawing.gravity);
-        for (index, (_, place)) in self.points.iter().enumerate() {
-            writeln!(head, "p{index} = {place:?}").unwrap();
-        }
-        for (number, body) in self.drawing.bodies.iter().enumerate() {
-            let owned = (0..self.points.len()).filter(|index| self.points[*index].0 == Some(number));
-            let owned: Vec<String> = owned.map(|index| format!("p{index}")).collect();
-            writeln!(head, "[bodies.{}]\npoints = {owned:?}", body.name).unwrap();
-            match body.inertia {
-                None => writeln!(head, "massless = true").unwrap(),
-                Some([mass, moment]) => writeln!(
-                    head,
-                    "mass = {mass:?}\nmoment_of_inertia = {moment:?}\ncentre_of_mass = {:?}",
-                    body.centre
-                )
-                .unwrap(),
-            }
-        }
-        head + &self.text
-    }
-
-    /// A new point that moves with a body: "body.p7".
-    fn point(&mut self, body: Option<usize>, place: Vector) -> String {
-        self.points.push((body, place));
-        format!("{}.p{}", self.drawing.name(body), self.points.len() - 1)
-    }
-
-    fn joints(&mut self) {
-        for joint in &self.drawing.joints {
-            writeln!(self.text, "[joints.{}]", joint.name).unwrap();
-            match &joint.kind {
-                Kind::Hinge { between, at } => {
-                    let between = between.map(|body| self.point(body, *at));
-                    writeln!(self.text, "type = \"hinge\"\nbetween = {between:?}").unwrap();
-                }
-                Kind::Slider(slider) => self.slider(slider),
-            }
-        }
-    }
-
-    fn slider(&mut self, slider: &Slider) {
-        let kind = match slider.kind {
-            SliderKind::Block => "block_slider",
-            SliderKind::Guided => "guided_slider",
-            SliderKind::Pin => "pin_in_slot",
-        };
-        let (block, guide) = (self.drawing.name(slider.block), self.drawing.name(slider.guide));
-        writeln!(
-            self.text,
-            "type = \"{kind}\"\nblock = \"{block}\"\nguide = \"{guide}\"\nat = {:?}\nalong = {:?}",
-            slider.at, slider.along
-        )
-        .unwrap();
-        if slider.kind != SliderKind::Pin {
-            let fit = if slider.around { "around" } else { "inside" };
-            writeln!(
-                self.text,
-                "length = {:?}\nheight = {:?}\nfit = \"{fit}\"",
-                slider.length, slider.height
-            )
-            .unwrap();
-        }
-        if slider.kind == SliderKind::Block {
-            for (end, contact) in ["front", "rear"].iter().zip(&slider.contacts) {
-                let carried_by = if contact.carried_by_guide { "guide" } else { "block" };
-                writeln!(
-                    self.text,
-                    "{end} = {{ carried_by = \"{carried_by}\", {} }}",
-                    friction(contact, ", ")
-                )
-                .unwrap();
-            }
-        } else {
-            let mut contact = friction(&slider.contacts[0], "\n");
-            if slider.kind == SliderKind::Pin {
-                contact = contact
-                    .lines()
-                    .filter(|line| !line.starts_with("preload_line"))
-                    .collect::<Vec<_>>()
-                    .join("\n");
-            }
-            writeln!(self.text, "{contact}").unwrap();
-        }
-    }
-
-    fn loads(&mut self) {
-        for (index, load) in self.drawing.loads.iter().enumerate() {
-            writeln!(self.text, "[loads.load_{index}]").unwrap();
-            let lines = match load {
-                Load::Force { body, at, force, turns, reaction } => {
-                    let at = self.point(Some(*body), *at);
-                    let frame = if *turns { "body" } else { "world" };
-                    let reaction =
-                        reaction.map(|body| format!("\nreaction = \"{}\"", self.drawing.name(Some(body))));
-                    format!(
-                        "type = \"force\"\nat = \"{at}\"\ncomponents = {force:?}\nframe = \"{frame}\"{}",
-                        reaction.unwrap_or_default()
-                    )
-                }
-                Load::Torque { body, moment } => {
-                    format!(
-                        "type = \"torque\"\nbody = \"{}\"\nmoment = {moment:?}",
-                        self.drawing.name(Some(*body))
-                    )
-                }
-                Load::Spring { between, at, stiffness, free_length } => {
-                    let ends = [0, 1].map(|end| self.point(between[end], at[end]));
-                    format!(
-                        "type = \"spring\"\nbetween = {ends:?}\nstiffness = {stiffness:?}\nfree_length = {free_length:?}"
-                    )
-                }
-                Load::Damper { between, at, damping } => {
-                    let ends = [0, 1].map(|end| self.point(between[end], at[end]));
-                    format!("type = \"damper\"\nbetween = {ends:?}\ndamping = {damping:?}")
-                }
-                Load::TorsionalSpring { body, stiffness } => {
-                    let ends = [self.drawing.name(Some(*body)), "ground"];
-                    format!("type = \"torsional_spring\"\nbetween = {ends:?}\nstiffness = {stiffness:?}")
-                }
-                Load::TorsionalDamper { body, damping } => {
-                    let ends = [self.drawing.name(Some(*body)), "ground"];
-                    format!("type = \"torsional_damper\"\nbetween = {ends:?}\ndamping = {damping:?}")
-                }
+        let mut drawing = slideway::Drawing::new();
+        drawing.gravity_components(self.gravity);
+        for body in &self.bodies {
+            let drawn = drawing.body(&body.name);
+            let _ = match body.inertia {
+                None => drawn.massless(),
+                Some([mass, moment]) => drawn.mass(mass).inertia(moment).centre(body.centre),
             };
-            writeln!(self.text, "{lines}").unwrap();
         }
-    }
-
-    fn coordinates(&mut self) {
-        for coordinate in &self.drawing.coordinates {
-            let what = match coordinate.what {
-                Measured::Slide(joint) => format!("slide = \"{}\"", self.drawing.joints[joint].name),
-                Measured::Rotation(body) => format!("rotation = \"{}\"", self.drawing.bodies[body].name),
+        let joints: Vec<JointId> = self.joints.iter().map(|joint| drawn_joint(joint, &mut drawing)).collect();
+        for (index, load) in self.loads.iter().enumerate() {
+            draw_load(load, &format!("load_{index}"), &mut drawing);
+        }
+        let mut coordinates = Vec::new();
+        for Coordinate { name, what, value, rate } in &self.coordinates {
+            let drawn = match what {
+                Measured::Slide(joint) => drawing.slide(name, joints[*joint]),
+                Measured::Rotation(body) => drawing.rotation(name, BodyId(*body)),
             };
-            let Coordinate { name, value, rate, .. } = coordinate;
-            writeln!(self.text, "[coordinates.{name}]\n{what}\nvalue = {value:?}\nrate = {rate:?}").unwrap();
+            coordinates.push(drawn.value(*value).rate(*rate).id());
+        }
+        for (index, drive) in self.drives.iter().enumerate() {
+            let (name, body) = (format!("drive_{index}"), BodyId(drive.body));
+            let coordinate = coordinates[drive.coordinate];
+            let mut drawn = match drive.effort {
+                Effort::Force { at, direction, .. } => {
+                    drawing.drive_by_force(&name, coordinate, (body, at, direction))
+                }
+                Effort::Torque => drawing.drive_by_torque(&name, coordinate, body),
+            };
+            if matches!(drive.effort, Effort::Force { turns: true, .. }) {
+                drawn = drawn.turning();
+            }
+            if let Some(body) = drive.reaction {
+                drawn = drawn.reaction(BodyId(body));
+            }
+            drawn.acceleration(drive.acceleration);
+        }
+        drawing.to_toml()
+    }
+}
+
+fn frame(body: Option<usize>) -> Frame {
+    body.map_or(GROUND_FRAME, |body| BodyId(body).into())
+}
+
+fn drawn_joint(joint: &Joint, drawing: &mut slideway::Drawing) -> JointId {
+    let slider = match &joint.kind {
+        Kind::Hinge { between: [first, second], at } => {
+            return drawing.hinge(&joint.name, frame(*first), frame(*second)).at(*at).id();
+        }
+        Kind::Slider(slider) => slider,
+    };
+    let (block, guide) = (frame(slider.block), frame(slider.guide));
+    let contact = &slider.contacts[0];
+    let (mu, preload) = (contact.mu, contact.preload);
+    match slider.kind {
+        SliderKind::Pin => drawing
+            .pin_in_slot(&joint.name, block, guide)
+            .at(slider.at)
+            .along(slider.along)
+            .mu_by_side(mu[0], mu[1])
+            .preload_by_side(preload[0], preload[1])
+            .id()
+            .into(),
+        SliderKind::Guided => {
+            let drawn = drawing.guided_slider(&joint.name, block, guide).at(slider.at).along(slider.along);
+            let drawn = drawn.length(slider.length).height(slider.height);
+            let mut drawn = drawn.mu_by_side(mu[0], mu[1]).preload_by_side(preload[0], preload[1]);
+            if contact.centred_preload {
+                drawn = drawn.centred_preload();
+            }
+            if slider.around { drawn.around() } else { drawn }.id().into()
+        }
+        SliderKind::Block => {
+            let drawn = drawing.block_slider(&joint.name, block, guide).at(slider.at).along(slider.along);
+            let drawn = drawn.length(slider.length).height(slider.height);
+            let drawn = drawn
+                .front(|front| draw_contact(contact, front))
+                .rear(|rear| draw_contact(&slider.contacts[1], rear));
+            if slider.around { drawn.around() } else { drawn }.id().into()
         }
     }
 }
 
-impl Writer<'_> {
-    fn drives(&mut self) {
-        for (index, drive) in self.drawing.drives.iter().enumerate() {
-            let coordinate = &self.drawing.coordinates[drive.coordinate].name;
-            let reaction =
-                drive.reaction.map(|body| format!(", reaction = \"{}\"", self.drawing.name(Some(body))));
-            let reaction = reaction.unwrap_or_default();
-            let effort = match drive.effort {
-                Effort::Force { at, direction, turns } => {
-                    let at = self.point(Some(drive.body), at);
-                    let frame = if turns { "body" } else { "world" };
-                    format!(
-                        "force = {{ at = \"{at}\", direction = {direction:?}, frame = \"{frame}\"{reaction} }}"
-                    )
-                }
-                Effort::Torque => {
-                    format!("torque = {{ body = \"{}\"{reaction} }}", self.drawing.name(Some(drive.body)))
-                }
-            };
-            let acceleration = drive.acceleration;
-            writeln!(
-                self.text,
-                "[drives.drive_{index}]\ncoordinate = \"{coordinate}\"\nacceleration = {acceleration:?}\n{effort}"
-            )
-            .unwrap();
-        }
+fn draw_contact(contact: &Contact, drawn: &mut ContactBuilder<'_>) {
+    drawn.mu_by_side(contact.mu[0], contact.mu[1]).preload_by_side(contact.preload[0], contact.preload[1]);
+    if contact.centred_preload {
+        drawn.centred_preload();
+    }
+    if contact.carried_by_guide {
+        drawn.carried_by_guide();
     }
 }
 
-fn friction(contact: &Contact, separator: &str) -> String {
-    let line = if contact.centred_preload { "centre" } else { "pressed" };
-    [
-        format!("mu = {{ plus = {:?}, minus = {:?} }}", contact.mu[0], contact.mu[1]),
-        format!("preload = {{ plus = {:?}, minus = {:?} }}", contact.preload[0], contact.preload[1]),
-        format!("preload_line = \"{line}\""),
-    ]
-    .join(separator)
+fn draw_load(load: &Load, name: &str, drawing: &mut slideway::Drawing) {
+    match *load {
+        Load::Force { body, at, force, turns, reaction } => {
+            let mut drawn = drawing.force(name, BodyId(body)).at(at).components(force);
+            if turns {
+                drawn = drawn.turning();
+            }
+            if let Some(body) = reaction {
+                drawn.reaction(BodyId(body));
+            }
+        }
+        Load::Torque { body, moment } => {
+            drawing.torque(name, BodyId(body), moment);
+        }
+        Load::Spring { between, at, stiffness, free_length } => {
+            let ends = [0, 1].map(|end| (frame(between[end]), at[end]));
+            drawing.spring(name, ends, stiffness).free_length(free_length);
+        }
+        Load::Damper { between, at, damping } => {
+            drawing.damper(name, [0, 1].map(|end| (frame(between[end]), at[end])), damping);
+        }
+        Load::TorsionalSpring { body, stiffness } => {
+            drawing.torsional_spring(name, [BodyId(body).into(), GROUND_FRAME], stiffness);
+        }
+        Load::TorsionalDamper { body, damping } => {
+            drawing.torsional_damper(name, [BodyId(body).into(), GROUND_FRAME], damping);
+        }
+    }
 }
 
 /// Factors of the units of length, mass and time.

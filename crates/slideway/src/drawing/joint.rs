@@ -1,0 +1,302 @@
+//! Joints of a drawing.
+
+use super::entry::Table;
+use super::quantity::{self, Quantity};
+use super::{Drawing, Frame};
+use crate::ids::{ContactId, JointId};
+use std::marker::PhantomData;
+
+/// A hinge of a [`Drawing`].
+#[derive(Debug)]
+pub struct HingeBuilder<'d> {
+    drawing: &'d mut Drawing,
+    id: JointId,
+    name: String,
+    between: [Frame; 2],
+}
+
+impl<'d> HingeBuilder<'d> {
+    pub(super) fn new(drawing: &'d mut Drawing, name: &str, between: [Frame; 2]) -> Self {
+        let id = JointId(drawing.joints.add(name));
+        drawing.joints.table(id.index()).set("type", quantity::text("hinge"));
+        Self { drawing, id, name: name.to_owned(), between }
+    }
+
+    /// Its place in the drawing (m): that of the hinged point of both bodies.
+    pub fn at(self, place: [impl Into<Quantity>; 2]) -> Self {
+        let place = quantity::pair(place);
+        let ends = self.between.map(|frame| self.drawing.point(frame, &self.name, place.clone()));
+        let between = quantity::list(ends.map(|end| quantity::text(&end)));
+        self.drawing.joints.table(self.id.index()).set("between", between);
+        self
+    }
+
+    /// The handle.
+    pub fn id(self) -> JointId {
+        self.id
+    }
+}
+
+/// A block slider: a joint with two contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BlockSlider {
+    joint: JointId,
+    front: ContactId,
+}
+
+impl BlockSlider {
+    /// The contact at the end in the direction of `along`.
+    pub fn front(self) -> ContactId {
+        self.front
+    }
+
+    /// The contact at the other end.
+    pub fn rear(self) -> ContactId {
+        ContactId(self.front.index() + 1)
+    }
+}
+
+/// A guided slider, or a pin in a slot: a joint with one contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SingleSlider<const GUIDED: bool> {
+    joint: JointId,
+    contact: ContactId,
+}
+
+impl<const GUIDED: bool> SingleSlider<GUIDED> {
+    /// Its contact.
+    pub fn contact(self) -> ContactId {
+        self.contact
+    }
+}
+
+impl From<BlockSlider> for JointId {
+    fn from(slider: BlockSlider) -> Self {
+        slider.joint
+    }
+}
+
+impl<const GUIDED: bool> From<SingleSlider<GUIDED>> for JointId {
+    fn from(slider: SingleSlider<GUIDED>) -> Self {
+        slider.joint
+    }
+}
+
+/// The handle of a sliding joint.
+pub trait SliderHandle: Copy + sealed::Sealed {
+    #[doc(hidden)]
+    const TYPE: &'static str;
+    #[doc(hidden)]
+    const CONTACTS: usize;
+    #[doc(hidden)]
+    fn of(joint: JointId, first: ContactId) -> Self;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::BlockSlider {}
+    impl<const GUIDED: bool> Sealed for super::SingleSlider<GUIDED> {}
+}
+
+impl SliderHandle for BlockSlider {
+    const TYPE: &'static str = "block_slider";
+    const CONTACTS: usize = 2;
+    fn of(joint: JointId, front: ContactId) -> Self {
+        Self { joint, front }
+    }
+}
+
+impl<const GUIDED: bool> SliderHandle for SingleSlider<GUIDED> {
+    const TYPE: &'static str = if GUIDED { "guided_slider" } else { "pin_in_slot" };
+    const CONTACTS: usize = 1;
+    fn of(joint: JointId, contact: ContactId) -> Self {
+        Self { joint, contact }
+    }
+}
+
+/// A sliding joint of a [`Drawing`]. What belongs to one kind of joint only is in that kind's methods.
+#[derive(Debug)]
+pub struct SliderBuilder<'d, S> {
+    drawing: &'d mut Drawing,
+    id: JointId,
+    first: ContactId,
+    handle: PhantomData<S>,
+}
+
+impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
+    pub(super) fn new(drawing: &'d mut Drawing, name: &str, [block, guide]: [Frame; 2]) -> Self {
+        let id = JointId(drawing.joints.add(name));
+        let first = ContactId(drawing.contacts);
+        drawing.contacts += S::CONTACTS;
+        let (block, guide) = (drawing.frame(block), drawing.frame(guide));
+        let table = drawing.joints.table(id.index());
+        table.set("type", quantity::text(S::TYPE));
+        table.set("block", block);
+        table.set("guide", guide);
+        table.set("along", 0.0.into());
+        Self { drawing, id, first, handle: PhantomData }
+    }
+
+    fn table(&mut self) -> &mut Table {
+        self.drawing.joints.table(self.id.index())
+    }
+
+    fn set(mut self, key: &str, value: Quantity) -> Self {
+        self.table().set(key, value);
+        self
+    }
+
+    /// Middle of the block, or the pin, in the drawing (m).
+    pub fn at(self, place: [impl Into<Quantity>; 2]) -> Self {
+        self.set("at", quantity::pair(place))
+    }
+
+    /// Direction of positive sliding: the angle from the x axis (rad). Default: 0.
+    pub fn along(self, angle: impl Into<Quantity>) -> Self {
+        self.set("along", angle.into())
+    }
+
+    /// Limits of the displacement (m).
+    pub fn travel(self, limits: [impl Into<Quantity>; 2]) -> Self {
+        self.set("travel", quantity::pair(limits))
+    }
+
+    /// Stops at both ends of the travel, with a coefficient of restitution from 0 to 1.
+    pub fn restitution(mut self, restitution: impl Into<Quantity>) -> Self {
+        self.table().inner("stop").set("restitution", restitution.into());
+        self
+    }
+
+    /// Coefficient of kinetic friction. Required for every contact.
+    pub fn mu(self, mu: impl Into<Quantity>) -> Self {
+        self.set("mu", mu.into())
+    }
+
+    /// The same for positive and for negative normal force.
+    pub fn mu_by_side(self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Self {
+        self.set("mu", by_side(plus.into(), minus.into()))
+    }
+
+    /// Coefficient of static friction. Default: that of kinetic friction.
+    pub fn mu_static(self, mu: impl Into<Quantity>) -> Self {
+        self.set("mu_static", mu.into())
+    }
+
+    /// Friction at zero normal force (N). Default: 0.
+    pub fn preload(self, force: impl Into<Quantity>) -> Self {
+        self.set("preload", force.into())
+    }
+
+    /// The same for positive and for negative normal force.
+    pub fn preload_by_side(self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Self {
+        self.set("preload", by_side(plus.into(), minus.into()))
+    }
+
+    /// Stiffness of the guide at each contact (N/m), for attainability.
+    pub fn stiffness(self, stiffness: impl Into<Quantity>) -> Self {
+        self.set("stiffness", stiffness.into())
+    }
+
+    /// The handle.
+    pub fn id(self) -> S {
+        S::of(self.id, self.first)
+    }
+}
+
+/// What a block and a guided slider have and a pin has not.
+macro_rules! lengths {
+    ($($slider:ty),*) => {$(
+        impl SliderBuilder<'_, $slider> {
+            /// Distance of the two contacts of a block; length of the pressed face of a guided slider (m).
+            pub fn length(self, length: impl Into<Quantity>) -> Self {
+                self.set("length", length.into())
+            }
+
+            /// Distance of the two rubbing faces (m). Default: 0.
+            pub fn height(self, height: impl Into<Quantity>) -> Self {
+                self.set("height", height.into())
+            }
+
+            /// The block surrounds the guide, as a sleeve its rod. Default: it is inside.
+            pub fn around(self) -> Self {
+                self.set("fit", quantity::text("around"))
+            }
+
+            /// The preload's friction acts on the centre line. Default: at the pressed face.
+            pub fn centred_preload(self) -> Self {
+                self.set("preload_line", quantity::text("centre"))
+            }
+        }
+    )*};
+}
+
+lengths!(BlockSlider, SingleSlider<true>);
+
+impl SliderBuilder<'_, BlockSlider> {
+    /// What differs at the front contact.
+    pub fn front(mut self, of: impl FnOnce(&mut ContactBuilder<'_>)) -> Self {
+        of(&mut ContactBuilder(self.table().inner("front")));
+        self
+    }
+
+    /// What differs at the rear contact.
+    pub fn rear(mut self, of: impl FnOnce(&mut ContactBuilder<'_>)) -> Self {
+        of(&mut ContactBuilder(self.table().inner("rear")));
+        self
+    }
+}
+
+/// One end of a block.
+#[derive(Debug)]
+pub struct ContactBuilder<'t>(&'t mut Table);
+
+impl ContactBuilder<'_> {
+    fn set(&mut self, key: &str, value: Quantity) -> &mut Self {
+        self.0.set(key, value);
+        self
+    }
+
+    /// The contact stays at a place of the guide, such as the mouth of a carcass. Default: it travels with the block.
+    pub fn carried_by_guide(&mut self) -> &mut Self {
+        self.set("carried_by", quantity::text("guide"))
+    }
+
+    /// Coefficient of kinetic friction.
+    pub fn mu(&mut self, mu: impl Into<Quantity>) -> &mut Self {
+        self.set("mu", mu.into())
+    }
+
+    /// The same for positive and for negative normal force.
+    pub fn mu_by_side(&mut self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> &mut Self {
+        self.set("mu", by_side(plus.into(), minus.into()))
+    }
+
+    /// Coefficient of static friction.
+    pub fn mu_static(&mut self, mu: impl Into<Quantity>) -> &mut Self {
+        self.set("mu_static", mu.into())
+    }
+
+    /// Friction at zero normal force (N).
+    pub fn preload(&mut self, force: impl Into<Quantity>) -> &mut Self {
+        self.set("preload", force.into())
+    }
+
+    /// The same for positive and for negative normal force.
+    pub fn preload_by_side(&mut self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> &mut Self {
+        self.set("preload", by_side(plus.into(), minus.into()))
+    }
+
+    /// The preload's friction acts on the centre line. Default: at the pressed face.
+    pub fn centred_preload(&mut self) -> &mut Self {
+        self.set("preload_line", quantity::text("centre"))
+    }
+
+    /// Stiffness of the guide at this contact (N/m).
+    pub fn stiffness(&mut self, stiffness: impl Into<Quantity>) -> &mut Self {
+        self.set("stiffness", stiffness.into())
+    }
+}
+
+fn by_side(plus: Quantity, minus: Quantity) -> Quantity {
+    Quantity::table([("plus", &plus), ("minus", &minus)].into_iter())
+}

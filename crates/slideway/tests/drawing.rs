@@ -1,0 +1,136 @@
+//! Mechanisms in code: they are those of model files, with the same faults.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use slideway::drawing::Quantity;
+use slideway::{Drawing, GROUND, Model, Settings, gallery, solve};
+
+fn gallery_model(name: &str) -> Model {
+    Model::parse(gallery::find(name).unwrap().text).unwrap()
+}
+
+/// A bar in two slots, as in the paper.
+fn paper() -> (Drawing, [slideway::ids::ContactId; 3]) {
+    let mut d = Drawing::new();
+    d.gravity("g").parameter("g", "9.81 m/s^2").parameter("m", "1 kg").parameter("l", "1 m");
+    d.parameter("alpha", "80 deg").parameter("b", "0.1 m");
+    let bar = d.body("bar").mass("m").bar([["0", "0"], ["l*cos(alpha)", "l*sin(alpha)"]]).id();
+    let block = d.body("lower_block").massless().id();
+    d.hinge("A", bar, block).at([0, 0]);
+    let lower = d
+        .block_slider("lower", block, GROUND)
+        .at([0, 0])
+        .length("2*b")
+        .height("b")
+        .mu(0.1)
+        .front(|front| {
+            front.preload("m*g");
+        })
+        .id();
+    let upper = d.pin_in_slot("upper", bar, GROUND).at(["l*cos(alpha)", "l*sin(alpha)"]).mu(0.5).id();
+    d.slide("q", lower).rate(1);
+    (d, [lower.front(), lower.rear(), upper.contact()])
+}
+
+#[test]
+fn handles_find_what_belongs_to_them() {
+    let (drawing, [front, rear, upper]) = paper();
+    let answer = solve(&drawing.build().unwrap()).unwrap();
+    assert_eq!(answer.complete, "proven");
+    for solution in &answer.solutions {
+        let names = [front, rear, upper].map(|contact| solution.contact(contact).name.as_str());
+        assert_eq!(names, ["lower.front", "lower.rear", "upper"]);
+    }
+}
+
+/// A drawer as in the gallery, with everything that its file has but words and shape.
+#[test]
+fn a_drawing_is_its_model_file() {
+    let mut d = Drawing::new();
+    for (name, value) in [("L", "0.4 m"), ("a", "0.3 m"), ("Q", "20 N"), ("m", "5 kg")] {
+        d.parameter(name, value);
+    }
+    d.parameter("mu", 0.3);
+    let drawer = d.body("drawer").mass("m").centre([0.0, 0.0]).rectangle(["0.45 m", "0.7 m"]).id();
+    let guide = d
+        .block_slider("guide", drawer, GROUND)
+        .at([0.0, 0.0])
+        .along("0 deg")
+        .length("L")
+        .mu("mu")
+        .rear(|rear| {
+            rear.carried_by_guide();
+        })
+        .id();
+    d.force("resistance", drawer).at([0.0, 0.0]).components(["-Q", "0 N"]);
+    let x = d.slide("x", guide).rate("0.1 m/s").id();
+    let handle = [Quantity::from("-L/2"), Quantity::from("a")];
+    let push = d.drive_by_force("push", x, (drawer, handle, "0 deg")).acceleration(0).id();
+    let model = d.build().unwrap();
+    for mu in ["0.1", "0.3", "0.7"] {
+        let at =
+            |model: &Model| solve(&model.with(&Settings::default().parameter("mu", mu)).unwrap()).unwrap();
+        let (drawn, filed) = (at(&model), at(&gallery_model("drawer")));
+        assert_eq!(drawn.status, filed.status, "{mu}");
+        for (one, other) in drawn.solutions.iter().zip(&filed.solutions) {
+            assert_eq!(one.pattern, other.pattern);
+            assert_eq!(one.contact(guide.front()), other.contact(guide.front()));
+            assert_eq!(one.contact(guide.rear()), other.contact(guide.rear()));
+            assert_eq!(one.drive(push), other.drive(push));
+            assert_eq!(one.coordinate(x), other.coordinate(x));
+            assert_eq!(one.body(drawer), other.body(drawer));
+        }
+    }
+}
+
+#[test]
+fn faults_are_those_of_a_file() {
+    let mut d = Drawing::new();
+    let sledge = d.body("sledge").mass("2 m").centre([f64::NAN, 0.0]).id();
+    let track = d.block_slider("track", sledge, GROUND).at([0.0, 0.0]).mu(-0.1).id();
+    d.slide("x", track);
+    let told = d.build().unwrap_err().to_string();
+    for fault in ["length", "-0.1", "mass"] {
+        assert!(told.contains(fault), "{told}");
+    }
+    assert_eq!(told, Model::parse(&d.to_toml()).unwrap_err().to_string());
+}
+
+#[test]
+fn names_are_written_as_they_are_and_judged_by_the_model() {
+    let mut d = Drawing::new();
+    let odd = d.body("a \"sledge\"\n\\").mass(1).inertia(1).centre([0, 0]).id();
+    d.block_slider("track", odd, GROUND).at([0, 0]).length(1).mu(0.1);
+    let told = d.build().unwrap_err().to_string();
+    assert!(told.contains("sledge"), "{told}");
+    let mut twice = Drawing::new();
+    for _ in 0..2 {
+        let _ = twice.body("sledge").mass(1).inertia(1).centre([0, 0]);
+    }
+    assert!(twice.build().unwrap_err().to_string().contains("duplicate"));
+}
+
+#[test]
+fn a_handle_of_another_drawing_is_refused() {
+    let mut other = Drawing::new();
+    let _ = other.body("first").massless().id();
+    let second = other.body("second").massless().id();
+    let mut d = Drawing::new();
+    let sledge = d.body("sledge").mass(1).inertia(1).centre([0, 0]).id();
+    let track = d.block_slider("track", sledge, GROUND).at([0, 0]).length(1).mu(0.1).id();
+    d.slide("x", track);
+    d.force("push", second).at([0, 0]).components([1, 0]);
+    assert!(d.build().unwrap_err().to_string().contains("another drawing"));
+}
+
+#[test]
+fn points_of_the_same_name_are_told_apart() {
+    let mut d = Drawing::new();
+    let sledge = d.body("sledge").mass(1).inertia(1).centre([0.0, 0.0]).id();
+    let track = d.block_slider("track", sledge, GROUND).at([0.0, 0.0]).length(1.0).mu(0.0).id();
+    d.spring("both", [(sledge.into(), [0.0, 0.0]), (GROUND, [-1.0, 0.0])], 10.0).free_length(0.5);
+    d.damper("damper", [(sledge.into(), [0.0, 0.0]), (GROUND, [-1.0, 0.0])], 2.0);
+    let x = d.slide("x", track).rate(0.5).id();
+    let answer = solve(&d.build().unwrap()).unwrap();
+    // The spring is stretched by 0.5 m, the damper by 0.5 m/s.
+    assert!((answer.solutions[0].coordinate(x).acceleration + 6.0).abs() < 1e-12);
+}
