@@ -5,6 +5,23 @@
 //! mode, is tried for every sign pattern, and each leaves a linear system (H. J. Klepp, Modes of contact and
 //! uniqueness of solutions for systems with friction-affected sliders, Journal of Sound and Vibration 254, 2002).
 //!
+//! ```
+//! use slideway::{Drawing, GROUND, solve};
+//!
+//! let mut d = Drawing::new();
+//! let drawer = d.body("drawer").mass(2.0).centre([0.0, 0.1]).inertia(0.05).id();
+//! let rail = d.block_slider("rail", drawer, GROUND).at([0.0, 0.0]).length(0.4).mu(0.3).id();
+//! d.force("push", drawer).at([-0.2, 0.15]).components([20.0, 0.0]);
+//! d.slide("x", rail).rate(1.0);
+//! let answer = solve(&d.build()?)?;
+//! for solution in &answer.solutions {
+//!     println!("{} N", solution.contact(rail.front()).normal_force);
+//! }
+//! # Ok::<(), slideway::Faults>(())
+//! ```
+//!
+//! A mechanism comes from code ([`drawing`]) or from a model file ([`Model::parse`]); [`Settings`] change its numbers.
+//!
 //! [`solve::solve`] does everything; the data flows through the modules in this order, each arrow one pure
 //! function:
 //!
