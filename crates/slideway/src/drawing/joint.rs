@@ -174,7 +174,7 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
 
     /// The same for positive and for negative normal force.
     pub fn mu_by_side(self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Self {
-        self.set("mu", by_side(plus.into(), minus.into()))
+        self.set("mu", by_side(plus, minus))
     }
 
     /// Coefficient of static friction. Default: that of kinetic friction.
@@ -189,7 +189,7 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
 
     /// The same for positive and for negative normal force.
     pub fn preload_by_side(self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Self {
-        self.set("preload", by_side(plus.into(), minus.into()))
+        self.set("preload", by_side(plus, minus))
     }
 
     /// Stiffness of the guide at each contact (N/m), for attainability.
@@ -268,7 +268,7 @@ impl ContactBuilder<'_> {
 
     /// The same for positive and for negative normal force.
     pub fn mu_by_side(&mut self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> &mut Self {
-        self.set("mu", by_side(plus.into(), minus.into()))
+        self.set("mu", by_side(plus, minus))
     }
 
     /// Coefficient of static friction.
@@ -283,7 +283,7 @@ impl ContactBuilder<'_> {
 
     /// The same for positive and for negative normal force.
     pub fn preload_by_side(&mut self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> &mut Self {
-        self.set("preload", by_side(plus.into(), minus.into()))
+        self.set("preload", by_side(plus, minus))
     }
 
     /// The preload's friction acts on the centre line. Default: at the pressed face.
@@ -297,6 +297,6 @@ impl ContactBuilder<'_> {
     }
 }
 
-fn by_side(plus: Quantity, minus: Quantity) -> Quantity {
-    Quantity::table([("plus", &plus), ("minus", &minus)].into_iter())
+fn by_side(plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Quantity {
+    Quantity::table([("plus", &plus.into()), ("minus", &minus.into())].into_iter())
 }

@@ -23,6 +23,11 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
+#![expect(
+    clippy::return_self_not_must_use,
+    reason = "what is said is written at once, and a handle is not always needed"
+)]
+
 mod entry;
 mod joint;
 mod load;
@@ -322,7 +327,6 @@ impl Drawing {
 
 /// A body of a [`Drawing`].
 #[derive(Debug)]
-#[must_use = "`id` is its handle; what was said of it stays"]
 pub struct BodyBuilder<'d> {
     drawing: &'d mut Drawing,
     id: BodyId,

@@ -49,17 +49,12 @@ impl From<String> for Quantity {
 
 /// A text in quotation marks.
 pub(super) fn text(value: &str) -> Quantity {
-    let mut quoted = String::from('"');
-    for character in value.chars() {
-        match character {
-            '"' => quoted.push_str("\\\""),
-            '\\' => quoted.push_str("\\\\"),
-            other if other.is_control() => quoted.push_str(&format!("\\U{:08x}", u32::from(other))),
-            other => quoted.push(other),
-        }
-    }
-    quoted.push('"');
-    Quantity(quoted)
+    let escaped = |character: char| match character {
+        '"' | '\\' => format!("\\{character}"),
+        control if control.is_control() => format!("\\U{:08x}", u32::from(control)),
+        other => other.to_string(),
+    };
+    Quantity(format!("\"{}\"", value.chars().map(escaped).collect::<String>()))
 }
 
 /// A list.
