@@ -132,7 +132,7 @@ impl Watch {
     }
 
     /// Tells of the progress, if a line is due.
-    pub(crate) fn tell(&mut self, progress: &Progress) {
+    fn tell(&mut self, progress: &Progress) {
         let elapsed = self.start.elapsed();
         if let (None, Some(fraction)) = (self.first, progress.fraction) {
             self.first = Some((elapsed, fraction));
