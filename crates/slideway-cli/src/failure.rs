@@ -28,8 +28,6 @@ pub(crate) enum Failure {
     NoProblem { path: PathBuf },
     /// The problem makes no sense.
     Problem { name: String, faults: RawFaults },
-    /// Numbers of the problem overflow.
-    Overflow { name: String },
     /// There is no such model in the gallery.
     UnknownModel { name: String, nearest: Option<String> },
     /// Only the telescopic boom has stages.
@@ -118,9 +116,6 @@ impl Failure {
                 format!("`{}` cannot be read: {}", path.display(), reason(error))
             }
             Self::Input(_) | Self::Problem { .. } => String::new(),
-            Self::Overflow { name } => {
-                format!("numbers overflow in the solutions of {name}")
-            }
             Self::UnknownModel { name, .. } => format!("the gallery has no model `{name}`"),
             Self::NoStages { name } => format!("`{name}` has no stages"),
             Self::StageCount { stages, most } => {
@@ -219,7 +214,6 @@ impl Failure {
             ),
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
-            Self::Overflow { .. } => Some("look for entries of absurd magnitude".to_owned()),
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),

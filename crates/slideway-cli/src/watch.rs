@@ -92,13 +92,17 @@ pub(crate) struct Watch {
 impl Watch {
     /// Starts now; until it is dropped an interruption ends the work, not the program.
     pub(crate) fn new(limit: Option<Duration>) -> Self {
+        Self::since(Instant::now(), limit)
+    }
+
+    /// The same for work that was begun before, by what cannot be ended.
+    pub(crate) fn since(start: Instant, limit: Option<Duration>) -> Self {
         // Without a handler an interruption ends the program at once.
         HANDLER.call_once(|| {
             let _ = ctrlc::set_handler(interrupt);
         });
         WATCHED.store(true, Ordering::Relaxed);
-        let (start, shown) = (Instant::now(), Duration::ZERO);
-        Self { start, shown, limit, first: None, line: ProgressLine::new(), halt: None }
+        Self { start, shown: Duration::ZERO, limit, first: None, line: ProgressLine::new(), halt: None }
     }
 
     /// The same without progress, where the answer itself appears bit by bit on the terminal.
@@ -128,7 +132,7 @@ impl Watch {
     }
 
     /// Tells of the progress, if a line is due.
-    pub(crate) fn tell(&mut self, progress: &Progress) {
+    fn tell(&mut self, progress: &Progress) {
         let elapsed = self.start.elapsed();
         if let (None, Some(fraction)) = (self.first, progress.fraction) {
             self.first = Some((elapsed, fraction));

@@ -84,6 +84,28 @@ fn an_interruption_ends_every_long_command_soon() {
     }
 }
 
+/// 400 frames of a millisecond: the motion takes no time, its picture minutes with this build.
+#[test]
+fn a_gif_ends_between_frames_and_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motion.gif").to_str().unwrap().to_owned();
+    let words =
+        ["simulate", "models/klepp-2002-spring.toml", "--until", "1ms", "--slow-motion", "1e5", "--animate"];
+    let words: Vec<String> = words.into_iter().map(str::to_owned).chain([path.clone()]).collect();
+    for signal in ["-INT", "-TERM"] {
+        let (code, said, took) = signalled(&words, signal);
+        assert_eq!(code, Some(130), "{said}");
+        assert!(said.starts_with(&format!("error: interrupted before `{path}` was done")), "{said}");
+        assert!(took < Duration::from_secs(20), "{took:?}");
+    }
+    let limited: Vec<&str> = words.iter().map(String::as_str).chain(["--time-limit", "1s"]).collect();
+    let run = slideway(&limited);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    let told = format!("error: ended by the time limit of 1 s before `{path}` was done; it is not written");
+    assert!(run.stderr.starts_with(&told), "{}", run.stderr);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
 /// Forty unknowns that are nearly independent of each other: w_k = 1 - z_k + little, so that there are 2^40 solutions.
 fn hard_problem() -> String {
     let n = 40;

@@ -1,8 +1,9 @@
 //! The careful solution of a single regular pattern.
 
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use nalgebra::{DMatrix, DVector};
 
 use super::contact_set::ContactSet;
+use super::dense::Lu;
 use super::scaling::ScaledProblem;
 use super::solutions::ContactState;
 
@@ -30,17 +31,17 @@ pub(super) struct Candidate {
 }
 
 /// Solves the equations of a pattern by LU with partial pivoting and one step of iterative
-/// refinement; none if the matrix is exactly singular or numbers overflow.
-pub(super) fn solve_pattern(problem: &ScaledProblem, pattern: &[ContactState]) -> Option<Candidate> {
-    if pattern.is_empty() {
-        // nalgebra's triangular solutions do not take empty systems.
-        return Some(judge(pattern, DVector::zeros(0), &DVector::zeros(0), problem.load_unit));
-    }
+/// refinement; none if the matrix is exactly singular or numbers overflow, or once `proceed` is false.
+pub(super) fn solve_pattern(
+    problem: &ScaledProblem,
+    pattern: &[ContactState],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Candidate> {
     let (matrix, right_hand_side) = problem.system(pattern);
-    let factors = matrix.clone().lu();
+    let factors = Lu::new(matrix.clone(), proceed)?;
     let mut unknowns = factors.solve(&right_hand_side)?;
     unknowns += factors.solve(&(&right_hand_side - &matrix * &unknowns))?;
-    let inverse = factors.try_inverse()?;
+    let inverse = factors.inverse(proceed)?;
     if unknowns.iter().chain(&inverse).any(|value| !value.is_finite()) {
         return None;
     }
@@ -52,12 +53,14 @@ pub(super) fn solve_pattern(problem: &ScaledProblem, pattern: &[ContactState]) -
     Some(Candidate { determinant: unscaled_determinant(problem, pattern, &factors), condition, ..candidate })
 }
 
-/// `D` of a pattern; 1 without contacts.
-pub(super) fn determinant(problem: &ScaledProblem, pattern: &[ContactState]) -> f64 {
-    if pattern.is_empty() {
-        return 1.0;
-    }
-    unscaled_determinant(problem, pattern, &problem.system(pattern).0.lu())
+/// `D` of a pattern; none once `proceed` is false.
+pub(super) fn determinant(
+    problem: &ScaledProblem,
+    pattern: &[ContactState],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<f64> {
+    let factors = Lu::new(problem.system(pattern).0, proceed)?;
+    Some(unscaled_determinant(problem, pattern, &factors))
 }
 
 fn judge(
@@ -103,15 +106,11 @@ fn largest_row_sum(matrix: &DMatrix<f64>) -> f64 {
 
 /// `det C` of the unscaled matrix, as the product of scaled pivots so that nothing overflows that
 /// need not.
-fn unscaled_determinant(
-    problem: &ScaledProblem,
-    pattern: &[ContactState],
-    factors: &LU<f64, Dyn, Dyn>,
-) -> f64 {
-    let pivots = factors.lu_internal().diagonal();
+fn unscaled_determinant(problem: &ScaledProblem, pattern: &[ContactState], factors: &Lu) -> f64 {
+    let pivots = factors.pivots();
     let scaled = pattern
         .iter()
         .enumerate()
         .map(|(contact, &state)| pivots[contact] * problem.determinant_factor(contact, state));
-    scaled.product::<f64>() * factors.p().determinant::<f64>()
+    scaled.product::<f64>() * factors.sign_of_order()
 }

@@ -6,7 +6,6 @@ use super::contact_set::ContactSet;
 use super::degenerate::{Examined, examine};
 use super::enumeration::EnumerationError;
 use super::findings::{Findings, SUSPECT_CONDITION};
-use super::scaling::ScaledProblem;
 use super::solutions::{Certificate, ContactState, SolutionSet, UndecidedPattern};
 use super::support::Support;
 
@@ -28,7 +27,7 @@ enum Centre {
 }
 
 impl Findings<'_> {
-    /// Files a pattern by its decision. What is not decided yet is left open once `proceed` is false.
+    /// Files a pattern by its decision. What is not known yet is left open once `proceed` is false.
     pub(super) fn file_decision(
         &mut self,
         pattern: &[ContactState],
@@ -38,11 +37,15 @@ impl Findings<'_> {
         match decision {
             Decision::NoSolution { .. } => self.count_no_solution(pattern.contains(&ContactState::Gap)),
             Decision::Solution { unknowns, determinant } => {
-                let candidate = decided_candidate(self.problem, pattern, &unknowns, determinant);
+                let Some(candidate) = self.candidate(pattern, &unknowns, determinant, proceed) else {
+                    return Ok(Filed::NotProven);
+                };
                 self.file_admissible(pattern, candidate, Certificate::Proven { unknowns })?;
             }
             Decision::Boundary { unknowns, zero, full_share, determinant } => {
-                let mut candidate = decided_candidate(self.problem, pattern, &unknowns, determinant);
+                let Some(mut candidate) = self.candidate(pattern, &unknowns, determinant, proceed) else {
+                    return Ok(Filed::NotProven);
+                };
                 for &contact in zero.iter().chain(&full_share) {
                     let in_gap = pattern[contact] == ContactState::Gap;
                     if in_gap { &mut candidate.at_end } else { &mut candidate.zero }.insert(contact);
@@ -107,11 +110,11 @@ impl Findings<'_> {
         let judged = |candidate: Candidate| {
             if candidate.admissible { Centre::Solution(candidate) } else { Centre::Nothing }
         };
-        let candidate = solve_pattern(self.problem, pattern);
+        let candidate = solve_pattern(self.problem, pattern, proceed);
         if let Some(candidate) = candidate.as_ref().filter(|found| found.condition < SUSPECT_CONDITION) {
             return judged(candidate.clone());
         }
-        if self.has_examined_enough() {
+        if self.has_examined_enough() || !proceed() {
             return Centre::NotExamined;
         }
         self.examined += 1;
@@ -121,28 +124,31 @@ impl Findings<'_> {
             Examined::Singular(set) => Centre::Set(set),
         }
     }
-}
 
-/// The solution in the middle of its enclosure; contacts on a boundary are left to the caller.
-fn decided_candidate(
-    problem: &ScaledProblem,
-    pattern: &[ContactState],
-    unknowns: &[Interval],
-    sign: Sign,
-) -> Candidate {
-    let size = determinant(problem, pattern).abs();
-    let pressed = pattern.iter().zip(unknowns).filter(|(state, _)| **state != ContactState::Gap);
-    let none = ContactSet::none_of(pattern.len());
-    Candidate {
-        unknowns: nalgebra::DVector::from_iterator(
-            unknowns.len(),
-            unknowns.iter().map(|value| value.nonzero_middle()),
-        ),
-        zero: none.clone(),
-        at_end: none,
-        admissible: true,
-        determinant: if sign == Sign::Negative { -size } else { size },
-        tolerance: pressed.map(|(_, value)| value.width()).fold(0.0, f64::max),
-        condition: 1.0,
+    /// The solution in the middle of its enclosure; contacts on a boundary are left to the caller. The pattern is left
+    /// unexamined once `proceed` is false.
+    fn candidate(
+        &mut self,
+        pattern: &[ContactState],
+        unknowns: &[Interval],
+        sign: Sign,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Candidate> {
+        let Some(determinant) = determinant(self.problem, pattern, proceed) else {
+            self.leave_unexamined(pattern, pattern.len());
+            return None;
+        };
+        let pressed = pattern.iter().zip(unknowns).filter(|(state, _)| **state != ContactState::Gap);
+        let none = ContactSet::none_of(pattern.len());
+        let middles = unknowns.iter().map(|value| value.nonzero_middle());
+        Some(Candidate {
+            unknowns: nalgebra::DVector::from_iterator(unknowns.len(), middles),
+            zero: none.clone(),
+            at_end: none,
+            admissible: true,
+            determinant: if sign == Sign::Negative { -determinant.abs() } else { determinant.abs() },
+            tolerance: pressed.map(|(_, value)| value.width()).fold(0.0, f64::max),
+            condition: 1.0,
+        })
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::dense::Pace;
 use super::scaling::ScaledProblem;
 use super::solutions::{ContactState, SolutionSet};
 
@@ -23,7 +24,7 @@ pub(super) enum Examined {
 }
 
 /// Whether a pattern is singular, by elimination with complete pivoting, and what it admits.
-/// `bases` is the work that is left and gets less. A set is not computed once `proceed` is false.
+/// `bases` is the work that is left and gets less. Nothing is computed once `proceed` is false.
 pub(super) fn examine(
     problem: &ScaledProblem,
     pattern: &[ContactState],
@@ -33,8 +34,10 @@ pub(super) fn examine(
     let contacts = pattern.len();
     let (mut matrix, right_hand_side) = problem.system(pattern);
     let column_sizes = scale_columns(&mut matrix);
-    if Reduced::new(augment(&matrix, &right_hand_side)).rank() == contacts {
-        return Examined::Regular;
+    match Reduced::new(augment(&matrix, &right_hand_side), proceed) {
+        None => return Examined::Singular(SolutionSet::NotComputed),
+        Some(reduced) if reduced.rank() == contacts => return Examined::Regular,
+        Some(_) => {}
     }
     let (matrix, right_hand_side) = with_share_limits(&matrix, &right_hand_side, pattern, &column_sizes);
     let Some(polyhedron) = Polyhedron::new(&matrix, &right_hand_side, bases, proceed) else {
@@ -102,10 +105,15 @@ struct Reduced {
 }
 
 impl Reduced {
-    fn new(mut table: DMatrix<f64>) -> Self {
+    /// None once `proceed` is false.
+    fn new(mut table: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
+        let mut pace = Pace::new(proceed);
         let unknowns = table.ncols() - 1;
         let mut basic = Vec::new();
         while basic.len() < table.nrows().min(unknowns) {
+            if !pace.allows(2 * table.len()) {
+                return None;
+            }
             let rank = basic.len();
             let rest = table.view((rank, 0), (table.nrows() - rank, unknowns));
             let (row, column) = rest.icamax_full();
@@ -124,7 +132,7 @@ impl Reduced {
             }
             basic.push(column);
         }
-        Self { table, basic }
+        Some(Self { table, basic })
     }
 
     fn rank(&self) -> usize {
@@ -155,7 +163,7 @@ impl Polyhedron {
         bases: &mut u64,
         proceed: &mut dyn FnMut() -> bool,
     ) -> Option<Self> {
-        let reduced = Reduced::new(augment(matrix, right_hand_side));
+        let reduced = Reduced::new(augment(matrix, right_hand_side), proceed)?;
         if !reduced.is_consistent() {
             return Some(Self { vertices: Vec::new(), directions: Vec::new() });
         }

@@ -260,7 +260,7 @@ impl<'a> Tree<'a> {
         if self.findings.count_unloaded(&self.pattern) {
             Ok(())
         } else if self.may_be_solution() {
-            self.findings.examine_candidate(&self.pattern)
+            self.findings.examine_candidate(&self.pattern, &mut || true)
         } else {
             self.findings.count_no_solution(self.in_gap > 0);
             Ok(())

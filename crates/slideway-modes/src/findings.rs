@@ -71,9 +71,9 @@ impl<'a> Findings<'a> {
         self.examined >= self.limits.singular
     }
 
-    /// Whether a pattern may be singular, within tolerances.
-    pub(super) fn is_suspect(&self, pattern: &[ContactState]) -> bool {
-        solve_pattern(self.problem, pattern).is_none_or(|found| found.condition >= SUSPECT_CONDITION)
+    /// Whether a pattern may be singular, within tolerances; also once `proceed` is false.
+    pub(super) fn is_suspect(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
+        solve_pattern(self.problem, pattern, proceed).is_none_or(|found| found.condition >= SUSPECT_CONDITION)
     }
 
     /// Whatever is filed is proven for exact data: nothing is merged within tolerances.
@@ -111,7 +111,8 @@ impl<'a> Findings<'a> {
     pub(super) fn offer_if_regular(&mut self, pattern: &[ContactState]) {
         let is_it = |other: &Vec<ContactState>| other == pattern;
         if !self.singular.iter().any(|mode| mode.patterns.iter().any(is_it)) {
-            self.offer_closest(pattern, determinant(self.problem, pattern));
+            let determinant = determinant(self.problem, pattern, &mut || true);
+            determinant.into_iter().for_each(|determinant| self.offer_closest(pattern, determinant));
         }
     }
 
@@ -127,8 +128,12 @@ impl<'a> Findings<'a> {
     }
 
     /// Solves a pattern carefully and files its outcome.
-    pub(super) fn examine_candidate(&mut self, pattern: &[ContactState]) -> Result<(), EnumerationError> {
-        let Some(candidate) = solve_pattern(self.problem, pattern) else {
+    pub(super) fn examine_candidate(
+        &mut self,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Result<(), EnumerationError> {
+        let Some(candidate) = solve_pattern(self.problem, pattern, proceed) else {
             self.counts_of(pattern).not_examined += 1;
             return Ok(());
         };
@@ -142,7 +147,7 @@ impl<'a> Findings<'a> {
         pattern: &[ContactState],
         proceed: &mut dyn FnMut() -> bool,
     ) -> Result<(), EnumerationError> {
-        match solve_pattern(self.problem, pattern) {
+        match solve_pattern(self.problem, pattern, proceed) {
             Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
                 self.file_candidate(pattern, candidate)
             }
@@ -162,7 +167,7 @@ impl<'a> Findings<'a> {
     ) -> Result<(), EnumerationError> {
         self.examined += 1;
         match examine(self.problem, pattern, &mut self.bases, proceed) {
-            Examined::Regular => self.examine_candidate(pattern),
+            Examined::Regular => self.examine_candidate(pattern, proceed),
             Examined::Singular(set) => {
                 let support = Support::of_set(pattern, &set, &self.problem.has_jump);
                 self.file_singular(pattern, (set, support), Certificate::NotProven);
@@ -409,7 +414,7 @@ impl<'a> Findings<'a> {
 
     fn closest_modes(&self) -> Vec<ClosestMode> {
         let solved = self.closest.iter().filter_map(|(_, pattern)| {
-            let Candidate { unknowns, determinant, .. } = solve_pattern(self.problem, pattern)?;
+            let Candidate { unknowns, determinant, .. } = solve_pattern(self.problem, pattern, &mut || true)?;
             let pattern = sides(pattern);
             let oriented_determinant = oriented(determinant, &pattern);
             Some(ClosestMode { pattern, determinant, oriented_determinant, y: unknowns })

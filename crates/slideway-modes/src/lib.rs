@@ -71,6 +71,7 @@ pub mod certificate;
 mod contact_set;
 mod decided;
 mod degenerate;
+mod dense;
 mod enumeration;
 pub mod exhaustive;
 pub mod existence;

@@ -224,10 +224,7 @@ impl ModeProblem {
             check_matrix(ProblemPart::Columns(side), columns.get(side), contacts)?;
             check_matrix(ProblemPart::Jumps(side), jumps.get(side), contacts)?;
         }
-        let has_jump = (0..contacts)
-            .map(|contact| jumps.positive.column(contact) != jumps.negative.column(contact))
-            .collect();
-        Ok(Self { columns, jumps, right_hand_side, has_jump, remainder: None })
+        Ok(Self::unchecked(columns, jumps, right_hand_side))
     }
 
     /// The problem of contacts with dry friction, from their influence coefficients:
@@ -390,12 +387,8 @@ impl ModeProblem {
         self.right_hand_side.len()
     }
 
-    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`.
-    pub(super) fn restricted(
-        &self,
-        contacts: &[usize],
-        right_hand_side: &DVector<f64>,
-    ) -> Result<Self, ModeProblemError> {
+    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`, which are finite.
+    pub(super) fn restricted(&self, contacts: &[usize], right_hand_side: &DVector<f64>) -> Self {
         let size = contacts.len();
         let of = |matrix: &DMatrix<f64>| {
             DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
@@ -404,11 +397,20 @@ impl ModeProblem {
             positive: of(&part.positive),
             negative: of(&part.negative),
         };
-        let (columns, jumps) = (by_side(&self.columns), by_side(&self.jumps));
-        let right = DVector::from_fn(size, |row, _| right_hand_side[contacts[row]]);
-        let problem = Self::new(columns.positive, columns.negative, jumps.positive, jumps.negative, right)?;
-        let remainder = self.remainder.as_ref();
-        Ok(Self { remainder: remainder.and_then(|lost| Remainder::new(by_side(&lost.columns))), ..problem })
+        let right_hand_side = DVector::from_fn(size, |row, _| right_hand_side[contacts[row]]);
+        let remainder = self.remainder.as_ref().and_then(|lost| Remainder::new(by_side(&lost.columns)));
+        Self { remainder, ..Self::unchecked(by_side(&self.columns), by_side(&self.jumps), right_hand_side) }
+    }
+
+    /// The problem of finite numbers in matrices that fit.
+    fn unchecked(
+        columns: BySide<DMatrix<f64>>,
+        jumps: BySide<DMatrix<f64>>,
+        right_hand_side: DVector<f64>,
+    ) -> Self {
+        let jumps_at = |contact| jumps.positive.column(contact) != jumps.negative.column(contact);
+        let has_jump = (0..right_hand_side.len()).map(jumps_at).collect();
+        Self { columns, jumps, right_hand_side, has_jump, remainder: None }
     }
 
     /// The columns `c_k` of one side (r x r); where they are sums of two matrices, rounded: see

@@ -43,7 +43,9 @@ impl ScaledProblem {
         let row_scale = DVector::from_fn(contacts, |row, _| {
             power_of_two_above(positive.row(row).amax().max(negative.row(row).amax())).recip()
         });
-        let scale_rows = |matrix: &DMatrix<f64>| DMatrix::from_diagonal(&row_scale) * matrix;
+        let scale_rows = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(contacts, contacts, |row, column| row_scale[row] * matrix[(row, column)])
+        };
         let [jumps_positive, jumps_negative] = Side::BOTH.map(|side| scale_rows(problem.jumps(side)));
         let right_hand_side = problem.right_hand_side().component_mul(&row_scale);
 

@@ -78,7 +78,6 @@ fn solve(mut arguments: impl Iterator<Item = String>) -> Result<(), Box<dyn Erro
 fn timed(problem: &ModeProblem, options: &Options) -> Result<Value, Box<dyn Error>> {
     let contacts = problem.contacts();
     let (seconds, result) = median(|| limited(problem, options.time_limit));
-    let result = result?;
     let counts = result.counts();
     let list = |state: &slideway::modes::CombinedState<'_>| {
         state.normal_force(contacts).map(|force| force.as_slice().to_vec())
@@ -112,10 +111,7 @@ fn timed(problem: &ModeProblem, options: &Options) -> Result<Value, Box<dyn Erro
 }
 
 /// A search that ends at the time limit.
-fn limited(
-    problem: &ModeProblem,
-    time_limit: Duration,
-) -> Result<SearchResult, slideway::modes::ModeProblemError> {
+fn limited(problem: &ModeProblem, time_limit: Duration) -> SearchResult {
     let start = Instant::now();
     let options = SearchOptions { nodes: u64::MAX, ..SearchOptions::default() };
     search(problem, &options, &mut |_| {

@@ -9,17 +9,20 @@ use crate::watch::{Watch, outcome};
 use slideway::raw_problem::{
     Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_json, to_npz, to_text,
 };
+use std::time::Instant;
 
 /// Finds and writes all solutions of a problem given by its matrices.
 pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.file))?;
+    // A large file takes its part of the time.
+    let begun = Instant::now();
     let problem = read(arguments)?;
     let SearchArguments { max_solutions, time, .. } = &arguments.search;
-    let mut watch = Watch::new(time.time_limit);
+    let mut watch = Watch::since(begun, time.time_limit);
     let options = arguments.search.options();
     let listing = Listing { most: *max_solutions, all_faces: arguments.all_faces };
     let report = solve_with(&problem, &options, listing, &mut |progress| watch.look(progress))
-        .map_err(|_| Failure::Overflow { name: input::name(&arguments.file) })?;
+        .expect("shapes and values are checked where the problem is read");
     let halt = watch.finish();
     match arguments.format() {
         ModesFormat::Text => output.write(&to_text(&report, output.style()))?,

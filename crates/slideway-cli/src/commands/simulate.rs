@@ -277,14 +277,13 @@ impl<'a> Files<'a> {
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
             let animation = animation(history, &options, theme);
-            // What was simulated until an interruption is shown whole.
-            let is_halted = watch.halt().is_some();
-            let mut progress = |progress: &Progress| {
-                if is_halted {
-                    watch.tell(progress);
-                    return ControlFlow::Continue(());
+            // What was simulated until the time was up is shown whole, unless someone interrupts.
+            let time_was_up = watch.halt().is_some();
+            let mut progress = |progress: &Progress| match watch.look(progress) {
+                ControlFlow::Break(()) if time_was_up && watch.halt() != Some(Halt::Interrupted) => {
+                    ControlFlow::Continue(())
                 }
-                watch.look(progress)
+                flow => flow,
             };
             let bytes = match format {
                 AnimationFormat::Html => animation.to_html()?.into_bytes(),

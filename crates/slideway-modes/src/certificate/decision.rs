@@ -145,7 +145,7 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
     verdict
 }
 
-/// [`decide`], none once `proceed` is false, which is asked now and then: rational numbers may take long.
+/// [`decide`], none once `proceed` is false, which is asked now and then: large matrices and rational numbers may take long.
 pub(crate) fn decide_while(
     problem: ProblemView<'_>,
     pattern: &[ContactState],
@@ -154,7 +154,7 @@ pub(crate) fn decide_while(
     assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
     let mut enclosure = None;
     if let Some(system) = PatternSystem::new(problem, pattern)
-        && let Some(mut approximation) = Approximation::new(&system)
+        && let Some(mut approximation) = Approximation::new(&system, proceed)
     {
         for precision in [Precision::Double, Precision::DoubleDouble] {
             enclosure = approximation.improve(precision).or(enclosure);
@@ -166,6 +166,9 @@ pub(crate) fn decide_while(
                 None => {}
             }
         }
+    }
+    if !proceed() {
+        return None;
     }
     if problem.exact {
         let decision = decide_exactly(problem, pattern, proceed)?;
@@ -184,8 +187,9 @@ struct Approximation<'a> {
 }
 
 impl<'a> Approximation<'a> {
-    fn new(system: &'a PatternSystem<'a>) -> Option<Self> {
-        let inverse = ApproximateInverse::new(&system.matrix)?;
+    /// None if the matrix has no approximate inverse, or once `proceed` is false.
+    fn new(system: &'a PatternSystem<'a>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
+        let inverse = ApproximateInverse::new(&system.matrix, proceed)?;
         let unknowns = inverse.apply(system.right_hand_side());
         Some(Self { system, inverse, unknowns })
     }

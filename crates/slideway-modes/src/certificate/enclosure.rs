@@ -16,6 +16,7 @@ use nalgebra::{DMatrix, DVector};
 use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 use super::system::BoundedVector;
 use crate::interval::{Interval, Sign};
+use crate::dense::{self, Pace};
 
 /// How often a trial bound is enlarged.
 const INFLATIONS: usize = 16;
@@ -42,15 +43,15 @@ pub(super) struct ApproximateInverse {
 }
 
 impl ApproximateInverse {
-    /// None if elimination breaks down or numbers overflow.
-    pub(super) fn new(matrix: &IntervalMatrix) -> Option<Self> {
+    /// None if elimination breaks down or numbers overflow, or once `proceed` is false.
+    pub(super) fn new(matrix: &IntervalMatrix, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
         let size = matrix.shape().0;
         let mut factors = matrix.centre().clone();
-        let (rows, swaps_are_odd) = eliminate(&mut factors)?;
-        let (lower, upper) = (invert_unit_lower(&factors), invert_upper(&factors));
+        let (rows, swaps_are_odd) = eliminate(&mut factors, proceed)?;
+        let (lower, upper) = (invert_unit_lower(&factors, proceed)?, invert_upper(&factors, proceed)?);
         let permuted = matrix.centre().select_rows(&rows);
-        let partial = &lower * &permuted;
-        let mut defect = &upper * &partial;
+        let partial = dense::product(&lower, &permuted, proceed)?;
+        let mut defect = dense::product(&upper, &partial, proceed)?;
         defect.neg_mut();
         for at in 0..size {
             defect[(at, at)] += 1.0;
@@ -63,7 +64,7 @@ impl ApproximateInverse {
             sign: if negative % 2 == 0 { Sign::Positive } else { Sign::Negative },
             lower_size: lower.abs(),
             upper_size: upper.abs(),
-            inverse_size: size_of_product(&upper, &lower),
+            inverse_size: size_of_product(&upper, &lower, proceed)?,
             lower,
             upper,
             defect: defect.abs(),
@@ -133,9 +134,13 @@ impl ApproximateInverse {
 }
 
 /// Upper bounds of `|A B|`.
-fn size_of_product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
-    let product = product(left, &IntervalMatrix::exact(right.clone()));
-    product.centre().zip_map(product.radius(), |centre, radius| (centre.abs() + radius).next_up())
+fn size_of_product(
+    left: &DMatrix<f64>,
+    right: &DMatrix<f64>,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<DMatrix<f64>> {
+    let product = product(left, &IntervalMatrix::exact(right.clone()), proceed)?;
+    Some(product.centre().zip_map(product.radius(), |centre, radius| (centre.abs() + radius).next_up()))
 }
 
 /// `|vector| eps`, not lost to underflow.
@@ -172,7 +177,7 @@ pub fn enclose_solution(
     if matrix.shape() != (size, size) {
         return None;
     }
-    let inverse = ApproximateInverse::new(matrix)?;
+    let inverse = ApproximateInverse::new(matrix, &mut || true)?;
     let mut entries = DMatrix::from_element(size, columns, Interval::ZERO);
     for column in 0..columns {
         let right = right_hand_side.centre().column(column).into_owned();
@@ -182,7 +187,7 @@ pub fn enclose_solution(
             continue;
         }
         let guess = inverse.apply(&right);
-        let image = product_with_column(matrix, &guess);
+        let image = product_with_column(matrix, &guess)?;
         let rounded = (&right - image.centre()).abs() * f64::EPSILON;
         let bound = upper_sum(&[&image.radius().column(0).into_owned(), &spread, &rounded]);
         let residual = BoundedVector { centre: &right - image.centre().column(0), bound };
@@ -200,19 +205,23 @@ pub fn enclose_solution(
 }
 
 /// An enclosure of `A x`.
-fn product_with_column(matrix: &IntervalMatrix, vector: &DVector<f64>) -> IntervalMatrix {
+fn product_with_column(matrix: &IntervalMatrix, vector: &DVector<f64>) -> Option<IntervalMatrix> {
     // (A x)^T = x^T A^T, with the interval matrix on the right.
     let column = DMatrix::from_row_slice(1, vector.len(), vector.as_slice());
-    product(&column, &matrix.transposed()).transposed()
+    Some(product(&column, &matrix.transposed(), &mut || true)?.transposed())
 }
 
 /// LU factorization in place with partial pivoting: the order of rows, and whether it is an odd
-/// permutation. None if a pivot is zero or not finite.
-fn eliminate(matrix: &mut DMatrix<f64>) -> Option<(Vec<usize>, bool)> {
+/// permutation. None if a pivot is zero or not finite, or once `proceed` is false.
+fn eliminate(matrix: &mut DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<(Vec<usize>, bool)> {
+    let mut pace = Pace::new(proceed);
     let size = matrix.nrows();
     let mut rows: Vec<usize> = (0..size).collect();
     let mut odd = false;
     for step in 0..size {
+        if !pace.allows((size - step).pow(2)) {
+            return None;
+        }
         let below = matrix.view((step, step), (size - step, 1));
         let pivot_at = step + below.icamax_full().0;
         if pivot_at != step {
@@ -240,11 +249,15 @@ fn eliminate(matrix: &mut DMatrix<f64>) -> Option<(Vec<usize>, bool)> {
     Some((rows, odd))
 }
 
-/// The approximate inverse of the unit lower triangle, itself exactly unit lower triangular.
-fn invert_unit_lower(factors: &DMatrix<f64>) -> DMatrix<f64> {
+/// The approximate inverse of the unit lower triangle, itself exactly unit lower triangular; none once `proceed` is false.
+fn invert_unit_lower(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
+    let mut pace = Pace::new(proceed);
     let size = factors.nrows();
     let mut inverse = DMatrix::identity(size, size);
     for column in 0..size {
+        if !pace.allows((size - column).pow(2) / 2) {
+            return None;
+        }
         for step in column..size {
             let value = inverse[(step, column)];
             for row in step + 1..size {
@@ -252,14 +265,18 @@ fn invert_unit_lower(factors: &DMatrix<f64>) -> DMatrix<f64> {
             }
         }
     }
-    inverse
+    Some(inverse)
 }
 
-/// The approximate inverse of the upper triangle, itself exactly upper triangular.
-fn invert_upper(factors: &DMatrix<f64>) -> DMatrix<f64> {
+/// The approximate inverse of the upper triangle, itself exactly upper triangular; none once `proceed` is false.
+fn invert_upper(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
+    let mut pace = Pace::new(proceed);
     let size = factors.nrows();
     let mut inverse = DMatrix::identity(size, size);
     for column in 0..size {
+        if !pace.allows(column.pow(2) / 2) {
+            return None;
+        }
         for step in (0..=column).rev() {
             inverse[(step, column)] /= factors[(step, step)];
             let value = inverse[(step, column)];
@@ -268,5 +285,5 @@ fn invert_upper(factors: &DMatrix<f64>) -> DMatrix<f64> {
             }
         }
     }
-    inverse
+    Some(inverse)
 }

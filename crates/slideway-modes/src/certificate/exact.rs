@@ -96,7 +96,7 @@ pub fn solve_part_exactly(
         return None;
     }
     part.sort_unstable();
-    let alone = problem.restricted(&part, problem.right_hand_side()).ok()?;
+    let alone = problem.restricted(&part, problem.right_hand_side());
     let states: Vec<ContactState> = part.iter().map(|&contact| pattern[contact]).collect();
     Some((part, solve_exactly(&alone, &states, 0)))
 }

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::data::{Column, ProblemView};
 use super::matrix::inner_product;
 use crate::interval::Interval;
+use crate::dense::shortest_with_products;
 use crate::{ContactState, Side};
 
 /// Products within this fraction of their terms' size may be zero but for rounding and for the bounds
@@ -52,7 +53,16 @@ pub fn proves_empty<'a>(
     partial: &[Option<ContactState>],
     weights: &[f64],
 ) -> bool {
-    let problem = problem.into();
+    proves_empty_while(problem.into(), partial, weights, &mut || true)
+}
+
+/// [`proves_empty`], false once `proceed` is.
+pub(crate) fn proves_empty_while(
+    problem: ProblemView<'_>,
+    partial: &[Option<ContactState>],
+    weights: &[f64],
+    proceed: &mut dyn FnMut() -> bool,
+) -> bool {
     assert_eq!(partial.len(), problem.contacts(), "one entry per contact");
     assert_eq!(weights.len(), problem.contacts(), "one weight per equation");
     let Some(missing) = missing_fraction(problem, partial, weights) else { return false };
@@ -63,7 +73,7 @@ pub fn proves_empty<'a>(
         return true;
     }
     let nearly_zero = nearly_zero_columns(problem, partial, weights, NEARBY * missing);
-    let Some(direction) = direction_inwards(&nearly_zero, weights) else { return false };
+    let Some(direction) = direction_inwards(&nearly_zero, weights, proceed) else { return false };
     STEPS.iter().any(|step| {
         let step = step * missing;
         let moved: Vec<f64> = weights.iter().zip(&direction).map(|(w, towards)| w + step * towards).collect();
@@ -149,8 +159,12 @@ fn exact_where_possible(weights: &[f64], column: Column<'_>) -> Interval {
 }
 
 /// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns, of that of all their entries where these
-/// terms are all zero; none if they depend on each other.
-fn direction_inwards(columns: &[Column<'_>], weights: &[f64]) -> Option<Vec<f64>> {
+/// terms are all zero; none if they depend on each other, or once `proceed` is false.
+fn direction_inwards(
+    columns: &[Column<'_>],
+    weights: &[f64],
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Vec<f64>> {
     let rows = weights.len();
     if columns.len() > rows {
         return None;
@@ -160,12 +174,9 @@ fn direction_inwards(columns: &[Column<'_>], weights: &[f64]) -> Option<Vec<f64>
         0.0 => greatest(weights) * greatest(column.centre),
         size => size,
     };
-    let sizes = columns.iter().map(|&column| size(column));
-    let sizes = DVector::from_iterator(columns.len(), sizes);
-    let factors = DMatrix::from_fn(rows, columns.len(), |row, column| columns[column].centre[row]).qr();
-    // C = Q R: v = Q R^-T sizes.
-    let inner = factors.r().tr_solve_upper_triangular(&sizes)?;
-    let direction = factors.q() * inner;
+    let matrix = DMatrix::from_fn(rows, columns.len(), |row, column| columns[column].centre[row]);
+    let sizes = DVector::from_iterator(columns.len(), columns.iter().map(|&column| size(column)));
+    let direction = shortest_with_products(matrix, &sizes, proceed)?;
     direction.iter().all(|value| value.is_finite()).then(|| direction.as_slice().to_vec())
 }
 

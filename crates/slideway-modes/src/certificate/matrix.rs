@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::interval::{Interval, add_up};
+use crate::dense;
 
 /// All real matrices that differ from `centre` by at most `radius`, entry by entry.
 ///
@@ -104,17 +105,22 @@ pub(super) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
     DVector::from_fn(parts[0].len(), |row, _| parts.iter().map(|part| part[row]).sum::<f64>() * factor)
 }
 
-/// The product of a plain matrix and an interval matrix; entries that overflow are not finite.
+/// The product of a plain matrix and an interval matrix; entries that overflow are not finite. None once `proceed` is
+/// false.
 ///
 /// `|fl(A B) - A B| <= gamma_n |A| |B|`, and a radius of `B` adds `|A| rad(B)`.
-pub(super) fn product(left: &DMatrix<f64>, right: &IntervalMatrix) -> IntervalMatrix {
+pub(super) fn product(
+    left: &DMatrix<f64>,
+    right: &IntervalMatrix,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<IntervalMatrix> {
     let terms = left.ncols();
     let sizes = left.abs();
     let factor = 1.0 + 2.0 * rounding(terms);
-    let rounded = &sizes * right.centre.abs() * rounding(terms);
-    let spread = sizes * &right.radius;
+    let rounded = dense::product(&sizes, &right.centre.abs(), proceed)? * rounding(terms);
+    let spread = dense::product(&sizes, &right.radius, proceed)?;
     let radius = (rounded + spread).map(|value| value * factor + f64::MIN_POSITIVE);
-    IntervalMatrix { centre: left * &right.centre, radius }
+    Some(IntervalMatrix { centre: dense::product(left, &right.centre, proceed)?, radius })
 }
 
 /// An enclosure of the inner product of plain vectors, entry `k` of the second one being known only

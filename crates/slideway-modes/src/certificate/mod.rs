@@ -44,6 +44,7 @@ pub use enclosure::{LinearEnclosure, enclose_solution};
 pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub use exclusion::proves_empty;
+pub(super) use exclusion::proves_empty_while;
 pub use influence::IntervalInfluence;
 pub use matrix::IntervalMatrix;
 pub use norm::proves_at_most_one;

@@ -6,6 +6,7 @@ use super::data::ProblemView;
 use super::matrix::{IntervalMatrix, product, rounding};
 use super::preconditioned::BaseSystem;
 use crate::ContactState;
+use crate::dense::has_cholesky_factor;
 
 /// Whether the patterns with the given states have at most one solution, because a spectral norm is
 /// below 1.
@@ -48,7 +49,9 @@ pub fn proves_at_most_one<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Op
     let Some(base) = BaseSystem::new(problem, partial) else { return false };
     let Some(inverse) = base.matrix().centre().clone().try_inverse() else { return false };
     // R A and R B in place of A and B: (R A)^-1 R B = A^-1 B.
-    is_larger(&product(&inverse, base.matrix()), &product(&inverse, base.absolute()))
+    let preconditioned = |matrix| product(&inverse, matrix, &mut || true);
+    let parts = preconditioned(base.matrix()).zip(preconditioned(base.absolute()));
+    parts.is_some_and(|(one, other)| is_larger(&one, &other))
 }
 
 /// Whether `A A^T - B B^T` is positive definite for all matrices within bounds.
@@ -90,27 +93,5 @@ fn exceeds(mut matrix: DMatrix<f64>, spread: f64) -> bool {
     for at in 0..size {
         matrix[(at, at)] -= shift;
     }
-    matrix.iter().all(|value| value.is_finite()) && has_cholesky_factor(matrix)
-}
-
-fn has_cholesky_factor(mut matrix: DMatrix<f64>) -> bool {
-    let size = matrix.nrows();
-    for column in 0..size {
-        for before in 0..column {
-            let factor = matrix[(column, before)];
-            for row in column..size {
-                let eliminated = matrix[(row, before)] * factor;
-                matrix[(row, column)] -= eliminated;
-            }
-        }
-        let pivot = matrix[(column, column)];
-        if pivot <= 0.0 || pivot.is_nan() {
-            return false;
-        }
-        let root = pivot.sqrt();
-        for row in column..size {
-            matrix[(row, column)] /= root;
-        }
-    }
-    true
+    matrix.iter().all(|value| value.is_finite()) && has_cholesky_factor(matrix, &mut || true)
 }

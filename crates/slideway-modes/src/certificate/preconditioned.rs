@@ -84,7 +84,7 @@ impl BaseSystem {
     /// The equations multiplied with an approximate inverse `R` of `A`; none if there is none.
     pub(super) fn preconditioned(&self) -> Option<Preconditioned> {
         let inverse = self.matrix.centre().clone().try_inverse()?;
-        let near_identity = product(&inverse, &self.matrix);
+        let near_identity = product(&inverse, &self.matrix, &mut || true)?;
         let identity = DMatrix::identity(inverse.nrows(), inverse.nrows());
         // 1 - c is exact for c between 1/2 and 2, where c has to be; the radius covers the rest.
         let rounded = (near_identity.centre() - &identity).abs() * f64::EPSILON;
@@ -93,8 +93,9 @@ impl BaseSystem {
         let sizes = |matrix: &IntervalMatrix| {
             (matrix.centre().abs() + matrix.radius()).map(|value| value * (1.0 + 4.0 * f64::EPSILON))
         };
-        let right = product(&inverse, &self.right_hand_side);
-        let (absolute, jumps) = (product(&inverse, &self.absolute), product(&inverse, &self.jumps));
+        let right = product(&inverse, &self.right_hand_side, &mut || true)?;
+        let absolute = product(&inverse, &self.absolute, &mut || true)?;
+        let jumps = product(&inverse, &self.jumps, &mut || true)?;
         Some(Preconditioned {
             defect: sizes(&defect),
             absolute_size: sizes(&absolute),

@@ -51,7 +51,7 @@ pub fn solve_with(
     progress: &mut Callback<'_>,
 ) -> Result<RawReport, ModeProblemError> {
     let problem = raw.mode_problem()?;
-    let result = search(&problem, options, progress)?;
+    let result = search(&problem, options, progress);
     let counts = Counts::of(&result.product, false);
     let all = Counts::of(&result.product, true);
     let faces = all.minus(&counts);

@@ -44,7 +44,7 @@ pub(super) fn within_rounding(
     // Relaxations exclude singular patterns for all numbers within bounds, decisions one by one do not.
     let arguments = Arguments { every_pattern: false, ..options.arguments };
     let options = SearchOptions { nodes, limits, arguments, keep_exclusions: false, ..*options };
-    let result = search(&bounds.problem()?, &options, progress).ok()?;
+    let result = search(&bounds.problem()?, &options, progress);
     let size = problem.contacts();
     let candidates = result.product.states().take(STATES).flat_map(|state| points(&state, size));
     let told = Progress { counted: "nodes", done: result.nodes(), fraction: Some(1.0), found: None };

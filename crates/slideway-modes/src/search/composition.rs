@@ -10,9 +10,11 @@ use super::monitor::Monitor;
 use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
 use crate::certificate::{Interval, ProblemView};
-use crate::problem::{ModeProblemError, Side};
+use crate::problem::Side;
 use crate::scaling::patterns_of;
-use crate::solutions::{Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern};
+use crate::solutions::{
+    Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern,
+};
 
 /// A problem of so few patterns is not split into groups, so that the outcome of each is known.
 const WHOLE_UP_TO: u64 = 64;
@@ -58,19 +60,14 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 
     /// All solutions of the problem.
-    pub(super) fn solve(&mut self) -> Result<SolutionProduct, ModeProblemError> {
+    pub(super) fn solve(&mut self) -> SolutionProduct {
         let all: Vec<usize> = (0..self.groups.members.len()).collect();
         self.solve_groups(&all, &Load::of(self.problem), (0.0, 1.0))
     }
 
     /// The solutions of some groups, given in increasing order, where `load` is the right-hand side
     /// with everything that acts on them. They are the work from `work.0` on, of size `work.1`.
-    fn solve_groups(
-        &mut self,
-        groups: &[usize],
-        load: &Load,
-        work: (f64, f64),
-    ) -> Result<SolutionProduct, ModeProblemError> {
+    fn solve_groups(&mut self, groups: &[usize], load: &Load, work: (f64, f64)) -> SolutionProduct {
         let contacts = |part: &[usize]| -> usize { part.iter().map(|&g| self.groups.members[g].len()).sum() };
         let total = contacts(groups).max(1) as f64;
         let parts: Vec<(Vec<usize>, f64)> = self
@@ -85,28 +82,23 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         let mut product = SolutionProduct::default();
         let mut done = work.0;
         for (part, share) in parts {
-            product.factors.push(self.solve_part(&part, load, (done, share))?);
+            product.factors.push(self.solve_part(&part, load, (done, share)));
             done += share;
         }
-        Ok(product)
+        product
     }
 
     /// The solutions of groups that hang together: those of the first, and for each of them those of
     /// the others.
-    fn solve_part(
-        &mut self,
-        part: &[usize],
-        load: &Load,
-        work: (f64, f64),
-    ) -> Result<Factor, ModeProblemError> {
+    fn solve_part(&mut self, part: &[usize], load: &Load, work: (f64, f64)) -> Factor {
         let rest = &part[1..];
         let first = self.groups.members[part[0]].clone();
         let part_size: usize = part.iter().map(|&group| self.groups.members[group].len()).sum();
         let own = work.1 * first.len() as f64 / part_size.max(1) as f64;
         self.monitor.start_group(work.0, own);
-        let answer = self.solve_group(&first, load)?;
+        let answer = self.solve_group(&first, load);
         if rest.is_empty() {
-            return Ok(Factor { alternatives: answer.alternatives(), contacts: first });
+            return Factor { alternatives: answer.alternatives(), contacts: first };
         }
         let left = (work.0 + own, work.1 - own);
         if answer.admits_sets {
@@ -122,7 +114,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
                 // No floating-point number tells the others what acts on them.
                 return self.solve_together(part, load, left);
             }
-            let dependents = self.solve_groups(rest, &acting, (done, share))?;
+            let dependents = self.solve_groups(rest, &acting, (done, share));
             // What has no solution of the others is none, and there may be very many of such.
             if !dependents.is_empty() {
                 alternatives.push(Alternative { state: Arc::clone(state), dependents });
@@ -132,32 +124,27 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             }
             done += share;
         }
-        Ok(Factor { contacts: first, alternatives })
+        Factor { contacts: first, alternatives }
     }
 
     /// The solutions of groups that hang together, searched as one.
-    fn solve_together(
-        &mut self,
-        part: &[usize],
-        load: &Load,
-        work: (f64, f64),
-    ) -> Result<Factor, ModeProblemError> {
+    fn solve_together(&mut self, part: &[usize], load: &Load, work: (f64, f64)) -> Factor {
         let mut contacts: Vec<usize> =
             part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
         contacts.sort_unstable();
         self.monitor.start_group(work.0, work.1);
-        let answer = self.solve_group(&contacts, load)?;
-        Ok(Factor { alternatives: answer.alternatives(), contacts })
+        let answer = self.solve_group(&contacts, load);
+        Factor { alternatives: answer.alternatives(), contacts }
     }
 
     /// The solutions of one group's equations, each right-hand side solved once.
-    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Result<Arc<SolvedGroup>, ModeProblemError> {
+    fn solve_group(&mut self, contacts: &[usize], load: &Load) -> Arc<SolvedGroup> {
         let bits = |&contact: &usize| [load.middle[contact].to_bits(), load.radius[contact].to_bits()];
         let key = (contacts.to_vec(), contacts.iter().flat_map(bits).collect::<Vec<u64>>());
         if let Some(answer) = self.solved.get(&key) {
-            return Ok(Arc::clone(answer));
+            return Arc::clone(answer);
         }
-        let restricted = LoadedProblem::restricted(self.problem, contacts, load)?;
+        let restricted = LoadedProblem::restricted(self.problem, contacts, load);
         let GroupAnswer { solutions, mut report, depends_on_ancestors } =
             search_group(&restricted, self.options, self.monitor);
         self.monitor.count_found(solutions.solutions.len() + solutions.gaps.len());
@@ -169,7 +156,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
         if !depends_on_ancestors && self.solved.len() < MOST_KEPT {
             self.solved.insert(key, Arc::clone(&answer));
         }
-        Ok(answer)
+        answer
     }
 
     fn file_report(&mut self, report: &GroupReport) {

@@ -85,7 +85,7 @@ fn search_large_group(
         return unexplored();
     }
     let solved = if arguments.propagation || arguments.uniqueness {
-        Propagation::new(scaled, &load_radius)
+        Propagation::new(scaled, &load_radius, &mut || monitor.goes_on())
     } else {
         None
     };
@@ -116,8 +116,8 @@ fn by_uniqueness(
     leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {
-    let method = uniqueness::proof(problem, solved)?;
-    let pattern = uniqueness::only_pattern(problem, solved)?;
+    let method = uniqueness::proof(problem, solved, &mut || monitor.goes_on())?;
+    let pattern = uniqueness::only_pattern(problem, solved, &mut || monitor.goes_on())?;
     let shares = if monitor.visit(0.0, 0) {
         match leaves.examine_only(&pattern, monitor) {
             Ok(true) => {}

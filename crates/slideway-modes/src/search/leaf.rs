@@ -5,7 +5,7 @@ use super::monitor::Monitor;
 use super::relaxation::Relaxation;
 use super::report::StopReason;
 use super::states::StateSet;
-use crate::certificate::{Decision, decide_while, proves_empty};
+use crate::certificate::{Decision, decide_while, proves_empty_while};
 use crate::decided::Filed;
 use crate::findings::Findings;
 use crate::solutions::ContactState;
@@ -38,12 +38,15 @@ impl<'a> Leaves<'a> {
             return self.examine_within_tolerances(pattern, monitor);
         }
         // Rational arithmetic on very many patterns takes too long.
-        if self.findings.has_examined_enough() && self.findings.is_suspect(pattern) {
+        if self.findings.has_examined_enough() && self.findings.is_suspect(pattern, &mut || monitor.goes_on())
+        {
             self.findings.leave_unexamined(pattern, pattern.len());
             return Ok(());
         }
         let decision = self.decide(pattern, monitor)?;
-        if matches!(decision, Decision::Undecided { .. }) && self.is_infeasible(pattern) {
+        if matches!(decision, Decision::Undecided { .. })
+            && self.is_infeasible(pattern, &mut || monitor.goes_on())
+        {
             self.exclude(pattern);
             return Ok(());
         }
@@ -54,16 +57,16 @@ impl<'a> Leaves<'a> {
     ///
     /// This decides patterns whose determinant is zero by theory, as of a block with both ends in their preload gaps:
     /// both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel but for rounding. Shares are from 0 to 1, so that
-    /// such columns reach nothing across their direction.
-    fn is_infeasible(&self, pattern: &[ContactState]) -> bool {
+    /// such columns reach nothing across their direction. False once `proceed` is.
+    fn is_infeasible(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
         let problem = self.findings.problem;
         let load_radius = problem.scaled_load_radius(&self.problem.right_hand_side_radius());
         let relaxation = Relaxation::new(problem, &load_radius, vec![f64::INFINITY; pattern.len()]);
         let states: Vec<StateSet> = pattern.iter().map(|&state| StateSet::only(state)).collect();
-        let Some(farkas) = relaxation.farkas(&states) else { return false };
+        let Some(farkas) = relaxation.farkas(&states, proceed) else { return false };
         let decided: Vec<Option<ContactState>> = pattern.iter().copied().map(Some).collect();
         let weights: Vec<f64> = problem.unscaled_rows(&farkas).iter().map(|entry| -entry).collect();
-        proves_empty(self.problem.view(), &decided, &weights)
+        proves_empty_while(self.problem.view(), &decided, &weights, proceed)
     }
 
     /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided

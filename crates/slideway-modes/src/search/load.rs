@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::certificate::{
     Column, Decision, ExactOutcome, ExactSet, Interval, ProblemView, Radii, Sign, decide_while, solve_exactly,
 };
-use crate::problem::{BySide, ModeProblem, ModeProblemError, Side};
+use crate::problem::{BySide, ModeProblem, Side};
 use crate::solutions::ContactState;
 
 /// The most contacts that are decided together in rational numbers.
@@ -90,16 +90,12 @@ impl Load {
 }
 
 impl<'p> LoadedProblem<'p> {
-    /// The equations and columns of some contacts alone.
-    pub(super) fn restricted(
-        whole: ProblemView<'p>,
-        contacts: &'p [usize],
-        load: &'p Load,
-    ) -> Result<Self, ModeProblemError> {
-        let problem = whole.centre.restricted(contacts, &load.middle)?;
+    /// The equations and columns of some contacts alone, with a load that is finite.
+    pub(super) fn restricted(whole: ProblemView<'p>, contacts: &'p [usize], load: &'p Load) -> Self {
+        let problem = whole.centre.restricted(contacts, &load.middle);
         let radii = Self::radii(whole, contacts, load);
         let exact = whole.exact && contacts.iter().all(|&contact| load.radius[contact] == 0.0);
-        Ok(Self { whole, contacts, ancestors: &load.ancestors, problem, radii, exact })
+        Self { whole, contacts, ancestors: &load.ancestors, problem, radii, exact }
     }
 
     fn radii(whole: ProblemView<'_>, contacts: &[usize], load: &Load) -> Option<Radii> {
@@ -157,7 +153,7 @@ impl<'p> LoadedProblem<'p> {
         let contacts: Vec<usize> = ancestors.chain(self.contacts.iter().copied()).collect();
         let states = self.ancestors.iter().map(|(_, state)| *state);
         let joint_pattern: Vec<ContactState> = states.chain(pattern.iter().copied()).collect();
-        let problem = self.whole.centre.restricted(&contacts, self.whole.centre.right_hand_side()).ok()?;
+        let problem = self.whole.centre.restricted(&contacts, self.whole.centre.right_hand_side());
         let own_sign = || match solve_exactly(&self.problem, pattern, 0) {
             ExactOutcome::Regular { determinant, .. } => determinant,
             ExactOutcome::Singular(_) => Sign::Zero,

@@ -82,7 +82,6 @@ pub use result::{SearchResult, StateLists};
 pub use states::StateSet;
 
 use super::certificate::ProblemView;
-use super::problem::ModeProblemError;
 use crate::progress::Callback;
 use composition::Composer;
 use monitor::Monitor;
@@ -97,10 +96,6 @@ use monitor::Monitor;
 /// problem and can grow like `2^r`: `progress` is called at every node, and in the midst of long work, and ends the
 /// search when it breaks (the library has no clock; compare times there). The answer is then labelled as partial.
 ///
-/// # Errors
-/// [`ModeProblemError`] if a part of the problem were no mode problem, which no problem of finite numbers has: groups of
-/// contacts whose solutions overflow are searched together with those that they act on.
-///
 /// ```
 /// use std::ops::ControlFlow;
 /// use nalgebra::{DMatrix, DVector};
@@ -108,7 +103,7 @@ use monitor::Monitor;
 /// // w = -z + 1 for each of 100 contacts: z = 0 or z = 1.
 /// let m = -DMatrix::identity(100, 100);
 /// let problem = ModeProblem::from_linear_complementarity(&m, DVector::from_element(100, 1.0))?;
-/// let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))?;
+/// let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
 /// assert_eq!(result.counts().solutions.to_string(), "1267650600228229401496703205376");
 /// assert_eq!(result.product.states().take(10).count(), 10);
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
@@ -117,11 +112,11 @@ pub fn search<'a>(
     problem: impl Into<ProblemView<'a>>,
     options: &SearchOptions,
     progress: &mut Callback<'_>,
-) -> Result<SearchResult, ModeProblemError> {
+) -> SearchResult {
     let problem = problem.into().without_zero_radii();
     let mut monitor = Monitor::new(options.nodes, progress);
     let mut composer = Composer::new(problem, options, &mut monitor);
-    let product = composer.solve()?;
+    let product = composer.solve();
     let (groups, all_examined) = (composer.reports, composer.all_examined);
     let proven = composer.chain_proven && groups.iter().all(|group| group.proven);
     let completeness = match monitor.stopped() {
@@ -130,5 +125,5 @@ pub fn search<'a>(
         None if proven => Completeness::Proven,
         None => Completeness::NotProven,
     };
-    Ok(SearchResult { product, completeness, groups, contacts: problem.contacts() })
+    SearchResult { product, completeness, groups, contacts: problem.contacts() }
 }

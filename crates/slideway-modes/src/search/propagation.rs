@@ -15,6 +15,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::states::StateSet;
+use crate::dense::{Lu, Pace, inverse, product};
 use crate::scaling::ScaledProblem;
 use crate::solutions::ContactState;
 
@@ -48,8 +49,12 @@ pub(super) struct Propagation {
 }
 
 impl Propagation {
-    /// For all right-hand sides within `load_radius`; none if `A` is singular.
-    pub(super) fn new(problem: &ScaledProblem, load_radius: &DVector<f64>) -> Option<Self> {
+    /// For all right-hand sides within `load_radius`; none if `A` is singular, or once `proceed` is false.
+    pub(super) fn new(
+        problem: &ScaledProblem,
+        load_radius: &DVector<f64>,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Self> {
         let contacts = problem.contacts();
         let columns = |state| {
             let columns: Vec<_> = (0..contacts).map(|contact| problem.column(contact, state)).collect();
@@ -58,15 +63,15 @@ impl Propagation {
         let (positive, negative) = (columns(ContactState::Positive), columns(ContactState::Negative));
         let a = (&positive - &negative) / 2.0;
         let b = (positive + negative) / 2.0;
-        let inverse = a.clone().try_inverse()?;
-        let coupling = &inverse * &b;
-        let residual = (&inverse * &a - DMatrix::<f64>::identity(contacts, contacts)).abs();
+        let inverse = inverse(a.clone(), proceed)?;
+        let coupling = product(&inverse, &b, proceed)?;
+        let residual = (product(&inverse, &a, proceed)? - DMatrix::<f64>::identity(contacts, contacts)).abs();
         let rounding = (contacts + 4) as f64 * f64::EPSILON;
         let sizes = inverse.abs();
-        let mut slip = residual + &sizes * (a.abs() + b.abs()) * (2.0 * rounding);
+        let mut slip = residual + product(&sizes, &(a.abs() + b.abs()), proceed)? * (2.0 * rounding);
         slip.add_scalar_mut(UNDERFLOW);
         if let Some(spread) = problem.spread_of_columns() {
-            slip += &sizes * spread * 1.01;
+            slip += product(&sizes, &spread, proceed)? * 1.01;
         }
         let frictionless = &inverse * problem.base();
         let jump_difference = -columns(ContactState::Gap);
@@ -78,13 +83,13 @@ impl Propagation {
         let mut propagation = Self {
             frictionless,
             coupling,
-            jumps: &inverse * jump_difference,
+            jumps: product(&inverse, &jump_difference, proceed)?,
             slip,
             offset_error,
             largest: vec![f64::INFINITY; contacts],
             has_jump: problem.has_jump.clone(),
         };
-        if let Some(largest) = propagation.contraction_bound() {
+        if let Some(largest) = propagation.contraction_bound(proceed) {
             propagation.largest = largest;
         }
         Some(propagation)
@@ -92,13 +97,14 @@ impl Propagation {
 
     /// `|N| <= u` for a positive `u` with `|e| + sum |J| + |G| u <= u`, which exists if the spectral
     /// radius of `|G|` is below 1 and proves that it is.
-    fn contraction_bound(&self) -> Option<Vec<f64>> {
+    fn contraction_bound(&self, proceed: &mut dyn FnMut() -> bool) -> Option<Vec<f64>> {
         let contacts = self.frictionless.len();
         let gain = self.coupling.abs() + &self.slip;
         let load = self.frictionless.abs() + self.jumps.abs().column_sum() + &self.offset_error;
         let load = load.map(|size| size + MARGIN * load.amax().max(UNDERFLOW.sqrt()));
         let widened = &load * (1.0 + MARGIN);
-        let bound = (DMatrix::identity(contacts, contacts) - &gain * (1.0 + MARGIN)).lu().solve(&widened)?;
+        let matrix = DMatrix::identity(contacts, contacts) - &gain * (1.0 + MARGIN);
+        let bound = Lu::new(matrix, proceed)?.solve(&widened)?;
         let needed = &gain * &bound + &load;
         // Far more than rounding can have changed in `needed`, whose terms are all positive.
         let holds = bound
@@ -114,12 +120,16 @@ impl Propagation {
     }
 
     /// Removes states that no normal force within its bounds can take, to a fixed point. False if a
-    /// contact is left without a state.
-    pub(super) fn fix_sides(&self, states: &mut [StateSet]) -> bool {
+    /// contact is left without a state. Once `proceed` is false some may be left that could be removed.
+    pub(super) fn fix_sides(&self, states: &mut [StateSet], proceed: &mut dyn FnMut() -> bool) -> bool {
+        let mut pace = Pace::new(proceed);
         let mut bounds: Vec<(f64, f64)> = self.largest.iter().map(|&largest| (0.0, largest)).collect();
         for _ in 0..SWEEPS {
             let mut progress = false;
             for contact in 0..states.len() {
+                if !pace.allows(states.len()) {
+                    return true;
+                }
                 let (least, most) = self.normal_force(contact, states, &bounds);
                 let before = (states[contact], bounds[contact]);
                 let after = narrowed(before.0, before.1, (least, most));
@@ -206,11 +216,11 @@ mod tests {
             let radius = if seed % 3 == 0 { 0.2 } else { 0.0 };
             let scaled = ScaledProblem::new(&problem);
             let load_radius = scaled.scaled_load_radius(&DVector::repeat(3, radius));
-            let Some(propagation) = Propagation::new(&scaled, &load_radius) else { continue };
+            let Some(propagation) = Propagation::new(&scaled, &load_radius, &mut || true) else { continue };
             bounded += usize::from(propagation.is_contraction());
             let nearby = numbers.with_load_off_by(&problem, radius);
             let mut states = all_states(&scaled);
-            let possible = propagation.fix_sides(&mut states);
+            let possible = propagation.fix_sides(&mut states, &mut || true);
             decided += states.iter().filter(|states| states.decided().is_some()).count();
             for (pattern, unknowns) in admitted(&nearby) {
                 assert!(possible && holds(&states, &pattern), "seed {seed} {problem:?}");
@@ -234,7 +244,7 @@ mod tests {
         for (relative, expected) in [(1e-3, true), (0.1, false)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
             let scaled = ScaledProblem::within((&bounded).into());
-            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
             assert_eq!(propagation.is_contraction(), expected, "{relative}");
         }
     }
@@ -246,7 +256,7 @@ mod tests {
             let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
             let problem = ModeProblem::from_absolute_value_equation(&identity, &coupling, load);
             let scaled = ScaledProblem::new(&problem.expect("shapes fit"));
-            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
             assert_eq!(propagation.is_contraction(), expected);
         }
     }

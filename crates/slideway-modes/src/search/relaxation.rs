@@ -101,16 +101,18 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
-    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own.
+    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own. It is left undecided
+    /// once `proceed` is false.
     pub(super) fn solve(
         &self,
         states: &[StateSet],
         parent: &Basis,
         iterations: &mut u64,
+        proceed: &mut dyn FnMut() -> bool,
     ) -> (Relaxed, Basis) {
         let bounds = self.bounds(states);
         let mut basis = parent.restricted(&bounds);
-        let relaxed = match self.program.solve(&mut basis, &bounds, iterations) {
+        let relaxed = match self.program.solve(&mut basis, &bounds, iterations, proceed) {
             LinearOutcome::Feasible(values) => Relaxed::Feasible(self.contacts(&values, &basis)),
             LinearOutcome::Infeasible(farkas) => {
                 self.verified(farkas, &bounds, &basis).map_or(Relaxed::Undecided, Relaxed::Excluded)
@@ -120,11 +122,12 @@ impl Relaxation {
         (relaxed, basis)
     }
 
-    /// A vector that excludes a node but for rounding errors; none if the relaxation may have a solution.
-    pub(super) fn farkas(&self, states: &[StateSet]) -> Option<Vec<f64>> {
+    /// A vector that excludes a node but for rounding errors; none if the relaxation may have a solution, or once
+    /// `proceed` is false.
+    pub(super) fn farkas(&self, states: &[StateSet], proceed: &mut dyn FnMut() -> bool) -> Option<Vec<f64>> {
         let bounds = self.bounds(states);
         let mut basis = self.first_basis().restricted(&bounds);
-        match self.program.solve(&mut basis, &bounds, &mut 0) {
+        match self.program.solve(&mut basis, &bounds, &mut 0, proceed) {
             LinearOutcome::Infeasible(farkas) => Some(farkas),
             LinearOutcome::Feasible(_) | LinearOutcome::Undecided => None,
         }
@@ -301,7 +304,7 @@ mod tests {
             let admitted = admitted(&nearby);
             for _ in 0..12 {
                 let states = some_states(&mut numbers, &all_states(&scaled));
-                let (relaxed, _) = relaxation.solve(&states, &relaxation.first_basis(), &mut 0);
+                let (relaxed, _) = relaxation.solve(&states, &relaxation.first_basis(), &mut 0, &mut || true);
                 if matches!(relaxed, Relaxed::Excluded(_)) {
                     excluded += 1;
                     assert!(!admitted.iter().any(|(pattern, _)| holds(&states, pattern)), "{problem:?}");

@@ -59,7 +59,7 @@ impl SearchResult {
     /// use slideway_modes::{Certificate, ModeProblem, SearchOptions, search};
     /// // w = z: only z = 0, w = 0, on the boundary between all patterns.
     /// let problem = ModeProblem::from_linear_complementarity(&DMatrix::identity(3, 3), DVector::zeros(3))?;
-    /// let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()))?;
+    /// let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
     /// let lists = result.lists(100, 1024);
     /// assert!(lists.all_listed);
     /// assert_eq!(lists.solutions[0].pattern_count, 8);

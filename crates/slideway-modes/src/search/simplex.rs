@@ -15,6 +15,8 @@
 
 use nalgebra::DMatrix;
 
+use crate::dense::{Pace, inverse, product};
+
 /// Bounds may be missed by this fraction of the largest basic variable (or of 1).
 const FEASIBLE: f64 = 1e-9;
 /// Entries of a pivot row below this are zero.
@@ -134,14 +136,26 @@ impl LinearProgram {
     }
 
     /// Solves the program from a basis that a program with wider bounds left behind; `iterations`
-    /// counts the pivots.
-    pub(super) fn solve(&self, basis: &mut Basis, bounds: &Bounds, iterations: &mut u64) -> LinearOutcome {
+    /// counts the pivots. It is left undecided once `proceed` is false.
+    pub(super) fn solve(
+        &self,
+        basis: &mut Basis,
+        bounds: &Bounds,
+        iterations: &mut u64,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> LinearOutcome {
         let limit = 50 + 20 * self.rows;
         basis.compute_values(self, bounds);
+        let mut pace = Pace::new(proceed);
         for _ in 0..limit {
+            if !pace.allows(3 * basis.tableau.len()) {
+                break;
+            }
             let Some((row, direction)) = basis.worst_row(self, bounds) else {
                 let outcome = self.accept(basis, bounds);
-                if outcome != LinearOutcome::Undecided || basis.updates == 0 || !basis.refactor(self, bounds)
+                if outcome != LinearOutcome::Undecided
+                    || basis.updates == 0
+                    || !basis.refactor(self, bounds, pace.proceed())
                 {
                     return outcome;
                 }
@@ -155,7 +169,7 @@ impl LinearProgram {
                 Step::Pivot(column) => {
                     *iterations += 1;
                     basis.pivot(self, bounds, row, column, direction);
-                    if basis.updates > UPDATES && !basis.refactor(self, bounds) {
+                    if basis.updates > UPDATES && !basis.refactor(self, bounds, pace.proceed()) {
                         return LinearOutcome::Undecided;
                     }
                 }
@@ -353,8 +367,13 @@ impl Basis {
         self.updates += 1;
     }
 
-    /// Computes tableau, values and reduced costs afresh; false if the basis is singular.
-    pub(super) fn refactor(&mut self, program: &LinearProgram, bounds: &Bounds) -> bool {
+    /// Computes tableau, values and reduced costs afresh; false if the basis is singular, or once `proceed` is false.
+    fn refactor(
+        &mut self,
+        program: &LinearProgram,
+        bounds: &Bounds,
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> bool {
         let rows = program.rows;
         let column = |variable: usize, row: usize| match variable.checked_sub(program.columns) {
             Some(artificial) => f64::from(u8::from(artificial == row)),
@@ -362,10 +381,10 @@ impl Basis {
         };
         let cost = |variable: usize| program.cost.get(variable).copied().unwrap_or(0.0);
         let basis = DMatrix::from_fn(rows, rows, |row, at| column(self.basic[at], row));
-        let Some(inverse) = basis.try_inverse() else { return false };
+        let Some(inverse) = inverse(basis, proceed) else { return false };
         let nonbasic =
             DMatrix::from_fn(rows, self.nonbasic.len(), |row, at| column(self.nonbasic[at].variable, row));
-        let tableau = inverse * nonbasic;
+        let Some(tableau) = product(&inverse, &nonbasic, proceed) else { return false };
         self.tableau = tableau.transpose().as_slice().to_vec();
         self.updates = 0;
         // Reduced costs c_N - c_B B^-1 N.

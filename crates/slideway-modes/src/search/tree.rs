@@ -87,10 +87,11 @@ impl<'a> Tree<'a> {
         leaves: &mut Leaves<'_>,
         monitor: &mut Monitor<'_>,
     ) -> Result<(), StopReason> {
-        if !self.propagate(&mut node.states) {
+        if !self.propagate(&mut node.states, &mut || monitor.goes_on()) {
             return Ok(());
         }
-        let (relaxed, basis) = self.relaxation.solve(&node.states, &node.basis, &mut self.report.pivots);
+        let (pivots, proceed) = (&mut self.report.pivots, &mut || monitor.goes_on());
+        let (relaxed, basis) = self.relaxation.solve(&node.states, &node.basis, pivots, proceed);
         let relaxed = match relaxed {
             Relaxed::Excluded(farkas) => {
                 self.report.shares.relaxation += fraction_of_patterns(self.problem, &node.states);
@@ -119,11 +120,11 @@ impl<'a> Tree<'a> {
     }
 
     /// False if propagation excludes the node.
-    fn propagate(&mut self, states: &mut [StateSet]) -> bool {
+    fn propagate(&mut self, states: &mut [StateSet], proceed: &mut dyn FnMut() -> bool) -> bool {
         let Some(propagation) = self.propagation else { return true };
         let before = states.to_vec();
         let all = fraction_of_patterns(self.problem, states);
-        if !propagation.fix_sides(states) {
+        if !propagation.fix_sides(states, proceed) {
             self.report.shares.propagation += all;
             self.keep(&before, || ExclusionArgument::Propagation);
             return false;

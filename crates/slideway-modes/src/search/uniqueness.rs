@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::propagation::Propagation;
 use super::report::Method;
+use crate::dense::{Lu, Pace, has_cholesky_factor, product};
 use crate::scaling::ScaledProblem;
 use crate::solutions::ContactState;
 
@@ -18,44 +19,57 @@ const CONTRACTIONS: usize = 60;
 /// Steps of Newton's method.
 const NEWTON_STEPS: usize = 60;
 
-/// The argument that proves exactly one solution, if one of the cheap ones does.
-pub(super) fn proof(problem: &ScaledProblem, propagation: &Propagation) -> Option<Method> {
+/// The argument that proves exactly one solution, if one of the cheap ones does and `proceed` stays true.
+pub(super) fn proof(
+    problem: &ScaledProblem,
+    propagation: &Propagation,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Method> {
     if problem.has_jump.iter().any(|&jump| jump) {
         return None;
     }
     if propagation.is_contraction() {
         return Some(Method::Contraction);
     }
-    singular_values_below_one(propagation).then_some(Method::SingularValue)
+    singular_values_below_one(propagation, proceed)?.then_some(Method::SingularValue)
 }
 
 /// `(1 - delta)^2 I - G^T G` is positive definite, where `delta` covers how far `G` may be off.
-fn singular_values_below_one(propagation: &Propagation) -> bool {
+fn singular_values_below_one(propagation: &Propagation, proceed: &mut dyn FnMut() -> bool) -> Option<bool> {
     let contacts = propagation.frictionless.len();
     let coupling = &propagation.coupling;
     // sigma_max is at least the norm of any column.
     if coupling.column_iter().any(|column| column.norm() >= 1.0) {
-        return false;
+        return Some(false);
     }
     let delta = MARGIN + 2.0 * propagation.slip.norm();
     if delta >= 1.0 {
-        return false;
+        return Some(false);
     }
     let bound = DMatrix::from_diagonal_element(contacts, contacts, (1.0 - delta).powi(2));
-    (bound - coupling.transpose() * coupling).cholesky().is_some()
+    let squares = product(&coupling.transpose(), coupling, proceed)?;
+    Some(has_cholesky_factor(bound - squares, proceed))
 }
 
 /// The pattern of the only solution: the contraction `N <- e - G |N|`, then Newton's method on the
-/// pattern. None if that does not settle.
-pub(super) fn only_pattern(problem: &ScaledProblem, propagation: &Propagation) -> Option<Vec<ContactState>> {
+/// pattern. None if that does not settle, or once `proceed` is false.
+pub(super) fn only_pattern(
+    problem: &ScaledProblem,
+    propagation: &Propagation,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Vec<ContactState>> {
     let mut normal_force = propagation.frictionless.clone();
+    let mut pace = Pace::new(proceed);
     for _ in 0..CONTRACTIONS {
+        if !pace.allows(propagation.coupling.len()) {
+            return None;
+        }
         normal_force = &propagation.frictionless - &propagation.coupling * normal_force.abs();
     }
     let mut pattern = pattern_of(&normal_force);
     for _ in 0..NEWTON_STEPS {
         let (matrix, right_hand_side) = problem.system(&pattern);
-        let y = matrix.lu().solve(&right_hand_side)?;
+        let y = Lu::new(matrix, proceed)?.solve(&right_hand_side)?;
         let size = y.amax();
         // Where y is negative beyond rounding the contact is on its other side.
         let wrong: Vec<usize> = (0..pattern.len()).filter(|&k| y[k] < -1e-12 * size).collect();
@@ -86,7 +100,8 @@ mod tests {
     fn proof_of(problem: &ModeProblem) -> Option<Method> {
         let scaled = ScaledProblem::new(problem);
         let load_radius = DVector::zeros(problem.contacts());
-        proof(&scaled, &Propagation::new(&scaled, &load_radius).expect("regular"))
+        let propagation = Propagation::new(&scaled, &load_radius, &mut || true).expect("regular");
+        proof(&scaled, &propagation, &mut || true)
     }
 
     /// `N + B |N| = b`.
@@ -130,8 +145,8 @@ mod tests {
         for (relative, expected) in [(1e-3, Some(Method::SingularValue)), (0.1, None)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
             let scaled = ScaledProblem::within((&bounded).into());
-            let propagation = Propagation::new(&scaled, &DVector::zeros(2)).expect("regular");
-            assert_eq!(proof(&scaled, &propagation), expected, "{relative}");
+            let propagation = Propagation::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
+            assert_eq!(proof(&scaled, &propagation, &mut || true), expected, "{relative}");
         }
     }
 }

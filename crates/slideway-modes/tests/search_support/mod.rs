@@ -100,7 +100,7 @@ pub(crate) fn switches() -> [SearchOptions; 6] {
 }
 
 pub(crate) fn run(problem: &ModeProblem, options: &SearchOptions) -> SearchResult {
-    search(problem, options, &mut |_| ControlFlow::Continue(())).expect("finite numbers")
+    search(problem, options, &mut |_| ControlFlow::Continue(()))
 }
 
 fn close(one: &DVector<f64>, other: &DVector<f64>) -> bool {

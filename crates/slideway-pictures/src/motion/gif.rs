@@ -16,8 +16,6 @@ use thiserror::Error;
 const GREATEST_SIDE: f64 = 1000.0;
 /// One of so many frames is asked for its colours.
 const SAMPLED: usize = 8;
-/// So many frames are drawn before they are packed.
-const CHUNK: usize = 16;
 /// Delays are counted in these (1/s).
 const TICKS: f64 = 100.0;
 /// Viewers show frames with a shorter delay for a tenth of a second.
@@ -55,9 +53,19 @@ pub(super) fn write(animation: &Animation, callback: &mut Callback<'_>) -> Resul
     }
     let delays = delays(animation)?;
     let scale = scale(animation);
+    // Each thread draws one frame, and then it is asked whether to go on.
+    let at_once = rayon::current_num_threads();
+    let mut told = |done: usize| {
+        let progress = Progress::of("frames", done as u64, animation.frames.len() as u64);
+        if callback(&progress).is_break() { Err(GifFault::Ended) } else { Ok(()) }
+    };
     let sampled = animation.frames.iter().step_by(SAMPLED).collect::<Vec<_>>();
-    let counted = sampled.par_iter().map(|frame| Ok(counts(&drawn(animation, frame, scale)?)));
-    let counted = counted.collect::<Result<Vec<_>, GifFault>>()?;
+    let mut counted = Vec::new();
+    for frames in sampled.chunks(at_once) {
+        told(0)?;
+        let colours = frames.par_iter().map(|frame| Ok(counts(&drawn(animation, frame, scale)?)));
+        counted.extend(colours.collect::<Result<Vec<_>, GifFault>>()?);
+    }
     let palette = Palette::of(&flat_colours(animation), &together(counted));
 
     let size = drawn(animation, &animation.frames[0], scale)?;
@@ -68,7 +76,7 @@ pub(super) fn write(animation: &Animation, callback: &mut Callback<'_>) -> Resul
     // The last frame of the chunk before, as indices of colours.
     let mut before: Option<Vec<u8>> = None;
     let mut done = 0;
-    for (frames, delays) in animation.frames.chunks(CHUNK).zip(delays.chunks(CHUNK)) {
+    for (frames, delays) in animation.frames.chunks(at_once).zip(delays.chunks(at_once)) {
         let indexed = frames.par_iter().map(|frame| Ok(indexed(&drawn(animation, frame, scale)?, &palette)));
         let indexed = indexed.collect::<Result<Vec<_>, GifFault>>()?;
         let packed = (0..frames.len()).into_par_iter().map(|number| {
@@ -79,10 +87,8 @@ pub(super) fn write(animation: &Animation, callback: &mut Callback<'_>) -> Resul
             encoder.write_lzw_pre_encoded_frame(&frame)?;
         }
         before = indexed.into_iter().next_back();
-        done += frames.len() as u64;
-        if callback(&Progress::of("frames", done, animation.frames.len() as u64)).is_break() {
-            return Err(GifFault::Ended);
-        }
+        done += frames.len();
+        told(done)?;
     }
     Ok(encoder.into_inner()?)
 }
@@ -205,7 +211,7 @@ mod tests {
     use std::collections::HashSet;
     use std::ops::ControlFlow;
 
-    /// 0.25 s of the bar on its spring, shown in 0.75 s: 19 steps of at most 0.04 s, from one chunk to the next.
+    /// 0.25 s of the bar on its spring, shown in 0.75 s: 19 steps of at most 0.04 s.
     fn bar(theme: &Theme) -> Animation {
         let text = gallery::find("klepp-2002-spring").expect("in the gallery").text;
         let history = simulate(&Model::parse(text).expect("a model"), &SimulateOptions::new(0.25));
@@ -320,16 +326,26 @@ mod tests {
     }
 
     #[test]
-    fn progress_is_told_up_to_the_end() {
-        let mut told = Vec::new();
-        let mut tell = |progress: &Progress| {
-            told.push(progress.done);
-            ControlFlow::Continue(())
+    fn it_is_told_of_every_frame_of_a_thread_and_can_end_there() {
+        let animation = bar(&LIGHT);
+        let (mut told, mut left) = (Vec::new(), usize::MAX);
+        let gif = |left: &mut usize, told: &mut Vec<u64>| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
+            let mut tell = |progress: &Progress| {
+                told.push(progress.done);
+                *left -= 1;
+                if *left > 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            pool.install(|| animation.to_gif(&mut tell))
         };
-        bar(&LIGHT).to_gif(&mut tell).expect("a GIF");
-        assert_eq!(told, [16, 20]);
-        let ended = bar(&LIGHT).to_gif(&mut |_| ControlFlow::Break(()));
-        assert!(matches!(ended, Err(GifFault::Ended)));
+        assert!(gif(&mut left, &mut told).is_ok());
+        // Frames 0, 8 and 16 are asked for their colours, two at once.
+        assert_eq!(told, [0, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20]);
+        for calls in [1, 2, 7] {
+            (left, told) = (calls, Vec::new());
+            assert!(matches!(gif(&mut left, &mut told), Err(GifFault::Ended)));
+            assert_eq!(told.len(), calls);
+        }
     }
 
     #[test]

@@ -171,10 +171,8 @@ impl Varied {
         let Some(enclosed) = enclosed() else { return (None, 1) };
         let mut goes_on =
             |_: &Progress| if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        match search(&enclosed.problem, &options.search, &mut goes_on) {
-            Ok(result) => (certain_counts(&enclosed, &result, options, greatest), result.nodes()),
-            Err(_) => (None, 1),
-        }
+        let result = search(&enclosed.problem, &options.search, &mut goes_on);
+        (certain_counts(&enclosed, &result, options, greatest), result.nodes())
     }
 
     /// The number of states with a guided slider between its faces that `solve` finds at a value, and no sign pattern tells; none where

@@ -35,7 +35,7 @@ pub(crate) fn careful_report(
     let problem = mode_problem(mechanism, influence, velocity_signs)?;
     let jumps = problem.jumps_of_contacts();
     let problem = IntervalModeProblem::widened(&problem, KNOWN_TO).map_err(|_| overflow())?;
-    let result = search(&problem, &SearchOptions::default(), progress).map_err(|_| overflow())?;
+    let result = search(&problem, &SearchOptions::default(), progress);
     let answer =
         Answer { mechanism, configuration, equations, influence, velocity_signs, jumps, enclosed: None };
     finite(answer.report(&Found { result: &result, rounded: None, most: MOST_STATES })?)

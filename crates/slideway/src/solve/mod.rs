@@ -144,13 +144,12 @@ fn searched(
     options: &SearchOptions,
     progress: &mut Callback<'_>,
 ) -> Result<(SearchResult, Vec<bool>), Faults> {
-    let (result, jumps) = if let Ok(enclosed) = enclosed {
-        (search(&enclosed.problem, options, progress), enclosed.problem.centre().jumps_of_contacts())
-    } else {
-        let problem = mode_problem(mechanism, influence, velocity_signs)?;
-        (search(&problem, options, progress), problem.jumps_of_contacts())
-    };
-    Ok((result.map_err(|_| mode_problem::overflow())?, jumps))
+    if let Ok(enclosed) = enclosed {
+        let jumps = enclosed.problem.centre().jumps_of_contacts();
+        return Ok((search(&enclosed.problem, options, progress), jumps));
+    }
+    let problem = mode_problem(mechanism, influence, velocity_signs)?;
+    Ok((search(&problem, options, progress), problem.jumps_of_contacts()))
 }
 
 /// The middle of each range, as the only value.

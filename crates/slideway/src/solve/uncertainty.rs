@@ -53,8 +53,7 @@ impl Answer<'_> {
                 .fold(UncertainParameters::default(), |all, (range, &value)| all.with(&range.name, value));
             let enclosed = enclosure(model, &uncertain, self.mechanism, self.configuration)
                 .map_err(|reason| reason.to_string())?;
-            let result = search(&enclosed.problem, &options.search, progress)
-                .map_err(|_| "numbers overflow".to_owned())?;
+            let result = search(&enclosed.problem, &options.search, progress);
             self.presences(&enclosed, &result, options)
         };
         let searched = subdivide(ranges, &mut search_box);

@@ -1,0 +1,282 @@
+//! Dense linear algebra that can be ended: with some thousand unknowns it takes seconds.
+//!
+//! Results are those of nalgebra to the last bit, the operations being the same in the same order. Each function has a
+//! `proceed` that is asked now and then, and nothing comes of it once that is false.
+
+use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence};
+
+/// `proceed` is asked once for so many multiplications: some milliseconds.
+const BETWEEN: usize = 1 << 23;
+/// Products are computed so many columns at a time: with fewer of them nalgebra would spend much time on copies of the
+/// other factor.
+const PANEL: usize = 128;
+
+/// Asks whether to go on, not too often.
+pub(super) struct Pace<'p> {
+    proceed: &'p mut dyn FnMut() -> bool,
+    /// Multiplications since it was asked.
+    since: usize,
+}
+
+impl<'p> Pace<'p> {
+    pub(super) fn new(proceed: &'p mut dyn FnMut() -> bool) -> Self {
+        Self { proceed, since: 0 }
+    }
+
+    /// Whether so many multiplications may follow.
+    pub(super) fn allows(&mut self, multiplications: usize) -> bool {
+        self.since = self.since.saturating_add(multiplications);
+        if self.since < BETWEEN {
+            return true;
+        }
+        self.since = 0;
+        (self.proceed)()
+    }
+
+    /// What is asked, for work that has a pace of its own.
+    pub(super) fn proceed(&mut self) -> &mut dyn FnMut() -> bool {
+        self.proceed
+    }
+}
+
+/// `left right`.
+pub(super) fn product(
+    left: &DMatrix<f64>,
+    right: &DMatrix<f64>,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<DMatrix<f64>> {
+    let mut pace = Pace::new(proceed);
+    let mut result = DMatrix::zeros(left.nrows(), right.ncols());
+    let mut from = 0;
+    while from < right.ncols() {
+        let rest = right.ncols() - from;
+        let width = if rest < 2 * PANEL { rest } else { PANEL };
+        if !pace.allows(left.len() * width) {
+            return None;
+        }
+        result.columns_mut(from, width).gemm(1.0, left, &right.columns(from, width), 0.0);
+        from += width;
+    }
+    Some(result)
+}
+
+/// An approximate inverse; none if there is none, either.
+pub(super) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
+    if matrix.nrows().saturating_pow(3) <= BETWEEN {
+        // Inverses of up to four rows have formulas of their own.
+        return matrix.try_inverse();
+    }
+    Lu::new(matrix, proceed)?.inverse(proceed)
+}
+
+/// Whether the Cholesky factorization of a symmetric matrix runs to its end. Only the lower triangle is used.
+pub(super) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> bool {
+    let mut pace = Pace::new(proceed);
+    let size = matrix.nrows();
+    for column in 0..size {
+        if !pace.allows(column * (size - column)) {
+            return false;
+        }
+        for before in 0..column {
+            let factor = matrix[(column, before)];
+            let (mut target, source) = matrix.columns_range_pair_mut(column, before);
+            target.rows_range_mut(column..).axpy(-factor, &source.rows_range(column..), 1.0);
+        }
+        let pivot = matrix[(column, column)];
+        if pivot <= 0.0 || pivot.is_nan() {
+            return false;
+        }
+        let root = pivot.sqrt();
+        matrix.view_range_mut(column.., column).apply(|entry| *entry /= root);
+    }
+    true
+}
+
+/// The shortest `v` with `C^T v = products`, from an orthonormal basis `Q` of the columns of `C` (Gram-Schmidt, each
+/// column twice).
+pub(super) fn shortest_with_products(
+    mut columns: DMatrix<f64>,
+    products: &DVector<f64>,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<DVector<f64>> {
+    let mut pace = Pace::new(proceed);
+    let mut shortest = DVector::zeros(columns.nrows());
+    for (at, &product) in products.iter().enumerate() {
+        if !pace.allows(4 * at * columns.nrows()) {
+            return None;
+        }
+        let own = columns.column(at).into_owned();
+        let mut rest = own.clone();
+        for _ in 0..2 {
+            let basis = columns.columns(0, at);
+            rest -= basis * basis.tr_mul(&rest);
+        }
+        rest /= rest.norm();
+        shortest.axpy((product - own.dot(&shortest)) / own.dot(&rest), &rest, 1.0);
+        columns.set_column(at, &rest);
+    }
+    Some(shortest)
+}
+
+/// `P A = L U` with partial pivoting.
+pub(super) struct Lu {
+    factors: DMatrix<f64>,
+    rows: PermutationSequence<Dyn>,
+}
+
+impl Lu {
+    pub(super) fn new(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
+        let mut pace = Pace::new(proceed);
+        let size = matrix.nrows();
+        let mut rows = PermutationSequence::identity_generic(Dyn(size));
+        for step in 0..size {
+            if !pace.allows((size - step).pow(2)) {
+                return None;
+            }
+            let at = step + matrix.view_range(step.., step).icamax();
+            let pivot = matrix[(at, step)];
+            if pivot == 0.0 {
+                continue;
+            }
+            if at != step {
+                rows.append_permutation(step, at);
+                matrix.swap_rows(step, at);
+            }
+            let (mut done, mut rest) = matrix.columns_range_pair_mut(step, step + 1..);
+            let mut multipliers = done.rows_range_mut(step + 1..);
+            multipliers *= pivot.recip();
+            for mut column in rest.column_iter_mut() {
+                let eliminated = column[step];
+                column.rows_range_mut(step + 1..).axpy(-eliminated, &multipliers, 1.0);
+            }
+        }
+        Some(Self { factors: matrix, rows })
+    }
+
+    /// `A^-1 b`; none if a pivot is zero.
+    pub(super) fn solve(&self, right_hand_side: &DVector<f64>) -> Option<DVector<f64>> {
+        let mut solution = right_hand_side.clone();
+        self.rows.permute_rows(&mut solution);
+        self.substitute(&mut solution.column_mut(0)).then_some(solution)
+    }
+
+    /// `A^-1`; none if a pivot is zero.
+    pub(super) fn inverse(&self, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
+        let mut pace = Pace::new(proceed);
+        let size = self.factors.nrows();
+        let mut inverse = DMatrix::identity(size, size);
+        self.rows.permute_rows(&mut inverse);
+        for mut column in inverse.column_iter_mut() {
+            if !pace.allows(size * size) || !self.substitute(&mut column) {
+                return None;
+            }
+        }
+        Some(inverse)
+    }
+
+    /// The pivots, whose product is the determinant of `P A`.
+    pub(super) fn pivots(&self) -> DVector<f64> {
+        self.factors.diagonal()
+    }
+
+    /// The determinant of `P`.
+    pub(super) fn sign_of_order(&self) -> f64 {
+        self.rows.determinant()
+    }
+
+    /// Replaces `P b` by `A^-1 b`; false if a pivot is zero.
+    fn substitute(&self, column: &mut nalgebra::DVectorViewMut<'_, f64>) -> bool {
+        // nalgebra's triangular solutions do not take empty systems.
+        column.is_empty()
+            || self.factors.solve_lower_triangular_with_diag_mut(column, 1.0)
+                && self.factors.solve_upper_triangular_mut(column)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of a linear congruential generator (Knuth's MMIX), from -1 to 1.
+    fn random_matrix(rows: usize, columns: usize) -> DMatrix<f64> {
+        let mut state = 1_u64;
+        DMatrix::from_fn(rows, columns, |_, _| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / 2_f64.powi(52) - 1.0
+        })
+    }
+
+    #[test]
+    fn results_are_those_of_nalgebra_to_the_last_bit() {
+        for size in [1, 3, 5, 40, 220] {
+            let matrix = random_matrix(size, size);
+            let factors = matrix.clone().lu();
+            let own = Lu::new(matrix.clone(), &mut || true).expect("nothing stops it");
+            assert_eq!(
+                own.pivots() * own.sign_of_order(),
+                factors.u().diagonal() * factors.p().determinant::<f64>()
+            );
+            let load = random_matrix(size, 1).column(0).into_owned();
+            assert_eq!(own.solve(&load), factors.solve(&load));
+            assert_eq!(own.inverse(&mut || true), factors.try_inverse());
+            assert_eq!(inverse(matrix.clone(), &mut || true), matrix.try_inverse());
+        }
+    }
+
+    #[test]
+    fn products_in_panels_are_those_of_nalgebra_to_the_last_bit() {
+        for (rows, inner, columns) in
+            [(0, 0, 0), (3, 2, 1), (1, 30, 300), (70, 60, 255), (70, 300, 256), (33, 50, 401)]
+        {
+            let (left, right) = (random_matrix(rows, inner), random_matrix(inner, columns));
+            assert_eq!(product(&left, &right, &mut || true), Some(&left * &right));
+        }
+    }
+
+    #[test]
+    fn singular_matrices_have_no_inverse() {
+        let mut matrix = random_matrix(230, 230);
+        let first = matrix.column(0).into_owned();
+        assert!(inverse(matrix.clone(), &mut || true).is_some());
+        matrix.fill_column(100, 0.0);
+        assert_eq!(inverse(matrix.clone(), &mut || true), None);
+        assert_eq!(Lu::new(matrix, &mut || true).expect("nothing stops it").solve(&first), None);
+    }
+
+    #[test]
+    fn factors_exist_for_positive_definite_matrices_only() {
+        let matrix = random_matrix(40, 30);
+        let (rank_30, identity) = (&matrix * matrix.transpose(), DMatrix::identity(40, 40));
+        for (shift, expected) in [(1e-6, true), (-1e-6, false)] {
+            let shifted = &rank_30 + &identity * shift;
+            assert_eq!(has_cholesky_factor(shifted.clone(), &mut || true), expected);
+            assert_eq!(shifted.cholesky().is_some(), expected);
+        }
+    }
+
+    #[test]
+    fn long_work_ends_when_it_is_told_to() {
+        let matrix = random_matrix(300, 300);
+        let positive = DMatrix::identity(420, 420);
+        let computations: [&dyn Fn(&mut dyn FnMut() -> bool) -> bool; 4] = [
+            &|proceed| product(&matrix, &matrix, proceed).is_some(),
+            &|proceed| inverse(matrix.clone(), proceed).is_some(),
+            &|proceed| Lu::new(matrix.clone(), proceed).is_some(),
+            &|proceed| has_cholesky_factor(positive.clone(), proceed),
+        ];
+        for compute in computations {
+            let mut asked = 0;
+            let is_done = compute(&mut || {
+                asked += 1;
+                true
+            });
+            assert!(is_done && (1..=5).contains(&asked), "{asked}");
+            let mut asked_again = 0;
+            let is_done = compute(&mut || {
+                asked_again += 1;
+                asked_again < asked
+            });
+            assert!(!is_done && asked_again == asked);
+        }
+    }
+}
