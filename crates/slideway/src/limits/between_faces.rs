@@ -25,12 +25,17 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
     if !varied.model().has_guided_sliders() {
         return;
     }
+    let may_be_left_out = |(interval, known): (&CountInterval, &Knowledge)| {
+        let middle = varied.parts(f64::midpoint(interval.from, interval.to));
+        known.elsewhere != Elsewhere::Nothing && middle.is_ok_and(|parts| !parts.with_free_faces().is_empty())
+    };
+    found.leaves_out_states = found.counts.iter().zip(&found.known).any(may_be_left_out);
     let mut counts = Vec::new();
     let mut all_known = Vec::new();
     for (interval, known) in found.counts.iter().zip(&found.known) {
         let whole = [interval.from, interval.to];
         let parts = open(whole, known);
-        let states = |at: f64| varied.states_between_faces(at, greatest, work);
+        let states = |at: f64| varied.states_between_faces((at, 1.0), greatest, work).len();
         let stretches: Vec<Stretch> = parts.iter().flat_map(|&part| stretches(part, &states)).collect();
         if stretches.is_empty() {
             counts.push(*interval);

@@ -62,6 +62,7 @@ pub(super) fn closed_form(
         method,
         tried: pieces.into_iter().flatten().collect(),
         same_end: 0.0,
+        leaves_out_states: false,
     }))
 }
 

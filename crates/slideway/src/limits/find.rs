@@ -28,6 +28,8 @@ pub(crate) struct Found {
     pub(crate) tried: Vec<f64>,
     /// Ends of modes nearer to each other than this were taken for one.
     pub(crate) same_end: f64,
+    /// Whether there may be states between faces at single values, which are left out.
+    pub(crate) leaves_out_states: bool,
 }
 
 /// How the ends of modes were found.

@@ -22,6 +22,12 @@ pub(crate) fn guarantee(found: &Found) -> String {
         ),
     }];
     sentences.extend(knowledge(found));
+    if found.leaves_out_states {
+        sentences.push(
+            "States of a guided slider between its faces that exist at single values alone, where its normal force passes through zero, are left out."
+                .to_owned(),
+        );
+    }
     let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
     if left_out > 0 {
         sentences.push(format!(

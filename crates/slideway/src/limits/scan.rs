@@ -90,6 +90,7 @@ impl Scanner<'_> {
             method: Method::Bracketing,
             tried: places.iter().map(|place| place.at).collect(),
             same_end: SAME * (to - from),
+            leaves_out_states: false,
         })
     }
 
