@@ -28,6 +28,8 @@ pub struct SmallProblem {
     pub jumps: [Square; 2],
     /// `N(0)`.
     pub right_hand_side: [f64; MOST_CONTACTS],
+    /// To a part of this `N(0)` is known, if it is greater than `N(0)` itself.
+    pub load: f64,
 }
 
 /// A state of all contacts that solves the problem, strictly inside of its pattern.
@@ -57,6 +59,7 @@ impl SmallProblem {
             columns: [[[0.0; MOST_CONTACTS]; MOST_CONTACTS]; 2],
             jumps: [[[0.0; MOST_CONTACTS]; MOST_CONTACTS]; 2],
             right_hand_side: [0.0; MOST_CONTACTS],
+            load: 0.0,
         }
     }
 
@@ -161,7 +164,7 @@ impl Screen {
 
     fn load(&mut self, problem: &SmallProblem) {
         let contacts = self.contacts;
-        self.largest_load = 0.0;
+        self.largest_load = problem.load;
         for contact in 0..contacts {
             self.has_jump[contact] = problem.has_jump(contact);
         }
@@ -442,6 +445,12 @@ mod tests {
         assert!(Screen::new(1).states(&problem, 0.0).is_err(), "no load: the contact is between its sides");
         problem.right_hand_side[0] = 1.0;
         assert!(Screen::new(1).states(&problem, 0.0).is_ok());
+        problem.load = 2e9;
+        assert!(
+            Screen::new(1).states(&problem, 0.0).is_err(),
+            "what is left of loads that balance each other"
+        );
+        problem.load = 0.0;
         problem.columns[0][0][0] = 0.0;
         assert!(Screen::new(1).states(&problem, 0.0).is_err(), "the determinant vanishes");
         problem.columns[0][0][0] = f64::NAN;

@@ -376,6 +376,10 @@ pub enum FaultKind {
     UndecidedAtRest { load: String },
     #[error("the limits of {modes} contact modes could not be computed")]
     LimitsNotComputed { modes: usize },
+    #[error(
+        "a guided slider is between its faces, and how its state goes on with the friction is not followed"
+    )]
+    BetweenFaces,
     #[error("at rest there is no direction of motion to be reversed")]
     NoDirectionAtRest,
     #[error("the model has no drives, so no effort is unknown")]

@@ -199,3 +199,135 @@ fn rows_that_are_told_can_be_the_last() {
     });
     assert!(matches!(ended, Ok(None)), "{ended:?}");
 }
+
+/// Nothing presses this guided slider, so that N = 0. Its preload rubs on both faces, and C = M + F h/2 (2 lambda - 1) = 0 has a
+/// share from 0 to 1 where |M| < F h/2: there it is between its faces, whichever way it moves, and elsewhere it tips.
+#[test]
+fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() {
+    let guided = Model::parse(include_str!("findings/guided_gap.toml")).expect("sound");
+    let number = ClassMeaning::Solutions { solutions: 0, preload_gap_states: 1 };
+    let classes = [
+        (ColourBy::Solutions, number.clone(), ClassMeaning::Locked),
+        (ColourBy::Modes, ClassMeaning::Modes { patterns: vec!["0".to_owned()] }, ClassMeaning::Locked),
+        (ColourBy::Margin, number, ClassMeaning::Locked),
+        (
+            ColourBy::Jam,
+            ClassMeaning::Moves { as_in_model: true, opposite: true },
+            ClassMeaning::Moves { as_in_model: false, opposite: false },
+        ),
+    ];
+    let size = [9, 7];
+    // The mode problem is bilinear in moment and preload, but not in the height.
+    for (y, range, is_interpolated) in [("F", [0.0, 12.0], true), ("h", [0.02, 0.3], false)] {
+        for (colour_by, between, tipping) in &classes {
+            let y_axis = format!("{y}={}..{}", range[0], range[1]);
+            let report =
+                mapped(&guided, &MapOptions { probe: 1, ..options("M=-1..1", &y_axis, size, *colour_by) });
+            assert_eq!(report.guarantee.contains("interpolated"), is_interpolated);
+            let mut pixels = [0, 0];
+            for (i, j) in (0..size[0]).flat_map(|i| (0..size[1]).map(move |j| (i, j))) {
+                let [moment, other] = [middle([-1.0, 1.0], i, size[0]), middle(range, j, size[1])];
+                let greatest = if y == "F" { other * 0.2 / 2.0 } else { 6.0 * other / 2.0 };
+                let is_between = moment.abs() < greatest;
+                let expected = if is_between { between } else { tipping };
+                assert_eq!(
+                    report.classes[report.class_at(i, j)].meaning,
+                    *expected,
+                    "M = {moment}, {y_axis}"
+                );
+                pixels[usize::from(is_between)] += 1;
+            }
+            let told: Vec<usize> = [tipping, between]
+                .iter()
+                .map(|meaning| report.classes.iter().find(|class| class.meaning == **meaning))
+                .map(|class| class.expect("both occur").pixels)
+                .collect();
+            assert_eq!(told, pixels);
+        }
+    }
+}
+
+/// Two blocks in guided sliders along x, one on the other, with packings; `V` presses the lower one down, `M` turns the upper one,
+/// which nothing presses: `N_2 = 0`.
+const PACKED: &str = r#"
+    [parameters]
+    V = "40 N"
+    M = "0.3 N m"
+    F = "6 N"
+    mu = 0
+    [bodies.lower]
+    mass = 2
+    centre_of_mass = [0, 0]
+    moment_of_inertia = 0.1
+    points = ["S"]
+    [bodies.upper]
+    mass = 1
+    centre_of_mass = [0, 0]
+    moment_of_inertia = 0.1
+    [points]
+    S = [0, 0]
+    [joints.one]
+    type = "guided_slider"
+    block = "lower"
+    at = [0, 0]
+    along = 0
+    length = 0.05
+    height = 0.1
+    mu = "mu"
+    [joints.two]
+    type = "guided_slider"
+    block = "upper"
+    guide = "lower"
+    at = [0, 0]
+    along = 0
+    length = 0.3
+    height = 0.2
+    mu = 0.3
+    preload = "F"
+    [loads.V]
+    type = "force"
+    at = "lower.S"
+    components = [5, "-V"]
+    [loads.M]
+    type = "torque"
+    body = "upper"
+    moment = "M"
+    [coordinates]
+    x = { slide = "one", rate = 1 }
+    y = { slide = "two", rate = 1 }
+"#;
+
+/// The lower slider has N_1 = V and, as no couple comes from the upper one but M, C_1 = M plus the moment of its own friction; it
+/// stands where |C_1| <= V L/2. Without friction of its own the upper one is between its faces where |M| < F 0.2 m/2 besides.
+#[test]
+fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
+    let packed = Model::parse(PACKED).expect("sound");
+    for (x, [from, to]) in [("M", [-1.0, 1.0]), ("mu", [0.0, 0.8]), ("friction", [0.0, 2.0])] {
+        let (size, pressing) = ([7, 6], [-60.0, 50.0]);
+        let axes = [format!("{x}={from}..{to}"), format!("V={}..{}", pressing[0], pressing[1])];
+        let options = options(&axes[0], &axes[1], size, ColourBy::Modes);
+        let report = mapped(&packed, &MapOptions { probe: 1, ..options });
+        for (i, j) in (0..size[0]).flat_map(|i| (0..size[1]).map(move |j| (i, j))) {
+            let [value, force] = [middle([from, to], i, size[0]), middle(pressing, j, size[1])];
+            let mut settings = Settings::default().parameter("V", &format!("{force:e}"));
+            // The lower one has no friction, and nothing presses the upper one: a factor changes nothing.
+            if x != "friction" {
+                settings = settings.parameter(x, &format!("{value:e}"));
+            }
+            let answer = solve(&packed.with(&settings).expect("sound")).expect("solvable");
+            let states = answer.solutions.iter().chain(&answer.preload_gap_states);
+            let patterns: Vec<String> = states.map(|state| state.pattern.clone()).collect();
+            let told = &report.classes[report.class_at(i, j)].meaning;
+            if patterns.is_empty() {
+                assert_eq!(*told, ClassMeaning::Locked, "{x} = {value}, V = {force}");
+            } else {
+                assert_eq!(*told, ClassMeaning::Modes { patterns }, "{x} = {value}, V = {force}");
+            }
+            if x == "M" {
+                // N_1 is positive where it carries the load.
+                let stands = value.abs() < (force.abs() * 0.05 / 2.0).min(6.0 * 0.2 / 2.0);
+                assert_eq!(*told != ClassMeaning::Locked, stands, "M = {value}, V = {force}");
+            }
+        }
+    }
+}

@@ -15,8 +15,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 use super::system::BoundedVector;
-use crate::interval::{Interval, Sign};
 use crate::dense::{self, Pace};
+use crate::interval::{Interval, Sign};
 
 /// How often a trial bound is enlarged.
 const INFLATIONS: usize = 16;

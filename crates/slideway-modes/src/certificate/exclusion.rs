@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::data::{Column, ProblemView};
 use super::matrix::inner_product;
-use crate::interval::Interval;
 use crate::dense::shortest_with_products;
+use crate::interval::Interval;
 use crate::{ContactState, Side};
 
 /// Products within this fraction of their terms' size may be zero but for rounding and for the bounds

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::interval::{Interval, add_up};
 use crate::dense;
+use crate::interval::{Interval, add_up};
 
 /// All real matrices that differ from `centre` by at most `radius`, entry by entry.
 ///

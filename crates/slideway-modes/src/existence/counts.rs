@@ -26,9 +26,14 @@ pub struct CountInterval {
 /// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same solution,
 /// as they do when a normal force is zero throughout.
 pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
-    let same = |next: f64, kept: f64| next.is_finite() && next - kept <= SAME_END * next.abs();
-    let cells = cells(existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]).chain(range), same);
+    let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
+    let cells = cells(ends.chain(range), is_same_end);
     counts_in(existence, &cells, &|modes, at| line.distinct(modes, at))
+}
+
+/// Whether an end of a mode is the same as the one before it.
+pub(crate) fn is_same_end(next: f64, kept: f64) -> bool {
+    next.is_finite() && next - kept <= SAME_END * next.abs()
 }
 
 /// The number of solutions in each of several cells, between whose ends no mode begins or ends; neighbours with equal

@@ -12,9 +12,7 @@ use super::report::{GroupReport, SearchOptions};
 use crate::certificate::{Interval, ProblemView};
 use crate::problem::Side;
 use crate::scaling::patterns_of;
-use crate::solutions::{
-    Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern,
-};
+use crate::solutions::{Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern};
 
 /// A problem of so few patterns is not split into groups, so that the outcome of each is known.
 const WHOLE_UP_TO: u64 = 64;

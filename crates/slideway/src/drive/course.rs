@@ -39,7 +39,7 @@ pub(super) fn direction(
     let mut blow_ups = growing_ends(&found.existence, &stages, efforts);
     blow_ups.extend(poles(efforts, range, &found));
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
-    let course = Tabulated { efforts: &efforts, range, found: &found, blow_ups: &blow_ups };
+    let course = Tabulated { varied, efforts: &efforts, range, found: &found, blow_ups: &blow_ups, work };
     let rows = course.rows(steps);
     let without_mode_problem = RangeWithoutProblem::of(&found);
     Ok((guarantee(&found), CourseDirection { direction, rows, blow_ups, without_mode_problem }))
@@ -113,10 +113,12 @@ fn pole([low, high]: [(f64, f64); 2], function: impl Fn(f64) -> Option<f64>) -> 
 
 /// What the rows are made of.
 struct Tabulated<'c> {
+    varied: &'c Varied,
     efforts: &'c dyn Fn(f64) -> Option<Efforts>,
     range: [f64; 2],
     found: &'c Found,
     blow_ups: &'c [BlowUp],
+    work: Work<'c>,
 }
 
 impl Tabulated<'_> {
@@ -147,20 +149,25 @@ impl Tabulated<'_> {
             let within = mode.from.at < value && value < mode.to.at;
             within || is_end && (is_same(mode.from.at, value) || is_same(mode.to.at, value))
         });
-        let row = |pressed: &crate::modes::existence::ModeInterval| {
-            let of = efforts.of(&pressed.pattern)?;
+        let row = |pattern: String, of: Vec<f64>| {
             let (power, efficiency) = efforts.power(&of);
-            Some(CourseRow {
+            CourseRow {
                 at: value,
-                pattern: Some(pattern(&pressed.pattern)),
+                pattern: Some(pattern),
                 grows: vec![0; of.len()],
                 efforts: Some(of),
                 frictionless: Some(efforts.frictionless.clone()),
                 power: Some(power),
                 efficiency: Some(efficiency),
-            })
+            }
         };
-        let rows: Vec<CourseRow> = present.filter_map(row).collect();
+        let pressed =
+            present.filter_map(|mode| Some(row(pattern(&mode.pattern), efforts.of(&mode.pattern)?)));
+        let between_faces = self.varied.states_between_faces((value, 1.0), None, self.work);
+        let between_faces = between_faces
+            .into_iter()
+            .map(|state| row(state.pattern, state.drives.iter().map(|drive| drive.effort + 0.0).collect()));
+        let rows: Vec<CourseRow> = pressed.chain(between_faces).collect();
         if rows.is_empty() {
             return vec![CourseRow { frictionless: Some(efforts.frictionless), ..nothing(value) }];
         }

@@ -203,7 +203,7 @@ fn course_row(row: &CourseRow, drives: usize) -> Vec<String> {
     let mut cells = vec![precise(row.at)];
     cells.push(match (&row.pattern, &row.frictionless) {
         (Some(pattern), _) => spaced(pattern),
-        (None, Some(_)) => "locked".to_owned(),
+        (None, Some(_)) => "no solution".to_owned(),
         (None, None) => "no position".to_owned(),
     });
     cells.extend((0..drives).map(|drive| match (&row.efforts, row.grows.get(drive)) {

@@ -5,7 +5,7 @@
 //! state.
 
 use super::system::equilibration;
-use super::{Assembled, ConstraintRow, Layout};
+use super::{Assembled, ConstraintRow, Layout, Reaction};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::ContactId;
@@ -27,6 +27,9 @@ pub(crate) struct Influences {
     pub(crate) condition: f64,
     /// The greatest applied force (N).
     pub(crate) greatest_load: f64,
+    /// The greatest unknown without friction in the scale of the equations, as a normal force (N): to a part of this the
+    /// normal forces are known.
+    pub(crate) greatest_unknown: f64,
     coordinate_rows: Vec<ConstraintRow>,
 }
 
@@ -68,6 +71,7 @@ impl Influences {
         let columns = places.iter().map(|places| places.map(solution)).collect();
         let frictionless = if width == 0 { DVector::zeros(0) } else { solution(0) };
         Ok(Some(Self {
+            greatest_unknown: as_normal_force(&assembled.layout, &frictionless, &elimination.columns),
             frictionless,
             columns,
             condition,
@@ -199,6 +203,13 @@ impl Elimination {
     }
 }
 
+/// The greatest unknown where all have the scale of their columns, in that of the normal forces.
+fn as_normal_force(layout: &Layout, unknowns: &DVector<f64>, columns: &DVector<f64>) -> f64 {
+    let normals = (0..).map_while(|contact| layout.reaction(Reaction::Normal(ContactId(contact))));
+    let scale = normals.map(|place| columns[place]).fold(0.0, f64::max);
+    unknowns.iter().zip(columns).map(|(unknown, column)| (unknown / column).abs()).fold(0.0, f64::max) * scale
+}
+
 /// Solves with the upper triangle for all right-hand sides at once.
 fn back_substitute(work: &[f64], solution: &mut [f64], (size, sides): (usize, usize)) {
     let width = size + sides;
@@ -220,9 +231,11 @@ impl super::KineticEquations {
     /// The same from factored equations, for those that need full pivoting.
     pub(crate) fn influences(&self) -> Influences {
         let contacts = (0..self.contacts.len()).map(ContactId);
+        let frictionless = self.frictionless();
         Influences {
+            greatest_unknown: as_normal_force(&self.layout, &frictionless, self.factorization.column_scale()),
             layout: self.layout.clone(),
-            frictionless: self.without_noise(&self.frictionless()),
+            frictionless: self.without_noise(&frictionless),
             columns: contacts.map(|contact| self.influence_of(contact)).collect(),
             condition: self.condition(),
             greatest_load: self.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),

@@ -75,6 +75,11 @@ impl Factorization {
         DVector::from_fn(solution.len(), |i, _| if scaled[i].abs() <= noise { 0.0 } else { solution[i] })
     }
 
+    /// The powers of two by which unknowns are greater than those of the equilibrated equations.
+    pub(super) fn column_scale(&self) -> &DVector<f64> {
+        &self.column_scale
+    }
+
     pub(super) fn condition(&self) -> f64 {
         self.condition
     }

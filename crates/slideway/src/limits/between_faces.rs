@@ -2,13 +2,14 @@
 //!
 //! They are on the boundary of sign patterns throughout, so that neither zeros of determinants nor proofs over intervals
 //! tell them. They are those of `solve` at evenly spaced values of what is not proven otherwise, and what changes between
-//! these is bisected. Those at single values, where a normal force passes through zero, are left out.
+//! these is bisected. Those at single values, where a normal force passes through zero, are those of `solve` at its zeros,
+//! which are known where modes end at zeros of determinants: a mode that tips ends there, too, if tipping is not judged.
 
 use super::examine::margin_of;
-use super::find::{Elsewhere, Found, Knowledge};
+use super::find::{Elsewhere, Found, Knowledge, Method, PATTERNS, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
-use crate::modes::existence::CountInterval;
+use crate::modes::existence::{CountInterval, EndCause, ExistenceOptions, ModeEnd, is_same_end};
 use crate::progress::Work;
 
 /// Values that are tried in each part of an interval that is not proven: a heuristic.
@@ -25,12 +26,13 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
     if !varied.model().has_guided_sliders() {
         return;
     }
+    let is_open = found.known.iter().any(|known| known.elsewhere != Elsewhere::Nothing);
     let mut counts = Vec::new();
     let mut all_known = Vec::new();
     for (interval, known) in found.counts.iter().zip(&found.known) {
         let whole = [interval.from, interval.to];
         let parts = open(whole, known);
-        let states = |at: f64| varied.states_between_faces(at, greatest, work);
+        let states = |at: f64| varied.states_between_faces((at, 1.0), greatest, work).len();
         let stretches: Vec<Stretch> = parts.iter().flat_map(|&part| stretches(part, &states)).collect();
         if stretches.is_empty() {
             counts.push(*interval);
@@ -57,6 +59,56 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
     }
     found.counts = counts;
     found.known = all_known;
+    if is_open {
+        found.between_faces = single_values(varied, greatest, found, work);
+    }
+}
+
+/// The states at single values, outside of intervals that have others.
+fn single_values(varied: &Varied, greatest: Option<f64>, found: &Found, work: Work<'_>) -> SingleValues {
+    let has_free = |count: &CountInterval| {
+        let parts = varied.parts(f64::midpoint(count.from, count.to));
+        parts.is_ok_and(|parts| !parts.with_free_faces().is_empty())
+    };
+    if !found.counts.iter().any(has_free) {
+        return SingleValues::Impossible;
+    }
+    let Some(mut values) = zeros(varied, found) else { return SingleValues::LeftOut };
+    let has_states = |at: f64| {
+        let around = found.counts.iter().filter(|count| (count.from..=count.to).contains(&at));
+        around.clone().all(|count| count.gap_states == 0)
+            && !varied.states_between_faces((at, 1.0), greatest, work).is_empty()
+    };
+    values.retain(|&at| has_states(at));
+    SingleValues::At(values)
+}
+
+/// Where the normal forces of contacts with free faces vanish or may vanish in a mode, whether or not a guided slider tips in it;
+/// none if the modes of the range are not known from zeros of determinants.
+fn zeros(varied: &Varied, found: &Found) -> Option<Vec<f64>> {
+    if found.method == Method::Bracketing {
+        return None;
+    }
+    let mut zeros = Vec::new();
+    for piece in found.tried.chunks_exact(2) {
+        let [start, end] = [varied.parts(piece[0]).ok()?, varied.parts(piece[1]).ok()?];
+        let free = [start.with_free_faces(), end.with_free_faces()].concat();
+        let mut line = start.line_to(&end);
+        line.bounds.clear();
+        let options = ExistenceOptions { range: [0.0, 1.0], greatest_normal_force: None, patterns: PATTERNS };
+        let existence = line.existence(&options).ok().filter(|found| found.not_computed.is_empty())?;
+        let vanishes = |end: &&ModeEnd| matches!(&end.cause, EndCause::SideChange(contacts) if contacts.iter().any(|k| free.contains(k)));
+        let ends = existence.modes.iter().flat_map(|mode| [&mode.from, &mode.to]);
+        // At its own ends a piece does not tell what vanishes.
+        let mut shares: Vec<f64> = ends.filter(vanishes).map(|end| end.at).chain([0.0, 1.0]).collect();
+        shares.sort_by(f64::total_cmp);
+        shares.dedup_by(|next, kept| is_same_end(*next, *kept));
+        let value =
+            |share: f64| if share == 1.0 { piece[1] } else { piece[0] + share * (piece[1] - piece[0]) };
+        zeros.extend(shares.into_iter().map(value));
+    }
+    zeros.dedup();
+    Some(zeros)
 }
 
 /// The parts of an interval that are not proven, without those that are as narrow as what is left out next to ends.

@@ -4,7 +4,7 @@
 //! against the scale on which the mode problem changes are cut into pieces, each with its own line between mode problems
 //! that were made at its ends: on one line over all of it small values would drown in the rounding of great ones.
 
-use super::find::{Elsewhere, Found, Gap, Knowledge, Method};
+use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
@@ -62,6 +62,7 @@ pub(super) fn closed_form(
         method,
         tried: pieces.into_iter().flatten().collect(),
         same_end: 0.0,
+        between_faces: SingleValues::Impossible,
     }))
 }
 

@@ -22,7 +22,18 @@ pub(super) fn conclusion(
             _ => joined.push(piece),
         }
     }
-    joined.into_iter().map(|piece| piece.sentence(name, method)).collect()
+    let pieces = joined.into_iter().map(|piece| piece.sentence(name, method));
+    let single = |direction: &Direction, way: &str| -> Vec<String> {
+        let sentence = |at: &f64| {
+            format!(
+                "At {name} = {} alone there is{way} a state with the preload between the faces.",
+                precise(*at)
+            )
+        };
+        direction.between_faces_at.iter().map(sentence).collect()
+    };
+    let other = reversed.map_or(Vec::new(), |reversed| single(reversed, ", moving the other way,"));
+    pieces.chain(single(forwards, "")).chain(other).collect()
 }
 
 /// A stretch with the same verdict.

@@ -12,7 +12,7 @@ use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooMan
 use crate::progress::Work;
 
 /// The most patterns whose limits are computed.
-const PATTERNS: u64 = 1 << 14;
+pub(super) const PATTERNS: u64 = 1 << 14;
 /// How often values at which the certified search contradicts the ends are scanned around.
 const ROUNDS: usize = 3;
 
@@ -28,6 +28,8 @@ pub(crate) struct Found {
     pub(crate) tried: Vec<f64>,
     /// Ends of modes nearer to each other than this were taken for one.
     pub(crate) same_end: f64,
+    /// The states with a guided slider between its faces at single values.
+    pub(crate) between_faces: SingleValues,
 }
 
 /// How the ends of modes were found.
@@ -39,6 +41,27 @@ pub(crate) enum Method {
     Same { at_rest: bool },
     /// From values that were tried.
     Bracketing,
+}
+
+/// States with a guided slider between its faces at single values.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum SingleValues {
+    /// There can be none, or none outside of intervals that have them throughout.
+    Impossible,
+    /// They were sought where normal forces vanish, and found at these values.
+    At(Vec<f64>),
+    /// They were not sought.
+    LeftOut,
+}
+
+impl SingleValues {
+    /// The values.
+    pub(crate) fn values(&self) -> &[f64] {
+        match self {
+            Self::At(values) => values,
+            Self::Impossible | Self::LeftOut => &[],
+        }
+    }
 }
 
 /// What is known of the number of solutions in an interval.

@@ -1,6 +1,6 @@
 //! What a search for limits can miss, in words.
 
-use super::find::{Elsewhere, Found, Method, left_out};
+use super::find::{Elsewhere, Found, Method, SingleValues, left_out};
 use super::text::at_most;
 use crate::report::precise;
 
@@ -22,6 +22,15 @@ pub(crate) fn guarantee(found: &Found) -> String {
         ),
     }];
     sentences.extend(knowledge(found));
+    let single = "States of a guided slider between its faces at single values alone, where its normal force passes through zero, are";
+    match found.between_faces {
+        SingleValues::Impossible => {}
+        SingleValues::At(_) => {
+            sentences
+                .push(format!("{single} told where `solve` finds them at these zeros, in rounded numbers."));
+        }
+        SingleValues::LeftOut => sentences.push(format!("{single} left out.")),
+    }
     let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
     if left_out > 0 {
         sentences.push(format!(

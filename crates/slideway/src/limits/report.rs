@@ -41,6 +41,9 @@ pub struct LimitsReport {
     pub counts: Vec<CountLimits>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed, in that direction.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+    /// Single values at which a guided slider is between its faces, in that direction; absent if none was found.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub between_faces_at: Vec<f64>,
     /// The opposite direction, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reversed: Option<Direction>,
@@ -78,6 +81,9 @@ pub struct Direction {
     pub counts: Vec<CountLimits>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+    /// Single values at which a guided slider is between its faces; absent if none was found.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub between_faces_at: Vec<f64>,
 }
 
 /// An interval in which a mode has a solution.
@@ -297,6 +303,7 @@ impl Naming {
             modes: found.existence.modes.iter().map(|mode| self.mode(mode)).collect(),
             counts: found.counts.iter().zip(&found.known).map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),
+            between_faces_at: found.between_faces.values().to_vec(),
         }
     }
 }
@@ -331,6 +338,7 @@ pub(super) fn report(
         modes: forwards.modes,
         counts: forwards.counts,
         without_mode_problem: forwards.without_mode_problem,
+        between_faces_at: forwards.between_faces_at,
         reversed,
         conclusion,
     }

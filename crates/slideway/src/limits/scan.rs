@@ -4,7 +4,7 @@
 //! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values inside every
 //! interval between two ends that has none yet, until no further mode turns up.
 
-use super::find::{Elsewhere, Found, Gap, Knowledge, Method};
+use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
 use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::ContactState;
@@ -90,6 +90,7 @@ impl Scanner<'_> {
             method: Method::Bracketing,
             tried: places.iter().map(|place| place.at).collect(),
             same_end: SAME * (to - from),
+            between_faces: SingleValues::Impossible,
         })
     }
 

@@ -10,6 +10,7 @@ use crate::model::{Dependence, Model, Setting, SettingKind, Settings};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::progress::{Progress, Work};
+use crate::report::Solution;
 use crate::solve::{Parts, SolveOptions, Stages, certain_counts, states_between_faces};
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -175,23 +176,29 @@ impl Varied {
         (certain_counts(&enclosed, &result, options, greatest), result.nodes())
     }
 
-    /// The number of states with a guided slider between its faces that `solve` finds at a value, and no sign pattern tells; none where
-    /// there is no mode problem, and when the work is to end. States with a normal force above `greatest` do not count.
-    pub(crate) fn states_between_faces(&self, value: f64, greatest: Option<f64>, work: Work<'_>) -> usize {
-        if work.is_over() {
-            return 0;
+    /// The states with a guided slider between its faces that `solve` finds at a value and with so many times the friction, and
+    /// no sign pattern tells; none where there is no mode problem, and when the work is to end. States with a normal force above
+    /// `greatest` do not count.
+    pub(crate) fn states_between_faces(
+        &self,
+        (value, rougher): (f64, f64),
+        greatest: Option<f64>,
+        work: Work<'_>,
+    ) -> Vec<Solution> {
+        if work.is_over() || !self.model.has_guided_sliders() {
+            return Vec::new();
         }
         let options = SolveOptions::default();
-        let count = |model: &Model, stages: &Stages, friction: f64| {
+        let states = |model: &Model, stages: &Stages, friction: f64| {
             let mut goes_on = |_: &Progress| {
                 if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
             states_between_faces(model, (stages, friction), greatest, &options, &mut goes_on)
         };
         let model = self.model_at(value);
-        let found =
-            model.and_then(|(model, _)| self.at(value, |stages, factor| count(&model, stages, factor)));
-        found.unwrap_or(0)
+        let found = model
+            .and_then(|(model, _)| self.at(value, |stages, factor| states(&model, stages, rougher * factor)));
+        found.unwrap_or_default()
     }
 
     fn follower(&self) -> MutexGuard<'_, Follower> {

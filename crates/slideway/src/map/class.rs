@@ -62,25 +62,33 @@ pub enum ClassMeaning {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ClassKey(pub(super) ClassMeaning);
 
-/// All states of a mode problem.
+/// What is known of one direction at a point.
+pub(super) struct Point {
+    /// Its mode problem.
+    pub(super) parts: Parts,
+    /// The patterns of its states with a guided slider between its faces, which the mode problem does not tell.
+    pub(super) between_faces: Vec<String>,
+}
+
+/// The patterns of all states of a point.
 #[derive(Default)]
 struct States {
-    solutions: Vec<Vec<ContactState>>,
-    gaps: Vec<Vec<ContactState>>,
+    solutions: Vec<String>,
+    gaps: Vec<String>,
     continuum: bool,
 }
 
-/// The class of a point by the mode problems of both directions, of which the opposite one is looked at by `Jam` alone.
+/// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone.
 pub(super) fn class(
     colour_by: ColourBy,
-    forwards: Result<&Parts, &'static str>,
-    opposite: Option<Result<&Parts, &'static str>>,
+    forwards: Result<&Point, &'static str>,
+    opposite: Option<Result<&Point, &'static str>>,
 ) -> ClassMeaning {
-    let parts = match forwards {
-        Ok(parts) => parts,
+    let point = match forwards {
+        Ok(point) => point,
         Err(reason) => return ClassMeaning::NotSolved { reason },
     };
-    let Some(states) = states(parts) else { return ClassMeaning::TooLarge };
+    let Some(states) = states(point) else { return ClassMeaning::TooLarge };
     let moves =
         |states: &States| states.continuum || !(states.solutions.is_empty() && states.gaps.is_empty());
     if colour_by == ColourBy::Jam {
@@ -100,36 +108,40 @@ pub(super) fn class(
     let number =
         ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
     match colour_by {
-        ColourBy::Margin if states.solutions.len() == 1 => margin(parts).unwrap_or(ClassMeaning::TooLarge),
+        ColourBy::Margin if states.solutions.len() == 1 => {
+            margin(&point.parts).unwrap_or(ClassMeaning::TooLarge)
+        }
         ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam => number,
         ColourBy::Modes => {
-            let mut all: Vec<&Vec<ContactState>> = states.solutions.iter().chain(&states.gaps).collect();
-            all.sort_unstable();
-            ClassMeaning::Modes { patterns: all.into_iter().map(|states| pattern(states)).collect() }
+            let mut patterns = [states.solutions, states.gaps].concat();
+            // '+' comes before '-', and '-' before '0', as the states do in an enumeration.
+            patterns.sort_unstable();
+            ClassMeaning::Modes { patterns }
         }
     }
 }
 
 /// All states in which no guided slider tips; none if there are too many patterns.
-fn states(parts: &Parts) -> Option<States> {
+fn states(point: &Point) -> Option<States> {
+    let parts = &point.parts;
     let problem = parts.problem().ok()?;
     let found: Solutions = enumerate(&problem, &Limits::default()).ok()?;
-    let stands = |pattern: &[ContactState], force: &DVector<f64>, shares: &[Option<f64>]| {
-        !parts.tips(pattern, force, shares)
+    let stands = |sides: &[ContactState], force: &DVector<f64>, shares: &[Option<f64>]| {
+        !parts.tips(sides, force, shares)
     };
     let none = vec![None; problem.contacts()];
-    let mut states = States::default();
+    let mut states = States { gaps: point.between_faces.clone(), ..States::default() };
     for solution in &found.solutions {
-        let pattern: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
-        if stands(&pattern, &solution.normal_force, &none) {
-            states.solutions.push(pattern);
+        let sides: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
+        if stands(&sides, &solution.normal_force, &none) {
+            states.solutions.push(pattern(&sides));
         }
     }
     for gap in &found.gaps {
         let mut shares = none.clone();
         gap.shares.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
         if stands(&gap.pattern, &gap.normal_force, &shares) {
-            states.gaps.push(gap.pattern.clone());
+            states.gaps.push(pattern(&gap.pattern));
         }
     }
     states.continuum = found.singular.iter().any(|mode| mode.set.is_continuum());

@@ -1,12 +1,14 @@
 //! The mode problem at a point of the plane: interpolated where it depends bilinearly on both quantities, else made anew.
 
-use super::class::{ClassKey, class, reason};
+use super::class::{ClassKey, Point, class, reason};
 use super::{Axis, ColourBy};
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::mechanism_with;
 use crate::model::{Model, Settings};
-use crate::solve::{Parts, Stages, Trail};
+use crate::progress::{Progress, Work};
+use crate::solve::{Parts, SolveOptions, Stages, Trail, states_between_faces};
+use std::ops::ControlFlow;
 
 /// What finds the class of a point.
 pub(super) struct Evaluator<'a> {
@@ -18,11 +20,11 @@ pub(super) struct Evaluator<'a> {
 }
 
 /// Where mode problems come from.
-enum Source {
-    /// The corners of the plane: (0, 0), (1, 0), (0, 1), (1, 1).
-    Bilinear(Box<[Parts; 4]>),
-    /// The model, at every point from the states of the points before it.
-    Anew(Box<Model>),
+struct Source {
+    model: Model,
+    /// The corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), between which mode problems are interpolated; if there are
+    /// none, they are made from the model at every point, from the states of the points before it.
+    corners: Option<Box<[Parts; 4]>>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -39,18 +41,19 @@ impl<'a> Evaluator<'a> {
 
     /// Whether mode problems are interpolated.
     pub(super) fn is_bilinear(&self) -> bool {
-        matches!(self.forwards, Source::Bilinear(_))
+        self.forwards.corners.is_some()
     }
 
-    /// The classes of points with these values, one after another.
-    pub(super) fn classes(&self, points: impl Iterator<Item = [f64; 2]>) -> Vec<ClassKey> {
+    /// The classes of points with these values, one after another, until the work is to end.
+    pub(super) fn classes(&self, points: impl Iterator<Item = [f64; 2]>, work: Work<'_>) -> Vec<ClassKey> {
         let mut trails = [Trail::default(), Trail::default()];
-        points.map(|values| self.class(values, &mut trails)).collect()
+        let points = points.take_while(|_| !work.is_over());
+        points.map(|values| self.class(values, &mut trails, work)).collect()
     }
 
-    fn class(&self, values: [f64; 2], [there, back]: &mut [Trail; 2]) -> ClassKey {
+    fn class(&self, values: [f64; 2], [there, back]: &mut [Trail; 2], work: Work<'_>) -> ClassKey {
         let at = |source: &Source, trail: &mut Trail| {
-            source.parts(self.axes, values, trail).map_err(|faults| reason(&faults))
+            source.point(self.axes, values, trail, work).map_err(|faults| reason(&faults))
         };
         let forwards = at(&self.forwards, there);
         let opposite = self.opposite.as_ref().map(|opposite| at(opposite, back));
@@ -64,32 +67,55 @@ impl<'a> Evaluator<'a> {
 
 impl Source {
     fn new(model: Model, axes: &[Axis; 2]) -> Result<Self, Faults> {
-        let at = |[u, v]: [f64; 2]| parts_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)]);
+        let at = |[u, v]: [f64; 2]| {
+            let (model, friction) = model_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)])?;
+            Stages::new(&model)?.parts(friction)
+        };
         let [x, y] = axes.each_ref().map(|axis| axis.varied.dependence().problem);
         nothing_varies(axes, [x, y])?;
         // What is affine in each of both while the other stays as it is, is bilinear in both.
-        if x.max(y) <= Degree::Affine
+        let corners = if x.max(y) <= Degree::Affine
             && let [Ok(a), Ok(b), Ok(c), Ok(d)] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at)
         {
-            return Ok(Self::Bilinear(Box::new([a, b, c, d])));
-        }
-        Ok(Self::Anew(Box::new(model)))
+            Some(Box::new([a, b, c, d]))
+        } else {
+            None
+        };
+        Ok(Self { model, corners })
     }
 
-    fn parts(&self, axes: &[Axis; 2], values: [f64; 2], trail: &mut Trail) -> Result<Parts, Faults> {
-        match self {
-            Self::Bilinear(corners) => {
+    fn point(
+        &self,
+        axes: &[Axis; 2],
+        values: [f64; 2],
+        trail: &mut Trail,
+        work: Work<'_>,
+    ) -> Result<Point, Faults> {
+        let (parts, stages) = match &self.corners {
+            Some(corners) => {
                 let share =
                     |axis: &Axis, value: f64| (value - axis.range[0]) / (axis.range[1] - axis.range[0]);
                 let place = [share(&axes[0], values[0]), share(&axes[1], values[1])];
-                Parts::mixture(&weighted(corners, place)).ok_or_else(Faults::default)
+                (Parts::mixture(&weighted(corners, place)).ok_or_else(Faults::default)?, None)
             }
-            Self::Anew(model) => {
+            None => {
                 let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
-                let (mechanism, friction) = mechanism_with(model, &[x, y])?;
-                Stages::along(trail, mechanism)?.parts(friction)
+                let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
+                let stages = Stages::along(trail, mechanism)?;
+                (stages.parts(friction)?, Some(stages))
             }
+        };
+        if parts.with_free_faces().is_empty() {
+            return Ok(Point { parts, between_faces: Vec::new() });
         }
+        let (model, friction) = model_at(&self.model, axes, values)?;
+        let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
+        let mut goes_on =
+            |_: &Progress| if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let (at, options) = ((&stages, friction), SolveOptions::default());
+        let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
+        let between_faces = states.into_iter().map(|state| state.pattern).collect();
+        Ok(Point { parts, between_faces })
     }
 }
 
@@ -103,8 +129,11 @@ fn along(axis: &Axis, share: f64) -> f64 {
     if share == 1.0 { axis.range[1] } else { axis.range[0] + share * (axis.range[1] - axis.range[0]) }
 }
 
-/// The mode problem by all stages of `solve`.
-fn parts_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, Faults> {
+/// The model at a point, and the factor of its coefficients of friction there.
+///
+/// # Errors
+/// Values that the model does not allow.
+fn model_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<(Model, f64), Faults> {
     let mut settings = Settings::default();
     let mut friction = 1.0;
     for (axis, value) in axes.iter().zip(values) {
@@ -114,7 +143,7 @@ fn parts_at(model: &Model, axes: &[Axis; 2], values: [f64; 2]) -> Result<Parts, 
             settings = axis.varied.set(settings, value);
         }
     }
-    Stages::new(&model.with(&settings)?)?.parts(friction)
+    Ok((model.with(&settings)?, friction))
 }
 
 /// Refuses a quantity on which nothing depends.
@@ -131,6 +160,7 @@ fn nothing_varies(axes: &[Axis; 2], degrees: [Degree; 2]) -> Result<(), Faults> 
 mod tests {
     use super::*;
     use crate::gallery;
+    use crate::progress::undisturbed;
 
     /// The oracle assembles the model of every point from the drawing and factors with full pivoting. Between neighbouring
     /// points lie up to 11 degrees; a rod shorter than the crank cannot pass 90 degrees, which its neighbours can. The other run
@@ -154,10 +184,15 @@ mod tests {
                 let backwards = model.reversed();
                 for points in [(0..32).map(walking).collect::<Vec<_>>(), (0..32).map(jumping).collect()] {
                     let values = points.iter().map(|[u, v]| [along(&axes[0], *u), along(&axes[1], *v)]);
-                    let found = evaluator.classes(values.clone());
+                    let found = undisturbed(|work| evaluator.classes(values.clone(), work));
                     for (values, found) in values.zip(found) {
-                        let at =
-                            |model: &Model| parts_at(model, &axes, values).map_err(|faults| reason(&faults));
+                        let anew = |model: &Model| {
+                            let (model, friction) = model_at(model, &axes, values)?;
+                            let parts = Stages::new(&model)?.parts(friction)?;
+                            assert!(parts.with_free_faces().is_empty(), "{name}");
+                            Ok(Point { parts, between_faces: Vec::new() })
+                        };
+                        let at = |model: &Model| anew(model).map_err(|faults| reason(&faults));
                         let (forwards, opposite) = (at(&model), at(&backwards));
                         let expected = class(
                             colour_by,

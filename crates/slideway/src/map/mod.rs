@@ -147,8 +147,7 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
     let [width, height] = [options.width, options.height].map(|size| size.clamp(1, GREATEST_SIZE));
     let evaluator = Evaluator::new(model, &axes, options.colour_by)?;
     let values = |&[i, j]: &[usize; 2]| [axes[0].value(i, width), axes[1].value(j, height)];
-    let classes =
-        |points: &[[usize; 2]]| evaluator.classes(points.iter().take_while(|_| !work.is_over()).map(values));
+    let classes = |points: &[[usize; 2]]| evaluator.classes(points.iter().map(values), work);
     let grid = Grid { width, height, probe: options.probe.max(1) };
     let raster = Raster::<ClassKey>::new(grid, &classes, &mut |progress| work.tell(progress));
     let Some(raster) = raster else { return Ok(MapReport::default()) };

@@ -13,6 +13,8 @@ const PATTERNS: u64 = 1 << 12;
 const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 /// From no friction to that of the model.
 const FALLING: [f64; 2] = [0.0, 1.0];
+/// Factors between those two at which states between faces are sought: a heuristic.
+const TRIED: u32 = 8;
 /// Gaps between modes that are narrower than this, relative to where they are, come from rounding.
 const ROUNDING: f64 = 1e-10;
 
@@ -103,8 +105,18 @@ impl Question<'_> {
     }
 }
 
+/// States with a guided slider between its faces are no modes that could be followed: where there is one there is no answer.
 fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
-    locking_margin(&varied.growing_friction(value)?, work)
+    let margin = locking_margin(&varied.growing_friction(value)?, work)?;
+    let is_between = |rougher: f64| !varied.states_between_faces((value, rougher), None, work).is_empty();
+    // Where it is locked, from the friction to which it would have to fall.
+    let from = margin.factor().unwrap_or(1.0).min(1.0);
+    let tried = if from < 1.0 { TRIED } else { 0 };
+    let less = (0..tried).map(|step| from + (1.0 - from) * (f64::from(step) + 0.5) / f64::from(tried));
+    if less.chain([1.0]).any(is_between) {
+        return Err(Fault::general(FaultKind::BetweenFaces).into());
+    }
+    Ok(margin)
 }
 
 /// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where there is none

@@ -49,7 +49,7 @@ pub struct SizeReport {
     pub present: Sample,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
-    /// Ranges in which the mechanism cannot be assembled or solved, which is no locking.
+    /// Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces, which is no locking.
     pub without_position: Vec<RangeWithoutPosition>,
     /// The margin at evenly spaced values, and where the wanted one is just met.
     pub samples: Vec<Sample>,
@@ -84,7 +84,7 @@ pub enum SampleKind {
     Finite,
     /// No friction reaches the limit.
     Infinite,
-    /// The mechanism cannot be assembled or solved there.
+    /// The mechanism cannot be assembled or solved there, or a guided slider is between its faces.
     NoPosition,
 }
 
@@ -99,7 +99,7 @@ pub struct Sample {
     pub margin: Option<f64>,
 }
 
-/// A range in which the mechanism cannot be assembled or solved.
+/// A range without an answer: the mechanism cannot be assembled or solved, or a guided slider is between its faces.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RangeWithoutPosition {
     /// Where it begins.

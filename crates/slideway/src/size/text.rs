@@ -53,7 +53,7 @@ impl Page<'_, SizeReport> {
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
             (_, Some(margin)) => precise(margin),
-            _ => "no position".to_owned(),
+            _ => "no answer".to_owned(),
         };
         let rows: Vec<Vec<String>> =
             report.samples.iter().map(|sample| vec![precise(sample.at), margin(sample)]).collect();
@@ -76,6 +76,6 @@ fn cause(report: &SizeReport, is: &str, jumps_to: Option<f64>) -> String {
         ("margin", _) => format!("margin {}", precise(report.margin)),
         ("jump", Some(margin)) => format!("a jump of the margin to {}", precise(margin)),
         ("jump", None) => "a jump of the margin".to_owned(),
-        _ => "no position".to_owned(),
+        _ => "no answer".to_owned(),
     }
 }

@@ -94,7 +94,7 @@ impl Words<'_> {
                 MarginKind::Locking => format!("{model}: it is on the verge of locking."),
                 _ => format!("{model}: {load} is just held however great it is."),
             },
-            (SampleKind::NoPosition, _) => format!("{model}: it cannot be assembled or solved."),
+            (SampleKind::NoPosition, _) => format!("{model}: there is no answer there."),
             (_, None) => format!("{model}: {}.", never(report)),
             (_, Some(margin)) => {
                 let met = is_met(margin);

@@ -20,7 +20,6 @@
 mod answer;
 mod attainability;
 mod between_faces;
-mod careful;
 mod continuum;
 mod distinct;
 mod equilibrium;
@@ -33,10 +32,10 @@ mod parts;
 mod state;
 mod trail;
 mod uncertainty;
+mod with_friction;
 mod words;
 
 pub(crate) use between_faces::states_between_faces;
-pub(crate) use careful::careful_report;
 pub(crate) use friction::friction;
 pub use mode_problem::mode_problem;
 pub(crate) use mode_problem::{
@@ -46,6 +45,7 @@ pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
+pub(crate) use with_friction::solve_with_friction;
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;

@@ -268,6 +268,18 @@ impl Parts {
         })
     }
 
+    /// The contacts of guided sliders whose preload changes their couple on the other side, but no normal force: only with one
+    /// of these may there be a state between its faces that no sign pattern tells.
+    pub(crate) fn with_free_faces(&self) -> Vec<usize> {
+        let contacts = self.columns.positive.ncols();
+        let BySide { positive, negative } = &self.jumps;
+        let is_free = |bound: &&OutputBound| {
+            let jumps = |row: usize| positive[(row, bound.contact)] != negative[(row, bound.contact)];
+            jumps(contacts + bound.output) && !(0..contacts).any(jumps)
+        };
+        self.bounds.iter().filter(is_free).map(|bound| bound.contact).collect()
+    }
+
     /// How far a line from these numbers to others leads before they are changed by as much as they are: the share of the
     /// way at which a column, or the loads and jumps together, has become as great as its change. None if nothing changes.
     pub(crate) fn scale_of_change(&self, end: &Self) -> Option<f64> {

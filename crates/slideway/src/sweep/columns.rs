@@ -1,7 +1,7 @@
 //! The columns of a sweep.
 
 use super::axis::Axis;
-use crate::ids::{BodyId, DriveId, JointId};
+use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::kinetics::{Layout, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism};
 use crate::model::{Model, SliderKind};
@@ -92,6 +92,11 @@ impl Columns {
             self.shares.push(index);
             self.add(format!("preload_share.{}", mechanism.contacts[index].name), "1");
         }
+    }
+
+    /// Whether the preload of a guided slider is another one on its other side: the slider may be between its faces.
+    pub(super) fn may_be_between_faces(&self, mechanism: &Mechanism) -> bool {
+        self.couples.iter().any(|(_, contact, _)| mechanism.preload_jumps(ContactId(*contact)))
     }
 
     fn add_outputs(&mut self, mechanism: &Mechanism, all: bool) {

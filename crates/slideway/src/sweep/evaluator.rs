@@ -16,8 +16,9 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem, SmallState};
 use crate::progress::{Callback, Progress};
-use crate::report::Report;
-use crate::solve::{SolveOptions, Trail, careful_report, mode_problem, solve_with, velocity_signs};
+use crate::solve::{
+    self, SolveOptions, Trail, mode_problem, solve_with, solve_with_friction, velocity_signs,
+};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
@@ -47,7 +48,8 @@ impl Plan {
     pub(super) fn prepare(&mut self) {
         let Some(formulas) = self.friction.as_ref().filter(|_| self.same_state()) else { return };
         self.stages = Stages::along(&mut Trail::default(), &self.mechanism, &self.columns).ok();
-        if let Some(stages) = self.stages.as_ref().filter(|_| !self.attainability) {
+        let needs_each = self.attainability || self.columns.may_be_between_faces(&self.mechanism);
+        if let Some(stages) = self.stages.as_ref().filter(|_| !needs_each) {
             self.together = Together::new(&self.mechanism, stages, formulas, &self.varied);
         }
     }
@@ -64,20 +66,24 @@ impl Plan {
         }
     }
 
-    /// What makes of the model that of a point; none if friction has a factor.
-    fn settings(&self, values: &[f64]) -> Option<Settings> {
+    /// What makes of the model that of a point, and the factor of its friction.
+    fn settings(&self, values: &[f64]) -> (Settings, f64) {
         let mut settings = Settings::default();
+        let mut friction = 1.0;
         for (kind, value) in self.varied.iter().zip(values) {
             let text = format!("{value:e}");
             settings = match *kind {
+                Kind::Friction => {
+                    friction = *value;
+                    settings
+                }
                 Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, &text),
                 Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, &text),
                 Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, &text),
                 Kind::Time => settings.time(&text),
-                Kind::Friction => return None,
             };
         }
-        Some(settings)
+        (settings, friction)
     }
 }
 
@@ -276,29 +282,27 @@ impl<'p> Evaluator<'p> {
         }
         if let Some((screen, problem)) = &mut self.small {
             fill(problem, &self.mechanism, stages);
+            problem.load = if self.plan.columns.may_be_between_faces(&self.mechanism) {
+                stages.greatest_load.max(stages.greatest_unknown)
+            } else {
+                0.0
+            };
             if let Ok(states) = screen.states(problem, stages.accuracy)
                 && write(self.plan, &self.mechanism, stages, (states, point), rows)?
             {
                 return Ok(());
             }
         }
-        let report = match self.plan.settings(point.values) {
-            Some(settings) => {
-                let model = self.plan.model.with(&settings)?;
-                let options = SolveOptions { margins: false, ..SolveOptions::default() };
-                solve_with(&model, &options, look)?
-            }
-            None => self.careful(stages, look)?,
+        let (settings, friction) = self.plan.settings(point.values);
+        let model = self.plan.model.with(&settings)?;
+        let options = SolveOptions { margins: false, ..SolveOptions::default() };
+        let report = if self.plan.varied.contains(&Kind::Friction) {
+            solve_with_friction(&model, (&solve::Stages::new(&model)?, friction), &options, look)?
+        } else {
+            solve_with(&model, &options, look)?
         };
         told::write(&report, self.plan, point, rows);
         Ok(())
-    }
-
-    /// The answer for a state that no model describes: with friction multiplied by a factor.
-    fn careful(&self, stages: &Stages, look: &mut Callback<'_>) -> Result<Report, Faults> {
-        let equations = KineticEquations::new(&self.mechanism, &stages.configuration)?;
-        let Stages { configuration, influence, signs, .. } = stages;
-        careful_report(&self.mechanism, configuration, &equations, (influence, signs), look)
     }
 }
 

@@ -32,6 +32,8 @@ pub(super) struct Stages {
     pub(super) influences: Vec<[Vec<f64>; 2]>,
     /// The greatest applied force (N).
     pub(super) greatest_load: f64,
+    /// The greatest unknown without friction, as a normal force (N).
+    pub(super) greatest_unknown: f64,
     /// How well the numbers are known, as a part of them.
     pub(super) accuracy: f64,
 }
@@ -63,6 +65,7 @@ impl Stages {
         let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, false));
         let per_force = influences.columns.iter().map(per_force).collect();
         let (greatest_load, accuracy) = (influences.greatest_load, ROUNDING * influences.condition);
+        let greatest_unknown = influences.greatest_unknown;
         let influence = Influence::of(influences);
         let (eta, eta_preload) = if columns.contacts <= MOST_CONTACTS {
             let eta = sides(mechanism, &influence);
@@ -82,6 +85,7 @@ impl Stages {
             frictionless,
             influences: per_force,
             greatest_load,
+            greatest_unknown,
             accuracy,
             configuration,
             influence,

@@ -9,6 +9,7 @@ mod random_mechanisms;
 mod stiff_guides;
 
 mod attainability;
+mod between_faces;
 mod configuration;
 mod design;
 mod enclosure;

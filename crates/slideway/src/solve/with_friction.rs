@@ -1,0 +1,44 @@
+//! The answer for a mechanism whose friction is multiplied by a factor: no model describes it.
+
+use super::answer::Answer;
+use super::found::Found;
+use super::parts::{Stages, rougher};
+use super::{SolveOptions, searched};
+use crate::enclosure::{UncertainParameters, enclosure};
+use crate::fault::Faults;
+use crate::interval::Interval;
+use crate::kinetics::KineticEquations;
+use crate::model::Model;
+use crate::progress::Callback;
+use crate::report::{Report, finite};
+
+/// The answer of [`super::solve`] for a model and its stages with all coefficients of friction multiplied by a factor, without
+/// margins and uncertainty.
+///
+/// # Errors
+/// Whatever `solve` refuses.
+pub(crate) fn solve_with_friction(
+    model: &Model,
+    (stages, friction): (&Stages, f64),
+    options: &SolveOptions,
+    progress: &mut Callback<'_>,
+) -> Result<Report, Faults> {
+    let Stages { configuration, influence, velocity_signs, .. } = stages;
+    let mechanism = rougher(&stages.mechanism, &|_| friction);
+    let equations = KineticEquations::new(&mechanism, configuration)?;
+    let uncertain = UncertainParameters::default().with_friction(Interval::point(friction));
+    let enclosed = enclosure(model, &uncertain, &stages.mechanism, configuration);
+    let (result, jumps) =
+        searched(&enclosed, (&mechanism, influence, velocity_signs), &options.search, progress)?;
+    let answer = Answer {
+        mechanism: &mechanism,
+        configuration,
+        equations: &equations,
+        influence,
+        velocity_signs,
+        jumps,
+        enclosed: enclosed.as_ref().ok(),
+    };
+    let found = Found { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
+    finite(answer.report(&found)?)
+}
