@@ -52,6 +52,20 @@ pub enum Cause {
         /// Kinetic energy that is lost (J).
         energy_lost: f64,
     },
+    /// A sliding joint meets the pad at an end of its travel, which begins to push.
+    MeetsPad {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the pad at the greatest displacement.
+        greatest: bool,
+    },
+    /// A sliding joint leaves such a pad, which has ceased to push.
+    LeavesPad {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the pad at the greatest displacement.
+        greatest: bool,
+    },
     /// A load or drive jumps: a relation in its formula, or a table, passes to its next piece.
     LoadJumps(String),
     /// A function of the user has passed zero; its number and its name.
@@ -98,6 +112,8 @@ impl Cause {
             Self::OverlapVanishes(_) => "overlap_vanishes",
             Self::TravelLimit { .. } => "travel_limit",
             Self::Hits { .. } => "hits",
+            Self::MeetsPad { .. } => "meets_pad",
+            Self::LeavesPad { .. } => "leaves_pad",
             Self::LoadJumps(_) => "load_jumps",
             Self::User(..) => "user",
             Self::Jams { .. } => "jams",
@@ -114,7 +130,9 @@ impl Cause {
             | Self::Tips(joint)
             | Self::OverlapVanishes(joint)
             | Self::TravelLimit { joint, .. }
-            | Self::Hits { joint, .. } => Some(&mechanism.joints[joint.index()].name),
+            | Self::Hits { joint, .. }
+            | Self::MeetsPad { joint, .. }
+            | Self::LeavesPad { joint, .. } => Some(&mechanism.joints[joint.index()].name),
             Self::User(_, name) | Self::LoadJumps(name) => Some(name),
             Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
         }
@@ -130,7 +148,7 @@ impl Cause {
 
     /// Whether the phase cannot simply go on.
     pub(super) fn ends_phase(&self) -> bool {
-        !matches!(self, Self::User(..))
+        !matches!(self, Self::User(..) | Self::LeavesPad { .. })
     }
 }
 
@@ -198,16 +216,21 @@ impl Words<'_> {
             Cause::Tips(joint) => format!("{} begins to tip in its guide", self.name(*joint)),
             Cause::OverlapVanishes(joint) => format!("{} leaves its guide", self.name(*joint)),
             Cause::TravelLimit { joint, greatest } => {
-                let end = if *greatest { "greatest" } else { "least" };
-                format!("{} reaches the {end} displacement of its travel", self.name(*joint))
+                format!("{} reaches the {} displacement of its travel", self.name(*joint), end(*greatest))
             }
             Cause::Hits { joint, greatest, energy_lost } => {
-                let end = if *greatest { "greatest" } else { "least" };
-                let name = self.name(*joint);
                 format!(
-                    "{name} hits the stop at its {end} displacement, which takes {} J",
+                    "{} hits the stop at its {} displacement, which takes {} J",
+                    self.name(*joint),
+                    end(*greatest),
                     number(*energy_lost)
                 )
+            }
+            Cause::MeetsPad { joint, greatest } => {
+                format!("{} meets the pad at its {} displacement", self.name(*joint), end(*greatest))
+            }
+            Cause::LeavesPad { joint, greatest } => {
+                format!("{} leaves the pad at its {} displacement", self.name(*joint), end(*greatest))
             }
             Cause::LoadJumps(name) => format!("{name} jumps"),
             Cause::User(_, name) => format!("{name} passes zero"),
@@ -290,6 +313,11 @@ impl Words<'_> {
     fn contact(&self, contact: ContactId) -> &str {
         &self.mechanism.contacts[contact.index()].name
     }
+}
+
+/// Which end of a travel.
+fn end(greatest: bool) -> &'static str {
+    if greatest { "greatest" } else { "least" }
 }
 
 /// Where something moves, as one looks at the drawing.

@@ -287,9 +287,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
     }
 
-    /// Puts relations on their next pieces; the loads and drives that jump there are causes of the event.
+    /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the event.
     fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
-        causes.extend(self.switching.switch(switches).into_iter().map(Cause::LoadJumps));
+        causes.extend(self.switching.switch(switches));
         self.equations.hold(&self.switching);
         Ended::Event(causes)
     }
@@ -555,9 +555,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Whether a function is below zero at the end, beyond rounding where it was not above zero before.
     fn is_below(&self, fall: &Fall) -> bool {
         let [before, after] = fall.values;
-        if let Watched::User(..) | Watched::Relation(_) = self.watch.list[fall.index] {
+        match self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
-            return after <= 0.0 && before > USER_ZERO * after.abs();
+            Watched::User(..) => return after <= 0.0 && before > USER_ZERO * after.abs(),
+            // Just behind the end of its piece it is on the next one, and above zero: if it falls from zero, however that was rounded,
+            // the step before has ended at the end of the piece.
+            Watched::Relation(_) => return after < 0.0 && before > -USER_ZERO * after.abs(),
+            _ => {}
         }
         let tolerance = self.watch.tolerance(self.watch.list[fall.index], &self.equations);
         if self.watch.list[fall.index] == Watched::Sticking {

@@ -23,7 +23,7 @@ pub(super) struct Hit {
 pub(super) fn of_limit(mechanism: &Mechanism, joint: JointId, greatest: bool) -> Option<Hit> {
     let slider = mechanism.slider(joint)?;
     let end = usize::from(greatest);
-    let (restitution, displacement) = (slider.restitution[end]?, slider.travel?[end]);
+    let (restitution, displacement) = (slider.stops[end]?.restitution()?, slider.travel?[end]);
     Some(Hit { joint, greatest, restitution, displacement })
 }
 

@@ -136,8 +136,10 @@ impl<'o> Watch<'o> {
             if slider.kind == SliderKind::Block {
                 self.list.push(Watched::Overlap(*joint));
             }
-            if slider.travel.is_some() && phase.joints[index] != JointPhase::Sticking {
-                self.list.extend([Watched::Travel(*joint, -1.0), Watched::Travel(*joint, 1.0)]);
+            if phase.joints[index] != JointPhase::Sticking {
+                let limits = [-1.0, 1.0].into_iter().zip(slider.limits());
+                let limited = limits.filter(|(_, limit)| limit.is_finite());
+                self.list.extend(limited.map(|(end, _)| Watched::Travel(*joint, end)));
             }
         }
         if phase.joints.contains(&JointPhase::Sticking) {
@@ -228,7 +230,7 @@ impl<'o> Watch<'o> {
             Watched::Travel(joint, end) => {
                 let slider = slider(joint);
                 let (displacement, _) = configuration.sliding(mechanism, slider);
-                let [least, greatest] = slider.travel.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+                let [least, greatest] = slider.limits();
                 if end < 0.0 { displacement - least } else { greatest - displacement }
             }
             Watched::User(index, sign) => sign * self.user[index].value(mechanism, configuration)?,

@@ -1,6 +1,6 @@
 //! Where a simulation ends before its time, and what is refused.
 
-use super::closed_forms::block;
+use super::models::block;
 use super::{mechanism_of, run};
 use crate::configuration::Configuration;
 use crate::expression::{Names, parse};

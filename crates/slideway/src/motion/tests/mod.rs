@@ -10,6 +10,8 @@ mod gaps;
 mod layers;
 mod limits;
 mod mechanisms;
+mod models;
+mod pads;
 mod rest;
 mod simple;
 mod stops;
