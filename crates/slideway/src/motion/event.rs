@@ -49,8 +49,8 @@ pub enum Cause {
         joint: JointId,
         /// Whether it is the stop at the greatest displacement.
         greatest: bool,
-        /// Kinetic energy that is lost (J).
-        energy_lost: f64,
+        /// Kinetic energy that is lost (J); of joints that act on one another the first has that of all.
+        energy_lost: Option<f64>,
     },
     /// A sliding joint meets the pad at an end of its travel, which begins to push.
     MeetsPad {
@@ -219,12 +219,12 @@ impl Words<'_> {
                 format!("{} reaches the {} displacement of its travel", self.name(*joint), end(*greatest))
             }
             Cause::Hits { joint, greatest, energy_lost } => {
-                format!(
-                    "{} hits the stop at its {} displacement, which takes {} J",
-                    self.name(*joint),
-                    end(*greatest),
-                    number(*energy_lost)
-                )
+                let hits =
+                    format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
+                match energy_lost {
+                    Some(energy) => format!("{hits}, which takes {} J", number(*energy)),
+                    None => format!("{hits} in the same impact"),
+                }
             }
             Cause::MeetsPad { joint, greatest } => {
                 format!("{} meets the pad at its {} displacement", self.name(*joint), end(*greatest))

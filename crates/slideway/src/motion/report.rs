@@ -267,7 +267,8 @@ fn event_report(history: &History, event: &Event) -> EventReport {
     };
     let several = event.successors.len() > 1;
     let lost = event.causes.iter().map(|cause| match cause {
-        super::Cause::Jams { energy_lost } | super::Cause::Hits { energy_lost, .. } => *energy_lost,
+        super::Cause::Jams { energy_lost } => *energy_lost,
+        super::Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
         _ => 0.0,
     });
     EventReport {

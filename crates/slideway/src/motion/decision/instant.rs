@@ -176,6 +176,7 @@ impl<'m> Instant<'m> {
             sides: possible_sides(self),
             stopped,
             opposes: None,
+            pushed: Vec::new(),
         }
     }
 

@@ -7,6 +7,7 @@ mod continuations;
 mod end_stops;
 mod friction_laws;
 mod gaps;
+mod impacts;
 mod layers;
 mod limits;
 mod mechanisms;
