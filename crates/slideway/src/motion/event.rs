@@ -78,7 +78,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// The cause that a watched function is; none for relations, of which only jumps are told.
+    /// The cause that a watched function is; none for relations, of which only jumps are told, and where it takes a decision to name it.
     pub(super) fn of(watched: Watched, sliders: &[JointId], names: impl Fn(usize) -> String) -> Option<Self> {
         Some(match watched {
             Watched::NormalForce(contact) => Self::NormalForceZero(contact),
@@ -94,7 +94,7 @@ impl Cause {
             Watched::Overlap(joint) => Self::OverlapVanishes(joint),
             Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
             Watched::User(index, _) => Self::User(index, names(index)),
-            Watched::Relation(_) => return None,
+            Watched::Relation(_) | Watched::HeldReactions => return None,
         })
     }
 

@@ -58,6 +58,7 @@ impl<'a, 'm> Run<'a, 'm> {
             dense: Vec::new(),
             size: state.len(),
             impulses: Vec::new(),
+            undetermined: Vec::new(),
             initial: configuration.clone(),
             last: (configuration.time, state.clone()),
         };
@@ -78,6 +79,7 @@ impl<'a, 'm> Run<'a, 'm> {
         self.history.end = end;
         self.history.last = (self.smooth.time, self.smooth.state.clone());
         self.history.statistics.evaluations = self.smooth.equations.evaluations;
+        self.history.undetermined = self.smooth.undetermined.iter().copied().collect();
         if let Some(interval) = self.history.phases.last_mut() {
             interval.to = self.smooth.time;
         }
@@ -123,7 +125,11 @@ impl<'a, 'm> Run<'a, 'm> {
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
             Err(Failure::Singular) => return Ended::End(End::Jammed),
         }
-        let exceeded = self.smooth.exceeded_reactions();
+        let exceeded = match self.smooth.exceeded_reactions(phase, self.decisions) {
+            Ok(exceeded) => exceeded,
+            Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
+            Err(Failure::Singular) => return Ended::End(End::Jammed),
+        };
         if !exceeded.is_empty() {
             return Ended::Event(exceeded);
         }
