@@ -220,3 +220,37 @@ fn a_pad_is_the_load_that_only_pushes() {
         assert!((found.coordinates[0] - expected).abs() < 1e-8, "{} {expected}", found.coordinates[0]);
     }
 }
+
+/// The gallery's drawer comes into its pad with v^2 = v_0^2 + 2 (F/m - mu g) x_0. With F' = F - mu m g, a = c/(2 m), w^2 = k/m - a^2 and
+/// e = d - F'/k: e = e^(-a t) (-F'/k cos w t + (v - a F'/k)/w sin w t), which stops first where tan w t = w v/(a v - F'/m), in the second
+/// quadrant, and stays there. Without damping it comes back.
+#[test]
+fn the_gallery_drawer_closes_softly() {
+    let model = Model::parse(crate::gallery::find("soft-closing-drawer").unwrap().text).unwrap();
+    let options = SimulateOptions { tolerance: 1e-11, ..SimulateOptions::new(1.0) };
+    let history = simulate(&model, &options).unwrap();
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    let (mass, force, friction, stiffness, damping) = (5.0, 20.0, 0.05 * 9.81, 200.0, 60.0);
+    let acceleration = force / mass - friction;
+    let speed = (0.09_f64 + 2.0 * acceleration * 0.2).sqrt();
+    let met = (speed - 0.3) / acceleration;
+    let (decay, rest) = (damping / (2.0 * mass), mass * acceleration / stiffness);
+    let frequency = f64::sqrt(stiffness / mass - decay * decay);
+    let angle = f64::atan2(frequency * speed, decay * speed - acceleration);
+    let stops = met + angle / frequency;
+    let wave = -rest * angle.cos() + (speed - decay * rest) / frequency * angle.sin();
+    let deepest = rest + (-decay * angle / frequency).exp() * wave;
+    assert!((contacts(&history)[0][0] - met).abs() < 1e-9, "{met} {:#?}", words(&history));
+    let events = history.events.iter();
+    let found =
+        events.filter(|event| event.causes.iter().any(|cause| matches!(cause, Cause::Stops(_)))).last();
+    let (time, place) = (found.unwrap().time, history.reader().at(1.0).unwrap().configuration.coordinates[0]);
+    assert!(
+        (time - stops).abs() < 1e-7 && (place + deepest).abs() < 1e-9,
+        "{time} {stops} {place} {deepest}"
+    );
+    assert_eq!(history.phases.last().unwrap().phase.joints, [JointPhase::Sticking]);
+    let bounces = model.with(&Settings::default().parameter("c", "0 N s/m")).unwrap();
+    let [_, leaves] = contacts(&simulate(&bounces, &options).unwrap());
+    assert!(!leaves.is_empty());
+}
