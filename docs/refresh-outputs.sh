@@ -86,6 +86,8 @@ show klepp-2002-spring.txt 0 solve models/klepp-2002-spring.toml
 show frictional-oscillator.txt 0 solve models/frictional-oscillator.toml
 show stick-slip.txt 0 solve models/stick-slip.toml
 show thrown-drawer.txt 0 solve models/thrown-drawer.toml
+show stribeck-belt.txt 0 solve models/stribeck-belt.toml
+show soft-closing-drawer.txt 0 solve models/soft-closing-drawer.toml --at "x=-50 mm"
 
 # The command line.
 show help.txt 0 --help
@@ -120,6 +122,8 @@ show hold-cam.txt 1 hold models/cam-follower.toml --load cam
 show help-simulate.txt 0 simulate --help
 show simulate-oscillator.txt 0 simulate models/frictional-oscillator.toml --until 3s
 show simulate-stick-slip.txt 0 simulate models/stick-slip.toml --until 2s
+show simulate-stribeck-belt.txt 0 simulate models/stribeck-belt.toml --until 2s
+show simulate-soft-closing-drawer.txt 0 simulate models/soft-closing-drawer.toml --until 1s
 show simulate-drawer-jam.txt 0 simulate models/thrown-drawer.toml --until 0.6s
 show simulate-drawer-stop.txt 0 simulate models/thrown-drawer.toml --until 0.6s --set "x_s=0.2 m"
 show simulate-drawer-locks.txt 0 simulate models/thrown-drawer.toml --until 0.6s --set "x_s=0.255 m"

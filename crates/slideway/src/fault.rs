@@ -269,10 +269,15 @@ pub enum FaultKind {
     NotFinite { what: String },
     #[error("the loads or drives grow beyond all bounds")]
     LoadsWithoutBounds,
-    #[error("{} reach their stops at the same instant: in which order decides what follows", joints.join(" and "))]
-    SeveralStops { joints: Vec<String> },
-    #[error("the impact of {joint} on its stop has no impulse: friction wedges it in its guide before")]
-    ImpactWedges { joint: String },
+    #[error("the impact of {} on the stops can have several outcomes", joints.join(" and "))]
+    SeveralImpacts { joints: Vec<String> },
+    #[error("the impact of {} on the stops could not be decided: a linear program was not solved", joints.join(" and "))]
+    UnsolvedImpact { joints: Vec<String> },
+    #[error(
+        "the impact of {} on the stop has no impulse: friction wedges what moves in its guide before",
+        joints.join(" and ")
+    )]
+    ImpactWedges { joints: Vec<String> },
     #[error("the static friction coefficient {mu_static} of {contact} is below its kinetic one, {mu}")]
     StaticBelowKinetic { contact: String, mu: f64, mu_static: f64 },
     #[error("the points `{first}` and `{second}` coincide: they give no direction")]
@@ -476,7 +481,9 @@ impl FaultKind {
                 "a coefficient of friction has to be finite and not negative at every speed that occurs, zero included",
             ),
             Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
-            Self::SeveralStops { .. } => Some("change the travel of one of them a little"),
+            Self::SeveralImpacts { .. } => {
+                Some("friction decides which stop pushes; change the travel of one of them a little")
+            }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some(

@@ -35,7 +35,9 @@ pub const MODELS: &[GalleryModel] = gallery![
     "telescopic-boom",
     "frictional-oscillator",
     "stick-slip",
+    "stribeck-belt",
     "thrown-drawer",
+    "soft-closing-drawer",
 ];
 
 impl GalleryModel {

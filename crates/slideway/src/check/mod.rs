@@ -23,7 +23,7 @@ use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
-use crate::model::{Model, SliderKind};
+use crate::model::{Model, SliderKind, Stop};
 use crate::report::finite;
 use crate::solve::{check_size, mode_problem, velocity_signs};
 use nalgebra::{DMatrix, DVector};
@@ -138,9 +138,9 @@ pub struct JointSummary {
     pub displacement: Option<f64>,
     /// Supported length of a block slider (m).
     pub overlap: Option<f64>,
-    /// Restitution of the stops at the least and at the greatest displacement, if there are any.
+    /// The stops at the least and at the greatest displacement, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stops: Option<[Option<f64>; 2]>,
+    pub stops: Option<[Option<Stop>; 2]>,
 }
 
 /// A contact.
@@ -314,7 +314,7 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             constraints,
             displacement: slider.map(|slider| configuration.slide(mechanism, slider).displacement),
             overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
-            stops: slider.map(|slider| slider.restitution).filter(|stops| *stops != [None; 2]),
+            stops: slider.map(|slider| slider.stops).filter(|stops| *stops != [None; 2]),
         }
     };
     mechanism.joints.iter().map(one).collect()

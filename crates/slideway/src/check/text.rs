@@ -1,6 +1,7 @@
 //! The findings of a check as text for people.
 
 use super::{CheckReport, ContactSummary};
+use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -151,14 +152,18 @@ impl Text<'_> {
             ));
         }
         for joint in &report.joints {
-            let ends = joint.stops.into_iter().flatten().zip(["least", "greatest"]);
-            let told: Vec<String> = ends
-                .filter_map(|(restitution, end)| {
-                    Some(format!("{} at its {end} displacement", number(restitution?)))
-                })
-                .collect();
-            if !told.is_empty() {
-                self.line(&format!("{} has end stops with the restitution {}.", joint.name, told.join(", ")));
+            for (stop, end) in joint.stops.into_iter().flatten().zip(["least", "greatest"]) {
+                let told = match stop {
+                    None => continue,
+                    Some(Stop::Impact { restitution }) => {
+                        format!("a stop with the restitution {}", number(restitution))
+                    }
+                    Some(Stop::Pad { stiffness, damping }) => {
+                        let [stiffness, damping] = [stiffness, damping].map(number);
+                        format!("a pad of {stiffness} N/m and {damping} N s/m")
+                    }
+                };
+                self.line(&format!("{} has {told} at its {end} displacement.", joint.name));
             }
         }
     }

@@ -230,8 +230,9 @@ pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuratio
             let kind = FaultKind::OverlapVanished { joint: joint.name.to_string(), overlap, displacement };
             faults.push(Fault::new(kind, joint.place.clone()));
         }
+        let [lowest, highest] = slider.limits();
         if let Some([least, greatest]) = slider.travel
-            && !(least..=greatest).contains(&displacement)
+            && !(lowest..=highest).contains(&displacement)
         {
             let kind =
                 FaultKind::TravelExceeded { joint: joint.name.to_string(), displacement, least, greatest };

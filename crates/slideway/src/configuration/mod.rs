@@ -21,7 +21,7 @@ pub(crate) use mobility::{advance, free_motions, motion_in_words, null_space};
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pieces, Quantity, Slider, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, rot90};
 use crate::model::CarriedBy;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -167,6 +167,13 @@ impl<T: Real> Configuration<T> {
         let [block, guide] = middle_points(slider).map(|point| self.position(mechanism, &point));
         let relative = self.velocity_at(slider.block, block) - self.velocity_at(slider.guide, block);
         (tangent.dot(&(block - guide)), tangent.dot(&relative))
+    }
+
+    /// How far a block is beyond the beginning of a pad (m), and the rate of that (m/s).
+    pub(crate) fn depth(&self, mechanism: &Mechanism<T>, pad: &Pad<T>) -> [T; 2] {
+        let Some(slider) = mechanism.slider(pad.joint) else { return [T::zero(); 2] };
+        let (displacement, velocity) = self.sliding(mechanism, slider);
+        [pad.sense() * (displacement - pad.place), pad.sense() * velocity]
     }
 
     /// A direction of the drawing, turned with a frame.

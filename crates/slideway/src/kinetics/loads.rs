@@ -4,7 +4,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, Frame};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Quantity, length};
+use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length};
 use nalgebra::Vector2;
 
 /// A force at a place, or a couple, on a frame.
@@ -165,6 +165,7 @@ impl<T: Real> Loads<'_, T> {
                 let moment = -self.quantity(*damping)? * relative;
                 self.couples(*first, Some(*second), moment);
             }
+            LoadKind::Pad(pad) => self.pad(load, pad)?,
         }
         Ok(())
     }
@@ -206,6 +207,23 @@ impl<T: Real> Loads<'_, T> {
         let relative = self.configuration.velocity_at(between[1].frame, second)
             - self.configuration.velocity_at(between[0].frame, first);
         self.pull(between, [first, second], axis * (damping * axis.dot(&relative)));
+        Ok(())
+    }
+
+    /// Pushes the block away from the end of its travel, and the guide the other way.
+    fn pad(&mut self, load: &Load<T>, pad: &Pad<T>) -> Result<(), Fault> {
+        let Some(slider) = self.mechanism.slider(pad.joint) else { return Ok(()) };
+        let depth = self.configuration.depth(self.mechanism, pad);
+        let pieces = self.configuration.pieces.as_deref().map_or(&[][..], |pieces| pieces.of(pad.formula));
+        let force = pad.force(&depth, pieces).map_err(|_| {
+            let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
+            Fault::new(kind, load.place.clone())
+        })?;
+        let push = self.configuration.direction(slider.guide, slider.tangent) * (-pad.sense() * force);
+        let middle = Attachment { frame: slider.block, position: slider.at };
+        let place = self.configuration.position(self.mechanism, &middle);
+        self.wrenches.push(Wrench::force(slider.block, place, push));
+        self.wrenches.push(Wrench::force(slider.guide, place, -push));
         Ok(())
     }
 

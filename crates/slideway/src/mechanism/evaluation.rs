@@ -2,13 +2,13 @@
 
 use super::{
     Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, Event, Joint, JointKind, Load,
-    LoadKind, Mechanism, Quantity, Shape, Slider, length, rot90,
+    LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
 use crate::model::{
     self, Along, Effort as ModelEffort, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
-    Moment, SliderKind,
+    Moment, SliderKind, Stop,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -29,6 +29,8 @@ impl<T: Real> Evaluation<'_, T> {
             numbered.map(|(index, joint)| self.joint(JointId(index), joint, &mut contacts)).collect();
         let bodies = (0..model.bodies.len()).map(|index| self.body(BodyId(index), &joints)).collect();
         let coordinates = model.coordinates.iter().map(|coordinate| self.coordinate(coordinate)).collect();
+        let mut loads: Vec<Load<T>> = model.loads.iter().map(|load| self.load(load)).collect();
+        loads.extend(self.pads(&joints));
         Mechanism {
             title: model.title.clone(),
             gravity: self.gravity(),
@@ -36,7 +38,7 @@ impl<T: Real> Evaluation<'_, T> {
             bodies,
             joints,
             contacts,
-            loads: model.loads.iter().map(|load| self.load(load)).collect(),
+            loads,
             drives: model.drives.iter().map(|drive| self.drive(drive)).collect(),
             coordinates,
             events: model.events.iter().map(|event| self.event(event)).collect(),
@@ -176,7 +178,7 @@ impl<T: Real> Evaluation<'_, T> {
             height: if slider.around { -height } else { height },
             around: slider.around,
             travel: slider.travel.map(|travel| travel.map(|limit| self.value(limit))),
-            restitution: slider.restitution.map(|restitution| restitution.map(|value| self.value(value))),
+            stops: slider.stops.map(|stop| stop.map(|stop| stop.map(|id| self.value(id)))),
             contacts: (first..contacts.len()).map(ContactId).collect(),
         }
     }
@@ -223,6 +225,23 @@ impl<T: Real> Evaluation<'_, T> {
             }
         };
         Load { name: load.name.clone(), place: load.place.clone(), kind }
+    }
+
+    /// The pads at the ends of travels, as loads behind those of the model.
+    fn pads(&self, joints: &[Joint<T>]) -> Vec<Load<T>> {
+        let mut pads = Vec::new();
+        for (index, joint) in joints.iter().enumerate() {
+            let JointKind::Slider(Slider { travel: Some(travel), stops, .. }) = &joint.kind else { continue };
+            for (end, name) in ["least", "greatest"].into_iter().enumerate() {
+                let Some(constants) = stops[end].and_then(Stop::pad) else { continue };
+                let formula = FormulaId(self.model.formulas.len() + pads.len());
+                let (joint_id, greatest) = (JointId(index), end == 1);
+                let pad = Pad { joint: joint_id, greatest, place: travel[end], constants, formula };
+                let name = format!("{}.{name}_pad", joint.name).into();
+                pads.push(Load { name, place: joint.place.clone(), kind: LoadKind::Pad(pad) });
+            }
+        }
+        pads
     }
 
     fn drive(&self, drive: &model::Drive) -> Drive<T> {

@@ -4,15 +4,17 @@
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
 mod evaluation;
+mod pad;
 mod relations;
 
 use crate::expression::{Expression, Values};
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
-use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind};
+use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind, Stop};
 use evaluation::Evaluation;
 use nalgebra::Vector2;
+pub use pad::Pad;
 pub(crate) use relations::{Pieces, Relation};
 use std::sync::Arc;
 
@@ -128,8 +130,8 @@ pub struct Slider<T = f64> {
     pub around: bool,
     /// Limits of the displacement (m).
     pub travel: Option<[T; 2]>,
-    /// Coefficients of restitution of the stops at the least and at the greatest displacement; without, the motion ends there.
-    pub restitution: [Option<T>; 2],
+    /// The stops at the least and at the greatest displacement; without, the motion ends there.
+    pub stops: [Option<Stop<T>>; 2],
     /// Its contacts: front and rear of a block slider, else the only one.
     pub contacts: Vec<ContactId>,
 }
@@ -249,6 +251,8 @@ pub enum LoadKind<T = f64> {
         /// Torsional damping coefficient (N m s).
         damping: Quantity<T>,
     },
+    /// A pad at an end of the travel of a sliding joint.
+    Pad(Pad<T>),
 }
 
 /// A prescribed motion.
@@ -336,6 +340,17 @@ impl<T> CoordinateKind<T> {
     /// Whether the coordinate is an angle.
     pub fn is_angle(&self) -> bool {
         matches!(self, Self::Rotation(..))
+    }
+}
+
+impl Slider {
+    /// The least and the greatest displacement that are permitted (m), infinite where nothing limits it: a pad yields.
+    pub fn limits(&self) -> [f64; 2] {
+        let limit = |end: usize| {
+            let yields = self.stops[end].is_some_and(|stop| stop.pad().is_some());
+            self.travel.filter(|_| !yields).map(|travel| travel[end])
+        };
+        [limit(0).unwrap_or(f64::NEG_INFINITY), limit(1).unwrap_or(f64::INFINITY)]
     }
 }
 

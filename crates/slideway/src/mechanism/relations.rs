@@ -1,7 +1,7 @@
 //! The relations in the formulas of loads, drives and friction: where these jump or have a kink.
 
-use super::{LoadKind, Mechanism, Quantity};
-use crate::expression::{Piece, RelationKind};
+use super::{LoadKind, Mechanism, Pad, Quantity};
+use crate::expression::{Expression, Piece, RelationKind};
 use crate::ids::{ContactId, FormulaId};
 use std::sync::Arc;
 
@@ -10,10 +10,12 @@ use std::sync::Arc;
 pub(crate) struct Relation {
     /// The load, the drive, or the friction of a contact.
     pub(crate) owner: Arc<str>,
-    /// The formula.
+    /// The formula; that of a pad is no formula of the model.
     pub(crate) formula: FormulaId,
     /// A contact on whose sliding speed the formula depends: all that share it belong to one joint.
     pub(crate) contact: Option<ContactId>,
+    /// The pad of which the formula is the force.
+    pub(crate) pad: Option<Pad>,
     /// Its number within the formula.
     pub(crate) number: usize,
     /// What is known of it.
@@ -31,7 +33,7 @@ pub(crate) struct Pieces {
 impl Pieces {
     /// All relations follow their arguments.
     pub(crate) fn free(mechanism: &Mechanism, relations: &[Relation]) -> Self {
-        let formulas = 0..=mechanism.formulas.len();
+        let formulas = 0..=mechanism.formulas.len() + mechanism.pads().count();
         let first = formulas.map(|id| relations.partition_point(|relation| relation.formula.index() < id));
         Self { first: first.collect(), list: vec![Piece::Free; relations.len()] }
     }
@@ -53,7 +55,15 @@ impl Pieces {
 }
 
 impl Mechanism {
-    /// The relations in the formulas of loads, drives and friction, in the order of these formulas.
+    /// The pads among the loads, each with its name.
+    pub(crate) fn pads(&self) -> impl Iterator<Item = (&Arc<str>, &Pad)> {
+        self.loads.iter().filter_map(|load| match &load.kind {
+            LoadKind::Pad(pad) => Some((&load.name, pad)),
+            _ => None,
+        })
+    }
+
+    /// The relations in the formulas of loads, drives and friction, in the order of these formulas, then those of pads.
     pub(crate) fn relations(&self) -> Vec<Relation> {
         let loads = self.loads.iter().flat_map(|load| {
             quantities(&load.kind).into_iter().map(|quantity| (&load.name, quantity)).collect::<Vec<_>>()
@@ -71,11 +81,17 @@ impl Mechanism {
         let mut formulas: Vec<(FormulaId, Arc<str>, Option<ContactId>)> = moving.chain(laws).collect();
         formulas.sort_by_key(|(id, ..)| id.index());
         formulas.dedup_by_key(|(id, ..)| id.index());
-        let of_formula = |(formula, owner, contact): (FormulaId, Arc<str>, Option<ContactId>)| {
-            let kinds = self.formulas[formula.index()].expression.relations().into_iter().enumerate();
-            kinds.map(move |(number, kind)| Relation { owner: owner.clone(), formula, contact, number, kind })
+        let of = |expression: &Expression, (formula, owner): (FormulaId, &Arc<str>), contact, pad| {
+            let kinds = expression.relations().into_iter().enumerate();
+            let one = |(number, kind)| Relation { owner: owner.clone(), formula, contact, pad, number, kind };
+            kinds.map(one).collect::<Vec<_>>()
         };
-        formulas.into_iter().flat_map(of_formula).collect()
+        let of_model = formulas
+            .iter()
+            .flat_map(|(id, owner, contact)| of(self.expression(*id), (*id, owner), *contact, None));
+        let of_pads =
+            self.pads().flat_map(|(name, pad)| of(pad.law(), (pad.formula, name), None, Some(*pad)));
+        of_model.chain(of_pads).collect()
     }
 }
 
@@ -87,5 +103,6 @@ fn quantities(kind: &LoadKind) -> Vec<Quantity> {
         LoadKind::Spring { stiffness, free_length, .. } => vec![*stiffness, *free_length],
         LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => vec![*damping],
         LoadKind::TorsionalSpring { stiffness, free_angle, .. } => vec![*stiffness, *free_angle],
+        LoadKind::Pad(_) => Vec::new(),
     }
 }

@@ -1,7 +1,7 @@
 //! What can be checked in a model without moving it: circles of parameters, dimensions, ranges of values,
 //! relations between values, and how its parts are connected.
 
-use super::{Along, BODY_LIMIT, Contact, Formula, JointKind, LoadKind, Model, NamedPoint, Slider};
+use super::{Along, BODY_LIMIT, Contact, Formula, JointKind, LoadKind, Model, NamedPoint, Slider, Stop};
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame};
@@ -314,7 +314,7 @@ impl Model {
             let JointKind::Slider(slider) = &joint.kind else { continue };
             self.check_static_friction(slider, &value, faults);
             check_direction(&slider.along, &joint.place, &value, faults);
-            for restitution in slider.restitution.into_iter().flatten() {
+            for restitution in slider.stops.into_iter().flatten().filter_map(Stop::restitution) {
                 let formula = self.formula(restitution);
                 if let Some(value) = value(restitution).filter(|value| *value > 1.0) {
                     let what = formula.what.to_string();

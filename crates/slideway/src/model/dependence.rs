@@ -12,7 +12,7 @@
 //!
 //! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is constant.
 
-use super::{ForceValue, Gravity, Inertia, JointKind, LoadKind, Model, Moment};
+use super::{ForceValue, Gravity, Inertia, JointKind, LoadKind, Model, Moment, Slider, Stop};
 use crate::expression::{Degree, Symbol, Values};
 use crate::ids::FormulaId;
 use std::collections::BTreeSet;
@@ -126,7 +126,25 @@ impl Places<'_> {
     }
 
     fn loads(&mut self) -> Degree {
-        self.model.loads.iter().fold(Degree::Constant, |degree, load| degree.max(self.load(&load.kind)))
+        let pads = self.pads();
+        self.model.loads.iter().fold(pads, |degree, load| degree.max(self.load(&load.kind)))
+    }
+
+    /// Pads at ends of travels: whether one pushes may change with any of its numbers.
+    fn pads(&mut self) -> Degree {
+        let sliders = self.model.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => Some(slider),
+            JointKind::Hinge(_) => None,
+        });
+        let numbers = |slider: &Slider| {
+            let ends = slider.travel.into_iter().flatten().zip(slider.stops);
+            let pads = ends.filter_map(|(end, stop)| Some((end, stop?.pad()?)));
+            pads.flat_map(|(end, [stiffness, damping])| [end, stiffness, damping]).collect::<Vec<_>>()
+        };
+        match self.greatest(sliders.flat_map(|slider| numbers(slider)).collect::<Vec<_>>()) {
+            Degree::Constant => Degree::Constant,
+            _ => Degree::Other,
+        }
     }
 
     fn load(&mut self, load: &LoadKind) -> Degree {
@@ -178,7 +196,7 @@ impl Places<'_> {
             self.model.contacts().filter_map(|contact| contact.stiffness).collect();
         let travel = self.model.joints.iter().flat_map(|joint| match &joint.kind {
             JointKind::Slider(slider) => {
-                let stops = slider.restitution.into_iter().flatten();
+                let stops = slider.stops.into_iter().flatten().filter_map(Stop::restitution);
                 slider.travel.into_iter().flatten().chain(stops).collect()
             }
             JointKind::Hinge(_) => Vec::new(),

@@ -172,7 +172,7 @@ pub(super) struct BlockSliderTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. }. Default: the motion ends there.
+    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = .. }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
     /// The contact at the end in the direction of `along`.
     pub(super) front: Option<EndTable>,
@@ -228,7 +228,7 @@ pub(super) struct GuidedSliderTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. }. Default: the motion ends there.
+    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = .. }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
 }
 
@@ -254,7 +254,7 @@ pub(super) struct PinInSlotTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. }. Default: the motion ends there.
+    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = .. }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
 }
 
@@ -264,6 +264,10 @@ pub(super) struct PinInSlotTable {
 pub(super) struct StopTable {
     /// Coefficient of restitution at both ends, from 0 to 1: the part of the velocity with which the block comes back.
     pub(super) restitution: Option<Quantity>,
+    /// Stiffness of the pads at both ends (N/m), in place of `restitution`.
+    pub(super) stiffness: Option<Quantity>,
+    /// Damping coefficient of the pads (N s/m). Default: 0.
+    pub(super) damping: Option<Quantity>,
     /// The stop at the least displacement.
     pub(super) least: Option<StopAtEndTable>,
     /// The stop at the greatest displacement.
@@ -275,7 +279,11 @@ pub(super) struct StopTable {
 #[schemars(deny_unknown_fields)]
 pub(super) struct StopAtEndTable {
     /// Coefficient of restitution, from 0 to 1.
-    pub(super) restitution: Quantity,
+    pub(super) restitution: Option<Quantity>,
+    /// Stiffness of a pad (N/m), in place of `restitution`.
+    pub(super) stiffness: Option<Quantity>,
+    /// Damping coefficient of the pad (N s/m). Default: 0.
+    pub(super) damping: Option<Quantity>,
 }
 
 /// How block and guide lie in each other.

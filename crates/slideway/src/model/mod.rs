@@ -39,6 +39,7 @@ mod range;
 mod read;
 mod sections;
 mod settings;
+mod stop;
 mod structure;
 
 pub(crate) use dependence::Dependence;
@@ -46,6 +47,7 @@ pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
 pub use formula::{Allowed, Formula, Origin, Varies};
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
+pub use stop::Stop;
 
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
@@ -220,8 +222,8 @@ pub struct Slider {
     pub around: bool,
     /// Limits of the displacement.
     pub travel: Option<[FormulaId; 2]>,
-    /// Coefficients of restitution of the stops at the least and at the greatest displacement; without, the motion ends there.
-    pub restitution: [Option<FormulaId>; 2],
+    /// The stops at the least and at the greatest displacement; without, the motion ends there.
+    pub stops: [Option<Stop<FormulaId>>; 2],
     /// Its contacts: front and rear of a block slider, else the only one.
     pub contacts: Vec<Contact>,
 }

@@ -16,7 +16,7 @@ pub(super) fn kinetic(mechanism: &Mechanism, configuration: &Configuration) -> f
     bodies.map(one).sum()
 }
 
-/// Potential energy of weights, springs and torsional springs with constant properties (J); weights count from the
+/// Potential energy of weights, pads, springs and torsional springs with constant properties (J); weights count from the
 /// origin.
 pub(super) fn potential(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
     let bodies = mechanism.bodies.iter().zip(&configuration.poses);
@@ -41,12 +41,13 @@ fn elastic(mechanism: &Mechanism, configuration: &Configuration, load: &Load) ->
             stiffness: Quantity::Constant(stiffness),
             free_angle: Quantity::Constant(free_angle),
         } => (*stiffness, configuration.angle(*first) - configuration.angle(*second) - free_angle),
+        LoadKind::Pad(pad) => return pad.elastic(configuration.depth(mechanism, pad))[0],
         _ => return 0.0,
     };
     stiffness * stretch.powi(2) / 2.0
 }
 
-/// Whether the work of a load is counted as potential energy: a spring that does not change.
+/// Whether the work of a load is counted as potential energy: a spring that does not change, a pad without damping.
 pub(super) fn is_conservative(load: &Load) -> bool {
     let constant = |quantity: &Quantity| matches!(quantity, Quantity::Constant(_));
     match &load.kind {
@@ -54,6 +55,7 @@ pub(super) fn is_conservative(load: &Load) -> bool {
         LoadKind::TorsionalSpring { stiffness, free_angle, .. } => {
             constant(stiffness) && constant(free_angle)
         }
+        LoadKind::Pad(pad) => pad.constants[1] == 0.0,
         _ => false,
     }
 }
@@ -71,7 +73,8 @@ pub(super) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
             0.0
         } else {
             let wrenches = equations.applied.of_load(index).iter();
-            wrenches.map(|wrench| power_of(&equations.configuration, wrench)).sum()
+            let power: f64 = wrenches.map(|wrench| power_of(&equations.configuration, wrench)).sum();
+            power + stored(equations, &equations.mechanism.loads[index])
         };
     }
     for (index, power) in drives.iter_mut().enumerate() {
@@ -79,6 +82,15 @@ pub(super) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
         let units = effort_forces(equations.mechanism, &equations.configuration, effort);
         let unit: f64 = units.map(|wrench| power_of(&equations.configuration, &wrench)).sum();
         *power = equations.effort(DriveId(index)) * unit;
+    }
+}
+
+/// The power that a load stores as potential energy while the rest of it is work (W): the spring of a pad. The block leaves the pad
+/// before that is back at its place; what is stored then is lost in the damper.
+fn stored(equations: &Equations<'_>, load: &Load) -> f64 {
+    match &load.kind {
+        LoadKind::Pad(pad) => pad.elastic(equations.configuration.depth(equations.mechanism, pad))[1],
+        _ => 0.0,
     }
 }
 

@@ -49,8 +49,22 @@ pub enum Cause {
         joint: JointId,
         /// Whether it is the stop at the greatest displacement.
         greatest: bool,
-        /// Kinetic energy that is lost (J).
-        energy_lost: f64,
+        /// Kinetic energy that is lost (J); of joints that act on one another the first has that of all.
+        energy_lost: Option<f64>,
+    },
+    /// A sliding joint meets the pad at an end of its travel, which begins to push.
+    MeetsPad {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the pad at the greatest displacement.
+        greatest: bool,
+    },
+    /// A sliding joint leaves such a pad, which has ceased to push.
+    LeavesPad {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the pad at the greatest displacement.
+        greatest: bool,
     },
     /// A load or drive jumps: a relation in its formula, or a table, passes to its next piece.
     LoadJumps(String),
@@ -64,7 +78,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// The cause that a watched function is; none for relations, of which only jumps are told.
+    /// The cause that a watched function is; none for relations, of which only jumps are told, and where it takes a decision to name it.
     pub(super) fn of(watched: Watched, sliders: &[JointId], names: impl Fn(usize) -> String) -> Option<Self> {
         Some(match watched {
             Watched::NormalForce(contact) => Self::NormalForceZero(contact),
@@ -80,7 +94,7 @@ impl Cause {
             Watched::Overlap(joint) => Self::OverlapVanishes(joint),
             Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
             Watched::User(index, _) => Self::User(index, names(index)),
-            Watched::Relation(_) => return None,
+            Watched::Relation(_) | Watched::HeldReactions => return None,
         })
     }
 
@@ -98,6 +112,8 @@ impl Cause {
             Self::OverlapVanishes(_) => "overlap_vanishes",
             Self::TravelLimit { .. } => "travel_limit",
             Self::Hits { .. } => "hits",
+            Self::MeetsPad { .. } => "meets_pad",
+            Self::LeavesPad { .. } => "leaves_pad",
             Self::LoadJumps(_) => "load_jumps",
             Self::User(..) => "user",
             Self::Jams { .. } => "jams",
@@ -114,7 +130,9 @@ impl Cause {
             | Self::Tips(joint)
             | Self::OverlapVanishes(joint)
             | Self::TravelLimit { joint, .. }
-            | Self::Hits { joint, .. } => Some(&mechanism.joints[joint.index()].name),
+            | Self::Hits { joint, .. }
+            | Self::MeetsPad { joint, .. }
+            | Self::LeavesPad { joint, .. } => Some(&mechanism.joints[joint.index()].name),
             Self::User(_, name) | Self::LoadJumps(name) => Some(name),
             Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
         }
@@ -130,7 +148,7 @@ impl Cause {
 
     /// Whether the phase cannot simply go on.
     pub(super) fn ends_phase(&self) -> bool {
-        !matches!(self, Self::User(..))
+        !matches!(self, Self::User(..) | Self::LeavesPad { .. })
     }
 }
 
@@ -198,16 +216,21 @@ impl Words<'_> {
             Cause::Tips(joint) => format!("{} begins to tip in its guide", self.name(*joint)),
             Cause::OverlapVanishes(joint) => format!("{} leaves its guide", self.name(*joint)),
             Cause::TravelLimit { joint, greatest } => {
-                let end = if *greatest { "greatest" } else { "least" };
-                format!("{} reaches the {end} displacement of its travel", self.name(*joint))
+                format!("{} reaches the {} displacement of its travel", self.name(*joint), end(*greatest))
             }
             Cause::Hits { joint, greatest, energy_lost } => {
-                let end = if *greatest { "greatest" } else { "least" };
-                let name = self.name(*joint);
-                format!(
-                    "{name} hits the stop at its {end} displacement, which takes {} J",
-                    number(*energy_lost)
-                )
+                let hits =
+                    format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
+                match energy_lost {
+                    Some(energy) => format!("{hits}, which takes {} J", number(*energy)),
+                    None => format!("{hits} in the same impact"),
+                }
+            }
+            Cause::MeetsPad { joint, greatest } => {
+                format!("{} meets the pad at its {} displacement", self.name(*joint), end(*greatest))
+            }
+            Cause::LeavesPad { joint, greatest } => {
+                format!("{} leaves the pad at its {} displacement", self.name(*joint), end(*greatest))
             }
             Cause::LoadJumps(name) => format!("{name} jumps"),
             Cause::User(_, name) => format!("{name} passes zero"),
@@ -290,6 +313,11 @@ impl Words<'_> {
     fn contact(&self, contact: ContactId) -> &str {
         &self.mechanism.contacts[contact.index()].name
     }
+}
+
+/// Which end of a travel.
+fn end(greatest: bool) -> &'static str {
+    if greatest { "greatest" } else { "least" }
 }
 
 /// Where something moves, as one looks at the drawing.

@@ -36,6 +36,8 @@ pub struct History {
     pub(super) size: usize,
     /// Energy lost in impulses: when, and how much up to then.
     pub(super) impulses: Vec<(f64, f64)>,
+    /// Contacts whose normal forces were asked for while joints stuck, and are not determined then.
+    pub(super) undetermined: Vec<ContactId>,
     pub(super) initial: Configuration,
     pub(super) last: (f64, Vec<f64>),
 }

@@ -7,7 +7,7 @@ use super::options::SimulateOptions;
 use super::phase::JointPhase;
 use super::series::Series;
 use crate::configuration::{Configuration, unit};
-use crate::mechanism::Mechanism;
+use crate::ids::ContactId;
 use crate::report::number::number;
 use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
 use serde::Serialize;
@@ -208,7 +208,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             .collect(),
         phases: phases(history),
         end: end_report(history, options),
-        hints: hints(mechanism),
+        hints: hints(history),
         energy: energy(history),
         position_drift: history.drift.position,
         velocity_drift: history.drift.velocity,
@@ -222,8 +222,10 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     }
 }
 
-/// A load that jumps with a rate is friction without a state of rest.
-fn hints(mechanism: &Mechanism) -> Vec<String> {
+/// A load that jumps with a rate is friction without a state of rest; a limit of normal forces does not see those that are not
+/// determined.
+fn hints(history: &History) -> Vec<String> {
+    let mechanism = &history.mechanism;
     let relations = mechanism.relations().into_iter();
     let mut loads: Vec<String> = relations
         .filter(|relation| relation.kind.jumps && relation.kind.of_rates)
@@ -235,7 +237,16 @@ fn hints(mechanism: &Mechanism) -> Vec<String> {
             "{load} jumps where a rate passes zero, as friction does, but has no state of rest: where the motion stops it takes ever shorter steps. Give the joint its own friction (`mu`, `mu_static`, preload) instead."
         )
     };
-    loads.into_iter().map(hint).collect()
+    let mut hints: Vec<String> = loads.into_iter().map(hint).collect();
+    if !history.undetermined.is_empty() {
+        let name = |contact: &ContactId| mechanism.contacts[contact.index()].name.to_string();
+        let names: Vec<String> = history.undetermined.iter().map(name).collect();
+        hints.push(format!(
+            "the normal forces of {} are not determined while joints stick: how contacts share the friction is open, and the limit of the normal forces does not see them then.",
+            names.join(", ")
+        ));
+    }
+    hints
 }
 
 fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateState> {
@@ -267,7 +278,8 @@ fn event_report(history: &History, event: &Event) -> EventReport {
     };
     let several = event.successors.len() > 1;
     let lost = event.causes.iter().map(|cause| match cause {
-        super::Cause::Jams { energy_lost } | super::Cause::Hits { energy_lost, .. } => *energy_lost,
+        super::Cause::Jams { energy_lost } => *energy_lost,
+        super::Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
         _ => 0.0,
     });
     EventReport {

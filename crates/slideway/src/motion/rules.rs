@@ -85,6 +85,19 @@ pub trait Decisions {
         phase: &Phase,
     ) -> Result<f64, Faults>;
 
+    /// The normal force of each contact in a phase in which joints stick (N), nothing where statics does not determine it.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces at the instant from being computed.
+    fn normal_forces(
+        &mut self,
+        mechanism: &Mechanism,
+        _configuration: &Configuration,
+        _phase: &Phase,
+    ) -> Result<Vec<Option<f64>>, Faults> {
+        Ok(vec![None; mechanism.contacts.len()])
+    }
+
     /// What computes [`sticking_margin`](Self::sticking_margin) faster for a mechanism without drives that stands still;
     /// nothing if nothing does.
     ///
@@ -151,6 +164,15 @@ impl Decisions for Thorough {
         phase: &Phase,
     ) -> Result<f64, Faults> {
         decision::sticking_margin(mechanism, configuration, phase)
+    }
+
+    fn normal_forces(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        phase: &Phase,
+    ) -> Result<Vec<Option<f64>>, Faults> {
+        decision::determined_normal_forces(mechanism, configuration, phase)
     }
 
     fn hold<'m>(

@@ -1,5 +1,6 @@
 //! The loop: a phase, an event, a decision, and so on.
 
+use super::decision::Blow;
 use super::equations::{Drift, Equations, Failure};
 use super::event::{Cause, Event, Words};
 use super::history::{End, Energy, History, PhaseInterval, Statistics, Step};
@@ -7,7 +8,7 @@ use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
 use super::rules::{Decisions, Instant, Successor, Successors};
 use super::smooth::{Ended, Smooth};
-use super::stop;
+use super::stop::{self, Hit};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
@@ -57,6 +58,7 @@ impl<'a, 'm> Run<'a, 'm> {
             dense: Vec::new(),
             size: state.len(),
             impulses: Vec::new(),
+            undetermined: Vec::new(),
             initial: configuration.clone(),
             last: (configuration.time, state.clone()),
         };
@@ -77,6 +79,7 @@ impl<'a, 'm> Run<'a, 'm> {
         self.history.end = end;
         self.history.last = (self.smooth.time, self.smooth.state.clone());
         self.history.statistics.evaluations = self.smooth.equations.evaluations;
+        self.history.undetermined = self.smooth.undetermined.iter().copied().collect();
         if let Some(interval) = self.history.phases.last_mut() {
             interval.to = self.smooth.time;
         }
@@ -122,7 +125,11 @@ impl<'a, 'm> Run<'a, 'm> {
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
             Err(Failure::Singular) => return Ended::End(End::Jammed),
         }
-        let exceeded = self.smooth.exceeded_reactions();
+        let exceeded = match self.smooth.exceeded_reactions(phase, self.decisions) {
+            Ok(exceeded) => exceeded,
+            Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
+            Err(Failure::Singular) => return Ended::End(End::Jammed),
+        };
         if !exceeded.is_empty() {
             return Ended::Event(exceeded);
         }
@@ -242,24 +249,35 @@ impl<'a, 'm> Run<'a, 'm> {
         Ok(Some(End::Jammed))
     }
 
-    /// The impact of a joint on its stop, if the causes tell of one.
+    /// The impact of joints on their stops, if the causes tell of one.
     fn hit(&mut self, causes: &mut Vec<Cause>) -> Result<bool, Faults> {
         let mechanism = self.smooth.equations.mechanism;
-        let Some(hit) = stop::only_hit(mechanism, causes)? else { return Ok(false) };
+        let hits = stop::hits(mechanism, causes);
+        if hits.is_empty() {
+            return Ok(false);
+        }
         if let Some(phase) = self.phase.clone() {
-            self.smooth.put_at(&phase, hit.joint, hit.displacement);
+            hits.iter().for_each(|hit| self.smooth.put_at(&phase, hit.joint, hit.displacement));
         }
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let configuration = self.smooth.equations.configuration.clone();
-        let impact = stop::impact_of(hit, mechanism, &configuration, self.decisions)?;
+        let impact = stop::impact_of(&hits, mechanism, &configuration, self.decisions)?;
         self.smooth.set_velocities(&impact.after.velocities);
-        self.note_impulse(impact.energy_lost);
         causes.retain(|cause| !matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_)));
-        causes.push(Cause::Hits {
-            joint: hit.joint,
-            greatest: hit.greatest,
-            energy_lost: impact.energy_lost,
-        });
+        for Blow { stops, energy_lost } in impact.blows {
+            self.note_impulse(energy_lost);
+            for (index, (joint, _)) in stops.into_iter().enumerate() {
+                let greatest = hits.iter().any(|hit| hit.joint == joint && hit.greatest);
+                let energy_lost = (index == 0).then_some(energy_lost);
+                causes.push(Cause::Hits { joint, greatest, energy_lost });
+            }
+        }
+        for Hit { joint, greatest, .. } in hits {
+            let is_told = |cause: &Cause| matches!(cause, Cause::Hits { joint: told, .. } if *told == joint);
+            if !causes.iter().any(is_told) {
+                causes.push(Cause::Hits { joint, greatest, energy_lost: Some(0.0) });
+            }
+        }
         Ok(true)
     }
 

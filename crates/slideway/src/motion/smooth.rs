@@ -13,7 +13,8 @@ use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
 use crate::fault::{Fault, FaultKind};
-use crate::ids::JointId;
+use crate::ids::{ContactId, JointId};
+use std::collections::BTreeSet;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
 const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
@@ -76,6 +77,8 @@ pub(super) struct Smooth<'o, 'm> {
     hold: Option<Box<dyn Hold + 'm>>,
     /// No step goes beyond this time.
     stop: f64,
+    /// Contacts whose normal forces were beyond what statics determines when they were asked for.
+    pub(super) undetermined: BTreeSet<ContactId>,
 }
 
 impl<'o, 'm> Smooth<'o, 'm> {
@@ -105,6 +108,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             inside: vec![0.0; size],
             hold: None,
             stop: time,
+            undetermined: BTreeSet::new(),
             state,
             equations,
         };
@@ -155,13 +159,60 @@ impl<'o, 'm> Smooth<'o, 'm> {
     }
 
     /// The contacts whose normal forces are beyond the limit where the phase begins.
-    pub(super) fn exceeded_reactions(&self) -> Vec<Cause> {
+    ///
+    /// # Errors
+    /// Whatever keeps normal forces of joints that stick from being computed.
+    pub(super) fn exceeded_reactions(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<Vec<Cause>, Failure> {
         let values = self.watch.list.iter().zip(&self.values[0]);
-        let exceeded =
-            values.filter(|(watched, value)| matches!(watched, Watched::ReactionLimit(_)) && **value <= 0.0);
-        exceeded
-            .filter_map(|(watched, _)| Cause::of(*watched, &self.equations.sliders, |_| String::new()))
-            .collect()
+        let limits =
+            |watched: &Watched| matches!(watched, Watched::ReactionLimit(_) | Watched::HeldReactions);
+        let exceeded: Vec<Watched> = values
+            .filter(|(watched, value)| limits(watched) && **value <= 0.0)
+            .map(|(watched, _)| *watched)
+            .collect();
+        let mut causes = self.causes(&exceeded);
+        causes.extend(self.held_causes(&exceeded, phase, decisions)?);
+        Ok(causes)
+    }
+
+    /// The contacts with the greatest of the normal forces that statics determines while joints stick, if these are what has reached its limit.
+    fn held_causes(
+        &mut self,
+        watched: &[Watched],
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<Vec<Cause>, Failure> {
+        if !watched.contains(&Watched::HeldReactions) {
+            return Ok(Vec::new());
+        }
+        self.equations.place(self.time, &self.state);
+        let forces = self.held_forces(phase, decisions)?;
+        let greatest = forces.iter().map(|(_, force)| *force).fold(0.0, f64::max);
+        let tolerance = self.watch.tolerance(Watched::HeldReactions, &self.equations);
+        let reached = forces.into_iter().filter(|(_, force)| *force >= greatest - tolerance);
+        Ok(reached.map(|(contact, _)| Cause::ReactionLimit(contact)).collect())
+    }
+
+    /// The magnitudes of the normal forces that statics determines while joints stick (N), at the last evaluation.
+    fn held_forces(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<Vec<(ContactId, f64)>, Failure> {
+        let Equations { mechanism, configuration, .. } = &self.equations;
+        let forces = decisions.normal_forces(mechanism, configuration, phase).map_err(Failure::Loads)?;
+        let mut known = Vec::new();
+        for (k, force) in forces.into_iter().enumerate() {
+            match force {
+                Some(force) => known.push((ContactId(k), force.abs())),
+                None => _ = self.undetermined.insert(ContactId(k)),
+            }
+        }
+        Ok(known)
     }
 
     /// A step within which neither positions nor velocities change much.
@@ -245,7 +296,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             Ok(Some((mut fraction, watched))) => {
                 let dense = history.dense.split_off(first);
                 self.next = step;
-                let causes = self.causes(&watched);
+                let mut causes = self.causes(&watched);
                 if fraction > 1.0 - SAME_INSTANT {
                     // It happens where the step was to end in any case.
                     fraction = 1.0;
@@ -259,6 +310,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
                         self.go_on(fraction * step, phase, decisions)
                     }
                     Ok(()) => {
+                        match self.held_causes(&watched, phase, decisions) {
+                            Ok(reached) => causes.extend(reached),
+                            Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
+                            Err(Failure::Singular) => return Some(Ended::Event(vec![Cause::Locks])),
+                        }
                         let mut switches = self.due();
                         switches.extend(watched.iter().filter_map(|watched| match watched {
                             Watched::Relation(switch) => Some(*switch),
@@ -287,9 +343,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
     }
 
-    /// Puts relations on their next pieces; the loads and drives that jump there are causes of the event.
+    /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the event.
     fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
-        causes.extend(self.switching.switch(switches).into_iter().map(Cause::LoadJumps));
+        causes.extend(self.switching.switch(switches));
         self.equations.hold(&self.switching);
         Ended::Event(causes)
     }
@@ -459,6 +515,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if let Watched::Relation(switch) = watched {
             return Ok(self.switching.margin(&equations.configuration, switch));
         }
+        if watched == Watched::HeldReactions {
+            let forces = self.held_forces(phase, decisions)?.into_iter().map(|(_, force)| force);
+            return Ok(self.watch.reaction_limit() - forces.fold(0.0, f64::max));
+        }
+        let equations = &self.equations;
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
             let margin = match &mut self.hold {
@@ -555,9 +616,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// Whether a function is below zero at the end, beyond rounding where it was not above zero before.
     fn is_below(&self, fall: &Fall) -> bool {
         let [before, after] = fall.values;
-        if let Watched::User(..) | Watched::Relation(_) = self.watch.list[fall.index] {
+        match self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
-            return after <= 0.0 && before > USER_ZERO * after.abs();
+            Watched::User(..) => return after <= 0.0 && before > USER_ZERO * after.abs(),
+            // Just behind the end of its piece it is on the next one, and above zero: if it falls from zero, however that was rounded,
+            // the step before has ended at the end of the piece.
+            Watched::Relation(_) => return after < 0.0 && before > -USER_ZERO * after.abs(),
+            _ => {}
         }
         let tolerance = self.watch.tolerance(self.watch.list[fall.index], &self.equations);
         if self.watch.list[fall.index] == Watched::Sticking {

@@ -4,7 +4,7 @@ use super::decision::{Impact, TOUCHES, impact, phase_state};
 use super::event::Cause;
 use super::rules::{Decisions, Instant};
 use crate::configuration::Configuration;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 
@@ -23,45 +23,44 @@ pub(super) struct Hit {
 pub(super) fn of_limit(mechanism: &Mechanism, joint: JointId, greatest: bool) -> Option<Hit> {
     let slider = mechanism.slider(joint)?;
     let end = usize::from(greatest);
-    let (restitution, displacement) = (slider.restitution[end]?, slider.travel?[end]);
+    let (restitution, displacement) = (slider.stops[end]?.restitution()?, slider.travel?[end]);
     Some(Hit { joint, greatest, restitution, displacement })
 }
 
-/// The only stop that is reached with these causes, if one is.
-///
-/// # Errors
-/// Several at once: in which order they act would decide what follows.
-pub(super) fn only_hit(mechanism: &Mechanism, causes: &[Cause]) -> Result<Option<Hit>, Faults> {
-    let hits: Vec<Hit> = causes
-        .iter()
-        .filter_map(|cause| match cause {
-            Cause::TravelLimit { joint, greatest } => of_limit(mechanism, *joint, *greatest),
-            _ => None,
-        })
-        .collect();
-    if hits.len() > 1 {
-        let joints = hits.iter().map(|hit| mechanism.joints[hit.joint.index()].name.to_string()).collect();
-        return Err(Fault::general(FaultKind::SeveralStops { joints }).into());
-    }
-    Ok(hits.first().copied())
+/// The stops that are reached with these causes.
+pub(super) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hit> {
+    let hit = |cause: &Cause| match cause {
+        Cause::TravelLimit { joint, greatest } => of_limit(mechanism, *joint, *greatest),
+        _ => None,
+    };
+    causes.iter().filter_map(hit).collect()
 }
 
-/// The impact on a stop: with its restitution, or without where the next flight would be within the rounding of places, so
-/// that what bounces has come to rest at the stop.
+/// The impact on stops: with their restitution, or without where the next flight would be within the rounding of places, so
+/// that what bounces has come to rest at its stop.
 ///
 /// # Errors
 /// As [`impact`], and whatever keeps the next flight from being decided.
 pub(super) fn impact_of(
-    hit: Hit,
+    hits: &[Hit],
     mechanism: &Mechanism,
     configuration: &Configuration,
     decisions: &mut dyn Decisions,
 ) -> Result<Impact, Faults> {
-    let rebound = impact(mechanism, configuration, hit.joint, hit.restitution)?;
-    if hit.restitution > 0.0 && !flies(hit, mechanism, &rebound.after, decisions)? {
-        return impact(mechanism, configuration, hit.joint, 0.0);
+    let mut stops: Vec<(JointId, f64)> = hits.iter().map(|hit| (hit.joint, hit.restitution)).collect();
+    loop {
+        let rebound = impact(mechanism, configuration, &stops)?;
+        let mut rests = false;
+        for (hit, (_, restitution)) in hits.iter().zip(&mut stops) {
+            if *restitution > 0.0 && !flies(*hit, mechanism, &rebound.after, decisions)? {
+                *restitution = 0.0;
+                rests = true;
+            }
+        }
+        if !rests {
+            return Ok(rebound);
+        }
     }
-    Ok(rebound)
 }
 
 /// Whether the way of the flight after an impact can be told from rounding: `u^2/(2 a)` with the velocity `u` away from the stop and the

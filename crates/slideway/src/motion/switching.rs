@@ -6,12 +6,13 @@
 //! interval arithmetic proves the margin to be positive, and what is left is a time within rounding. So none is missed,
 //! however long the steps are.
 
+use super::event::Cause;
 use super::root::first_fall;
 use crate::configuration::Configuration;
 use crate::expression::{End, Expression, Piece, Values};
 use crate::ids::JointId;
 use crate::interval::Interval;
-use crate::mechanism::{Mechanism, Pieces, Relation};
+use crate::mechanism::{Mechanism, Pad, Pieces, Relation};
 use std::sync::Arc;
 
 /// The first look ahead, in units in the last place of the time.
@@ -70,10 +71,14 @@ impl<'m> Switching<'m> {
     /// How far a relation is from an end of its piece; infinite where it has none.
     pub(super) fn margin(&self, configuration: &Configuration, (relation, end): Switch) -> f64 {
         let Configuration { coordinates, rates, time, .. } = configuration;
-        let sliding_speed = self.speed(configuration, relation);
-        let values = Values { sliding_speed, ..self.mechanism.values(coordinates, rates, *time) };
         let (expression, pieces, number) = self.of(relation);
-        expression.margin(&values, pieces, (number, end)).unwrap_or(f64::INFINITY)
+        let margin =
+            |values: &Values<'_>| expression.margin(values, pieces, (number, end)).unwrap_or(f64::INFINITY);
+        if let Some(pad) = &self.relations[relation].pad {
+            return margin(&pad.values(&configuration.depth(self.mechanism, pad)));
+        }
+        let sliding_speed = self.speed(configuration, relation);
+        margin(&Values { sliding_speed, ..self.mechanism.values(coordinates, rates, *time) })
     }
 
     /// The first time after `time`, and at most `until`, at which a relation of time alone leaves its piece; infinite if none
@@ -106,20 +111,35 @@ impl<'m> Switching<'m> {
         std::mem::take(&mut self.due)
     }
 
-    /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there.
-    pub(super) fn switch(&mut self, switches: &[Switch]) -> Vec<String> {
-        let mut jumping: Vec<String> = Vec::new();
+    /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there, and the pads that begin or
+    /// cease to push.
+    pub(super) fn switch(&mut self, switches: &[Switch]) -> Vec<Cause> {
+        let mut causes: Vec<Cause> = Vec::new();
+        let pads = self.pushing();
         for &(relation, end) in switches {
             let (expression, _, number) = self.of(relation);
             let Piece::Held(piece) = self.pieces.piece(relation) else { continue };
             let beyond = expression.beyond(number, piece, end);
             self.set(relation, Piece::Held(beyond));
-            let Relation { owner, kind, .. } = &self.relations[relation];
-            if kind.jumps && !jumping.iter().any(|name| **name == **owner) {
-                jumping.push(owner.to_string());
+            let Relation { owner, kind, pad, .. } = &self.relations[relation];
+            let cause = Cause::LoadJumps(owner.to_string());
+            if kind.jumps && pad.is_none() && !causes.contains(&cause) {
+                causes.push(cause);
             }
         }
-        jumping
+        let changes =
+            pads.into_iter().zip(self.pushing()).filter(|((_, before), (_, after))| before != after);
+        causes.extend(changes.map(|(_, (pad, meets))| {
+            let Pad { joint, greatest, .. } = *pad;
+            if meets { Cause::MeetsPad { joint, greatest } } else { Cause::LeavesPad { joint, greatest } }
+        }));
+        causes
+    }
+
+    /// The pads, and whether each pushes.
+    fn pushing(&self) -> Vec<(&'m Pad, bool)> {
+        let pushes = |pad: &Pad| self.pieces.of(pad.formula).iter().all(|piece| *piece == Piece::Held(1));
+        self.mechanism.pads().map(|(_, pad)| (pad, pushes(pad))).collect()
     }
 
     /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none, and for those of the
@@ -157,8 +177,12 @@ impl<'m> Switching<'m> {
     }
 
     fn of(&self, relation: usize) -> (&'m Expression, &[Piece], usize) {
-        let Relation { formula, number, .. } = self.relations[relation];
-        (self.mechanism.expression(formula), self.pieces.of(formula), number)
+        let Relation { formula, number, ref pad, .. } = self.relations[relation];
+        let expression = match pad {
+            Some(pad) => pad.law(),
+            None => self.mechanism.expression(formula),
+        };
+        (expression, self.pieces.of(formula), number)
     }
 
     fn set(&mut self, relation: usize, piece: Piece) {
@@ -176,26 +200,41 @@ impl<'m> Switching<'m> {
     /// velocities go on; what stops can only become faster. Free if it can be told nowhere: the argument stays at the threshold.
     fn ahead(&self, configuration: &Configuration, relation: usize, speed: f64) -> Piece {
         let (expression, pieces, number) = self.of(relation);
-        let Configuration { coordinates, rates, time, .. } = configuration;
+        let time = &configuration.time;
+        let arguments = self.arguments(configuration, relation);
+        let [parameters, coordinates, rates] = &arguments;
         let first = if *time == 0.0 { NEAREST } else { NEXT * f64::EPSILON * time.abs() };
         let steps = std::iter::once(0.0).chain((0..LOOKS).map(|look| first * FARTHER.powi(look)));
-        let rates: Vec<Interval> = rates.iter().map(|rate| Interval::point(*rate)).collect();
         let piece = |step: f64| {
             let sliding_speed = Interval::point(if speed == 0.0 { step } else { speed });
             let step = Interval::point(step);
-            let moved = coordinates.iter().zip(&rates);
-            let coordinates: Vec<Interval> =
-                moved.map(|(value, rate)| Interval::point(*value) + step * *rate).collect();
+            let moved = coordinates.iter().zip(rates);
+            let coordinates: Vec<Interval> = moved.map(|(value, rate)| *value + step * *rate).collect();
             let values = Values {
-                parameters: &self.parameters,
+                parameters,
                 coordinates: &coordinates,
-                rates: &rates,
+                rates,
                 time: Interval::point(*time) + step,
                 sliding_speed,
             };
             expression.piece(&values, pieces, number)
         };
         steps.into_iter().find_map(piece).map_or(Piece::Free, Piece::Held)
+    }
+
+    /// Parameters, coordinates and rates of the formula of a relation.
+    fn arguments(&self, configuration: &Configuration, relation: usize) -> [Vec<Interval>; 3] {
+        let points = |values: &[f64]| values.iter().map(|value| Interval::point(*value)).collect();
+        match &self.relations[relation].pad {
+            Some(pad) => {
+                let [depth, rate] = configuration.depth(self.mechanism, pad);
+                [points(&pad.constants), points(&[depth]), points(&[rate])]
+            }
+            None => {
+                let Configuration { coordinates, rates, .. } = configuration;
+                [self.parameters.clone(), points(coordinates), points(rates)]
+            }
+        }
     }
 
     /// The first time in a range at which a relation of time alone leaves its piece.

@@ -40,6 +40,8 @@ pub(super) enum Watched {
     Determinant,
     /// How much the normal force of a contact may still grow.
     ReactionLimit(ContactId),
+    /// How much the greatest of the normal forces that statics determines may still grow while joints stick.
+    HeldReactions,
     /// |N| L/2 - |C| of a guided slider.
     Couple(JointId),
     /// By how much the sticking joints can still stick.
@@ -74,7 +76,7 @@ impl Watched {
             | Self::Determinant
             | Self::ReactionLimit(_)
             | Self::Couple(_) => Needs::Forces,
-            Self::Sticking => Needs::Standstill,
+            Self::Sticking | Self::HeldReactions => Needs::Standstill,
             Self::Velocity(..) | Self::Overlap(_) | Self::Travel(..) | Self::User(..) | Self::Relation(_) => {
                 Needs::Motion
             }
@@ -136,12 +138,18 @@ impl<'o> Watch<'o> {
             if slider.kind == SliderKind::Block {
                 self.list.push(Watched::Overlap(*joint));
             }
-            if slider.travel.is_some() && phase.joints[index] != JointPhase::Sticking {
-                self.list.extend([Watched::Travel(*joint, -1.0), Watched::Travel(*joint, 1.0)]);
+            if phase.joints[index] != JointPhase::Sticking {
+                let limits = [-1.0, 1.0].into_iter().zip(slider.limits());
+                let limited = limits.filter(|(_, limit)| limit.is_finite());
+                self.list.extend(limited.map(|(end, _)| Watched::Travel(*joint, end)));
             }
         }
         if phase.joints.contains(&JointPhase::Sticking) {
             self.list.push(Watched::Sticking);
+            if self.reaction_limit.is_some() {
+                self.list.retain(|watched| !matches!(watched, Watched::ReactionLimit(_)));
+                self.list.push(Watched::HeldReactions);
+            }
         }
         if phase.contacts.iter().any(|_| phase.joints.iter().any(|joint| *joint != JointPhase::Sticking)) {
             self.list.push(Watched::Determinant);
@@ -177,7 +185,12 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// The value of a watched function at the last evaluation of the equations; not that of sticking, nor of relations.
+    /// The greatest normal force that is permitted (N).
+    pub(super) fn reaction_limit(&self) -> f64 {
+        self.reaction_limit.unwrap_or(f64::INFINITY)
+    }
+
+    /// The value of a watched function at the last evaluation of the equations; not that of what needs a decision, nor of relations.
     ///
     /// # Errors
     /// A function of the user has no value.
@@ -213,14 +226,14 @@ impl<'o> Watch<'o> {
                 equations.determinant().relative_to(determinant) * overlaps * overlaps - LOCKED
             }
             Watched::ReactionLimit(contact) => {
-                self.reaction_limit.unwrap_or(f64::INFINITY) - equations.normal_force(contact.index()).abs()
+                self.reaction_limit() - equations.normal_force(contact.index()).abs()
             }
             Watched::Couple(joint) => {
                 let slider = slider(joint);
                 let normal_force = equations.normal_force(slider.contacts[0].index()).abs();
                 normal_force * slider.length / 2.0 - equations.reaction(Reaction::Couple(joint)).abs()
             }
-            Watched::Sticking | Watched::Relation(_) => 0.0,
+            Watched::Sticking | Watched::HeldReactions | Watched::Relation(_) => 0.0,
             Watched::Overlap(joint) => {
                 let slider = slider(joint);
                 configuration.overlap(mechanism, slider).unwrap_or(0.0) - LEAVES * slider.length
@@ -228,7 +241,7 @@ impl<'o> Watch<'o> {
             Watched::Travel(joint, end) => {
                 let slider = slider(joint);
                 let (displacement, _) = configuration.sliding(mechanism, slider);
-                let [least, greatest] = slider.travel.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+                let [least, greatest] = slider.limits();
                 if end < 0.0 { displacement - least } else { greatest - displacement }
             }
             Watched::User(index, sign) => sign * self.user[index].value(mechanism, configuration)?,
@@ -239,7 +252,10 @@ impl<'o> Watch<'o> {
     pub(super) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
         let force = FORCE_TOLERANCE * self.magnitudes.force;
         match watched {
-            Watched::NormalForce(_) | Watched::Between(..) | Watched::ReactionLimit(_) => force,
+            Watched::NormalForce(_)
+            | Watched::Between(..)
+            | Watched::ReactionLimit(_)
+            | Watched::HeldReactions => force,
             Watched::Couple(joint) => {
                 force * equations.mechanism.slider(joint).map_or(0.0, |slider| slider.length)
             }

@@ -19,7 +19,7 @@ fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
         height,
         around: height < 0.0,
         travel: None,
-        restitution: [None; 2],
+        stops: [None; 2],
         contacts: Vec::new(),
     };
     mode_in_words(&slider, Vector2::new(cos, sin), signs)

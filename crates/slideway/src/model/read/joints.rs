@@ -2,11 +2,11 @@
 
 use super::super::file::{
     BlockSliderTable, CarriedBy, EndTable, Entry, Fit, GuidedSliderTable, PinInSlotTable, PreloadLine,
-    StopTable,
+    StopAtEndTable, StopTable,
 };
 use super::super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
 use super::super::sections::JointContents;
-use super::super::{Contact, Joint, JointKind, Slider, SliderKind};
+use super::super::{Contact, Joint, JointKind, Slider, SliderKind, Stop};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
@@ -60,6 +60,26 @@ impl<'a> WrittenFriction<'a> {
             stiffness: end.stiffness.as_ref(),
             carried_by: end.carried_by,
         }
+    }
+}
+
+/// A stop as it is written, for both ends or for one.
+#[derive(Clone, Copy)]
+struct WrittenStop<'a> {
+    restitution: &'a Option<Quantity>,
+    stiffness: &'a Option<Quantity>,
+    damping: &'a Option<Quantity>,
+}
+
+impl WrittenStop<'_> {
+    fn is_empty(&self) -> bool {
+        self.restitution.is_none() && self.stiffness.is_none() && self.damping.is_none()
+    }
+}
+
+impl<'a> From<&'a StopAtEndTable> for WrittenStop<'a> {
+    fn from(table: &'a StopAtEndTable) -> Self {
+        Self { restitution: &table.restitution, stiffness: &table.stiffness, damping: &table.damping }
     }
 }
 
@@ -212,7 +232,7 @@ impl Reader<'_> {
             height: self.height(written.height, name),
             around: written.fit == Some(Fit::Around),
             travel: self.travel(written.travel, name),
-            restitution: self.stops(written, name, span),
+            stops: self.stops(written, name, span),
             contacts,
         }))
     }
@@ -231,25 +251,72 @@ impl Reader<'_> {
         })
     }
 
-    /// The restitution at both ends: what stands at an end wins over what stands for both.
-    fn stops(&mut self, written: &WrittenSlider<'_>, name: &str, span: &Span) -> [Option<FormulaId>; 2] {
+    /// The stops at both ends: what stands at an end wins over what stands for both.
+    fn stops(
+        &mut self,
+        written: &WrittenSlider<'_>,
+        name: &str,
+        span: &Span,
+    ) -> [Option<Stop<FormulaId>>; 2] {
         let Some(stop) = written.stop else { return [None; 2] };
-        let ends = [&stop.least, &stop.greatest].map(|end| end.as_ref().map(|end| &end.restitution));
-        let missing = if written.travel.is_none() {
-            Some(("travel", format!("joints.{name}")))
-        } else if stop.restitution.is_none() && ends.iter().all(Option::is_none) {
-            Some(("restitution", format!("joints.{name}.stop")))
-        } else {
-            None
+        let ends = [("least", &stop.least), ("greatest", &stop.greatest)];
+        let both = WrittenStop {
+            restitution: &stop.restitution,
+            stiffness: &stop.stiffness,
+            damping: &stop.damping,
         };
-        if let Some((key, table)) = missing {
-            self.fault(FaultKind::MissingKey { key: key.into(), table }, span);
+        let table = format!("joints.{name}.stop");
+        if written.travel.is_none() {
+            self.fault(FaultKind::MissingKey { key: "travel".into(), table: format!("joints.{name}") }, span);
         }
-        let what = format!("the restitution of the stop of {name}");
-        ends.map(|end| {
-            let quantity = end.or(stop.restitution.as_ref())?;
-            Some(self.formula(quantity, Wanted::constant(what.clone(), Dimension::NONE).not_negative()))
+        let for_both = if both.is_empty() && ends.iter().any(|(_, end)| end.is_some()) {
+            None
+        } else {
+            self.stop(both, &table, name, span)
+        };
+        ends.map(|(end, written)| match written {
+            Some(end_table) => self.stop(end_table.into(), &format!("{table}.{end}"), name, span),
+            None => for_both,
         })
+    }
+
+    /// The stop that a table describes.
+    fn stop(
+        &mut self,
+        written: WrittenStop<'_>,
+        table: &str,
+        name: &str,
+        span: &Span,
+    ) -> Option<Stop<FormulaId>> {
+        let of =
+            |what: &str, dimension| Wanted::constant(format!("the {what} of the stop of {name}"), dimension);
+        match written {
+            WrittenStop { restitution: Some(restitution), stiffness: None, damping: None } => {
+                let wanted = of("restitution", Dimension::NONE).not_negative();
+                Some(Stop::Impact { restitution: self.formula(restitution, wanted) })
+            }
+            WrittenStop { restitution: None, stiffness: Some(stiffness), damping } => {
+                let stiffness = self.formula(stiffness, of("stiffness", Dimension::STIFFNESS).positive());
+                let wanted = of("damping", Dimension::DAMPING).not_negative();
+                let damping = damping.as_ref().map_or(self.zero, |damping| self.formula(damping, wanted));
+                Some(Stop::Pad { stiffness, damping })
+            }
+            WrittenStop { restitution, stiffness, .. } => {
+                let owner = format!("the stop of {name}");
+                let kind = match (restitution, stiffness) {
+                    (Some(_), Some(_)) => {
+                        FaultKind::Both { owner, first: "restitution", second: "stiffness" }
+                    }
+                    (Some(_), None) => FaultKind::Both { owner, first: "restitution", second: "damping" },
+                    _ if written.is_empty() => {
+                        FaultKind::NoneOf { owner, one_of: vec!["restitution", "stiffness"] }
+                    }
+                    _ => FaultKind::MissingKey { key: "stiffness".into(), table: table.to_owned() },
+                };
+                self.fault(kind, span);
+                None
+            }
+        }
     }
 
     fn friction(&mut self, written: WrittenFriction<'_>, name: &str) -> ReadFriction {

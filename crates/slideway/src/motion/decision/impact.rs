@@ -1,253 +1,290 @@
-//! Impacts on end stops: the impulse of a stop, with friction impulses at all sliding joints.
+//! Impacts on end stops: the impulses of the stops, with friction impulses at all sliding joints.
 
-use super::assessment::{Assessment, PRESSED, assess_group};
-use super::instant::{Group, Instant, Outputs};
-use super::jam::AT_REST;
-use super::successors::combinations;
-use super::system::Question;
-use super::{BOUNDARY, MOST_STATES};
+use super::MOST_STATES;
+use super::assessment::Assessment;
+use super::impulse::{AT_REST, Impulses};
+use super::instant::{Group, Instant};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
-use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
+use crate::modes::Side;
 use crate::motion::energy::kinetic;
-use crate::motion::{ContactPhase, JointPhase, Phase};
-use nalgebra::{DVector, Vector2};
+use crate::motion::{ContactPhase, JointPhase};
+use nalgebra::DVector;
 
-/// What an impact on an end stop does.
+/// What an impact on end stops does.
 #[derive(Debug, Clone)]
 pub struct Impact {
     /// The mechanism afterwards: the same positions, new velocities.
     pub after: Configuration,
-    /// The impulse with which the stop pushes (N s).
-    pub impulse: f64,
+    /// The blows of joints that act on one another; others do not know of each other.
+    pub blows: Vec<Blow>,
+}
+
+/// The impact of joints that act on one another.
+#[derive(Debug, Clone)]
+pub struct Blow {
+    /// The joints, each with the impulse with which its stop pushes (N s).
+    pub stops: Vec<(JointId, f64)>,
     /// Kinetic energy before less kinetic energy afterwards (J).
     pub energy_lost: f64,
 }
 
-/// The impact of a sliding joint that moves towards an end stop, with Newton's coefficient of restitution `e`: its sliding
+/// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution `e`: its sliding
 /// velocity `v` becomes `-e v`.
 ///
-/// The stop pushes along the centre line of the guide, block against guide, with an impulse `P` that grows during the
+/// A stop pushes along the centre line of the guide, block against guide, with an impulse `P` that grows during the
 /// impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary Part, chapter IV). Loads and preloads are too small to count;
-/// at every `P` velocities change by
+/// on the way velocities change by
 ///
 /// ```text
-/// M v' - G^T Lambda' - B U' - sum_k W_k Phi_k' = W_stop      G v' = 0      C v' = 0      ' = d/dP
+/// M v' - G^T Lambda' - B U' - sum_k W_k Phi_k' = sum_i W_stop,i P_i'      G v' = 0      C v' = 0      P_i' >= 0
 /// Phi_k' = mu_k |Lambda_k'| s_k of joints that slide,    |Phi_k'| <= mu_static_k |Lambda_k'| of those at rest that stay so
 /// ```
 ///
-/// which is the mode problem of the instant with another load. It is constant until a sliding velocity reaches zero; there it
-/// is decided anew. The joint itself slides against the stop first, and then away from it, so that its friction turns
+/// which is the mode problem of impulses. It is constant until a sliding velocity reaches zero; there it
+/// is decided anew. A joint slides against its stop first, and then away from it, so that its friction turns
 /// round within the impact. Of several possible answers the one with the greatest margin is taken. Coefficients of friction
 /// are those of the velocities before.
 ///
+/// Stops that are reached together act together: first all velocities towards them fall to zero in proportion, then all
+/// rise to `-e v`. A stop may also be without impulse, if the others take its joint away from it at least as fast,
+/// so that `P_i >= 0` and `w_i >= -e_i v_i` are complementary (J. J. Moreau). Every choice of the stops that push is tried.
+///
 /// # Errors
-/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are tried, and an impact
-/// in which friction leaves the stop no impulse.
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are tried, an impact
+/// in which friction leaves the stops no impulse, and one that can have several outcomes.
 pub fn impact(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    joint: JointId,
-    restitution: f64,
+    stops: &[(JointId, f64)],
 ) -> Result<Impact, Faults> {
     let instant = Instant::new(mechanism, configuration)?;
-    let wedges = || {
-        let joint = mechanism.joints[joint.index()].name.to_string();
-        Faults::from(Fault::general(FaultKind::ImpactWedges { joint }))
-    };
-    let hit = instant.joints.iter().position(|other| other.id == joint).ok_or_else(wedges)?;
-    let group = instant.groups.iter().find(|group| group.joints.contains(&hit)).ok_or_else(wedges)?;
-    let before = instant.joints[hit].velocity;
-    let push = -before.signum();
-    let outputs = pushed(&instant, hit, push);
-    let process = Process { instant: &instant, outputs: &outputs, group, hit, push };
-    let velocities = instant.joints.iter().map(|joint| joint.velocity).collect();
-    let mut course = Course { velocities, jumps: None, impulse: 0.0 };
-    for target in [0.0, -restitution * before] {
-        if !process.follow(&mut course, target)? {
-            return Err(wedges());
+    let place = |id: JointId| instant.joints.iter().position(|joint| joint.id == id);
+    let hits = stops.iter().filter_map(|&(id, restitution)| Some(Hit { joint: place(id)?, restitution }));
+    let hits: Vec<Hit> = hits.filter(|hit| instant.joints[hit.joint].velocity != 0.0).collect();
+    let mut found = Impact { after: configuration.clone(), blows: Vec::new() };
+    for group in &instant.groups {
+        let hits: Vec<Hit> = hits.iter().copied().filter(|hit| group.joints.contains(&hit.joint)).collect();
+        if hits.is_empty() {
+            continue;
         }
+        let Outcome { jumps, impulses, .. } = outcome(&instant, group, &hits)?;
+        let after = Impulses::new(&instant).moved(&found.after, &jumps);
+        let stops = hits.iter().map(|hit| instant.joints[hit.joint].id).zip(impulses).collect();
+        let energy_lost = kinetic(mechanism, &found.after) - kinetic(mechanism, &after);
+        found.blows.push(Blow { stops, energy_lost });
+        found.after = after;
     }
-    let Course { jumps, impulse, .. } = course;
-    let after = jumps.map_or_else(|| configuration.clone(), |jumps| moved(&instant, configuration, &jumps));
-    let energy_lost = kinetic(mechanism, configuration) - kinetic(mechanism, &after);
-    Ok(Impact { after, impulse, energy_lost })
+    Ok(found)
 }
 
-/// The outputs under a unit force of the stop alone, on the centre line of the guide.
-fn pushed(instant: &Instant<'_>, hit: usize, push: f64) -> Outputs {
-    let columns = instant.outputs.columns.clone();
-    let k = instant.joints[hit].contacts[0];
-    let base = (columns[0].column(k) + columns[1].column(k)) * (-push / 2.0);
-    Outputs { base, columns }
-}
-
-/// What a unit of the stop's impulse does.
-struct Change {
-    phase: Phase,
-    /// Of all unknowns.
-    jumps: DVector<f64>,
+/// A joint that has reached its stop.
+#[derive(Debug, Clone, Copy)]
+struct Hit {
+    joint: usize,
+    restitution: f64,
 }
 
 /// How far an impact has gone.
-struct Course {
+#[derive(Debug, Clone)]
+struct Outcome {
     /// The sliding velocities (m/s), exactly zero where a joint has stopped.
     velocities: Vec<f64>,
-    /// The jumps of all velocities so far.
-    jumps: Option<DVector<f64>>,
-    /// Of the stop (N s).
-    impulse: f64,
+    /// The jumps of all velocities.
+    jumps: DVector<f64>,
+    /// Of the stops (N s).
+    impulses: Vec<f64>,
+}
+
+/// The only outcome of an impact in a group.
+///
+/// # Errors
+/// None, or several.
+fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<Outcome, Faults> {
+    let joints = || {
+        hits.iter().map(|hit| instant.mechanism.joints[instant.joints[hit.joint].id.index()].name.to_string())
+    };
+    let choices = 1_u64.checked_shl(hits.len() as u32).filter(|choices| *choices <= MOST_STATES);
+    let Some(choices) = choices else {
+        let kind = FaultKind::TooManyStates { states: choices.unwrap_or(u64::MAX), limit: MOST_STATES };
+        return Err(Fault::general(kind).into());
+    };
+    let mut found: Option<Outcome> = None;
+    let mut unsolved = 0;
+    // All of them first.
+    for choice in (1..choices).rev() {
+        let pushes: Vec<bool> = (0..hits.len()).map(|hit| choice >> hit & 1 == 1).collect();
+        let instant = touching(instant, hits, &pushes);
+        let impulses = Impulses::new(&instant);
+        let process = Process { impulses: &impulses, group, hits, pushes: &pushes };
+        let Some(other) = process.outcome(&mut unsolved)? else { continue };
+        let differs = |found: &Outcome| {
+            let velocities = found.velocities.iter().zip(&other.velocities);
+            velocities.into_iter().any(|(one, other)| impulses.without_rounding(one - other) != 0.0)
+        };
+        if found.as_ref().is_some_and(differs) {
+            return Err(Fault::general(FaultKind::SeveralImpacts { joints: joints().collect() }).into());
+        }
+        found.get_or_insert(other);
+    }
+    let joints = joints().collect();
+    let kind =
+        if unsolved > 0 { FaultKind::UnsolvedImpact { joints } } else { FaultKind::ImpactWedges { joints } };
+    found.ok_or_else(|| Fault::general(kind).into())
+}
+
+/// The instant at which those joints touch their stops whose stops push.
+fn touching<'m>(instant: &Instant<'m>, hits: &[Hit], pushes: &[bool]) -> Instant<'m> {
+    let mut instant = instant.clone();
+    for (hit, pushes) in hits.iter().zip(pushes) {
+        let joint = &mut instant.joints[hit.joint];
+        joint.stop = if *pushes { joint.velocity.signum() } else { 0.0 };
+        joint.has_friction |= *pushes;
+    }
+    instant
 }
 
 struct Process<'s> {
-    instant: &'s Instant<'s>,
-    outputs: &'s Outputs,
+    impulses: &'s Impulses<'s>,
     group: &'s Group,
-    hit: usize,
-    push: f64,
+    hits: &'s [Hit],
+    /// Whether the stop of each pushes.
+    pushes: &'s [bool],
 }
 
 impl Process<'_> {
-    /// The unit of the stop's impulse (N s).
-    fn unit(&self) -> f64 {
-        self.instant.units_of(self.instant.joints[self.hit].contacts[0]).force
+    /// What the impact comes to; nothing if these stops cannot push and the others not.
+    fn outcome(&self, unsolved: &mut usize) -> Result<Option<Outcome>, Faults> {
+        let instant = self.impulses.instant;
+        let mut course = Outcome {
+            velocities: self.impulses.velocities(),
+            jumps: DVector::zeros(instant.influence.frictionless.len()),
+            impulses: vec![0.0; self.hits.len()],
+        };
+        let before = course.velocities.clone();
+        let compressed = self.targets(|_| Some(0.0));
+        let restored =
+            self.targets(|hit| (hit.restitution > 0.0).then(|| -hit.restitution * before[hit.joint]));
+        for targets in [compressed, restored] {
+            if !self.follow(&mut course, &targets, unsolved)? {
+                return Ok(None);
+            }
+        }
+        let leaves = |hit: &Hit| {
+            let (before, after) = (before[hit.joint], course.velocities[hit.joint]);
+            -before.signum() * after >= hit.restitution * before.abs() - AT_REST * self.impulses.speed
+        };
+        Ok(self.hits.iter().all(leaves).then_some(course))
     }
 
-    /// Follows an impact until the joint at the stop has a velocity; `false` if no impulse leads there. Every part but the last
+    /// The joints whose stops push, with the velocities that they are to have.
+    fn targets(&self, target: impl Fn(&Hit) -> Option<f64>) -> Vec<(usize, f64)> {
+        let pushed = self.hits.iter().zip(self.pushes).filter(|(_, pushes)| **pushes);
+        pushed.filter_map(|(hit, _)| Some((hit.joint, target(hit)?))).collect()
+    }
+
+    /// Follows an impact until joints have their velocities, in proportion; `false` if no impulse leads there. Every part but the last
     /// brings another joint to rest.
-    fn follow(&self, course: &mut Course, target: f64) -> Result<bool, Faults> {
-        let velocities = &mut course.velocities;
-        let speed = velocities.iter().fold(0.0, |speed: f64, velocity| speed.max(velocity.abs()));
-        let mut parts = 0..=4 * velocities.len();
-        while velocities[self.hit] != target {
-            velocities.iter_mut().filter(|v| v.abs() <= AT_REST * speed).for_each(|v| *v = 0.0);
-            let Some(change) = self.change(velocities)? else { return Ok(false) };
-            let rates = self.sliding_rates(&change);
-            let whole = (target - velocities[self.hit]) / rates[self.hit];
-            if !(rates[self.hit] * self.push > 0.0 && whole.is_finite()) || parts.next().is_none() {
+    fn follow(
+        &self,
+        course: &mut Outcome,
+        targets: &[(usize, f64)],
+        unsolved: &mut usize,
+    ) -> Result<bool, Faults> {
+        let mut parts = 0..=4 * course.velocities.len();
+        while targets.iter().any(|(joint, target)| course.velocities[*joint] != *target) {
+            course.velocities.iter_mut().for_each(|v| *v = self.impulses.without_rounding(*v));
+            let Some(state) = self.state(&course.velocities, targets, unsolved)? else { return Ok(false) };
+            if parts.next().is_none() {
                 return Ok(false);
             }
-            let (length, stops) = self.until_one_stops(velocities, &rates, whole);
-            velocities.iter_mut().zip(&rates).for_each(|(velocity, rate)| *velocity += length * rate);
+            let jumps = self.impulses.instant.influence.of_friction(&self.impulses.frictions(&state));
+            let changes = self.changes(&state, &jumps);
+            let (part, stops) = self.until_one_stops(&course.velocities, &changes, targets);
+            course
+                .velocities
+                .iter_mut()
+                .zip(&changes)
+                .for_each(|(velocity, change)| *velocity += part * change);
             match stops {
-                Some(other) => velocities[other] = 0.0,
-                None => velocities[self.hit] = target,
+                Some(other) => course.velocities[other] = 0.0,
+                None => targets.iter().for_each(|(joint, target)| course.velocities[*joint] = *target),
             }
-            course.impulse += length * self.unit();
-            let added = change.jumps * length;
-            course.jumps = Some(course.jumps.take().map_or_else(|| added.clone(), |jumps| jumps + &added));
+            course.jumps += jumps * part;
+            for (impulse, hit) in course.impulses.iter_mut().zip(self.hits) {
+                *impulse += part * self.push(&state, hit.joint);
+            }
         }
         Ok(true)
     }
 
-    /// What a unit of the impulse does at these sliding velocities; nothing if no state is admissible.
-    fn change(&self, velocities: &[f64]) -> Result<Option<Change>, Faults> {
+    /// The state in which the whole way from these sliding velocities to the targets could go; nothing if none is admissible.
+    fn state(
+        &self,
+        velocities: &[f64],
+        targets: &[(usize, f64)],
+        unsolved: &mut usize,
+    ) -> Result<Option<Assessment>, Faults> {
         let stopped: Vec<bool> = velocities.iter().map(|velocity| *velocity == 0.0).collect();
-        let question = Question {
-            outputs: self.outputs,
-            wanted: vec![0.0; velocities.len()],
-            has_preload: false,
-            sides: vec![PRESSED.to_vec(); self.outputs.columns[0].ncols()],
-            stopped: &stopped,
-            opposes: None,
-        };
-        let mut best: Option<Assessment> = None;
-        for phase in self.phases(velocities)? {
-            let of = (&phase, self.group);
-            let Ok(Some(found)) = assess_group(self.instant, &question, of, (BOUNDARY, f64::INFINITY)) else {
-                continue;
-            };
-            let is_better = best.as_ref().is_none_or(|best| found.least() > best.least());
-            if found.least() >= -BOUNDARY && is_better {
-                best = Some(found);
-            }
+        let mut jumps = vec![0.0; velocities.len()];
+        let mut options: Vec<Vec<JointPhase>> =
+            (0..velocities.len()).map(|joint| self.impulses.options(joint, velocities[joint])).collect();
+        for &(joint, target) in targets {
+            jumps[joint] = target - velocities[joint];
+            let away = -self.impulses.instant.joints[joint].stop;
+            let sign = if stopped[joint] { away } else { velocities[joint].signum() };
+            options[joint] = vec![JointPhase::Sliding(sign)];
         }
-        Ok(best.map(|found| self.jumps(&found)))
+        let mut question = self.impulses.question(&jumps, &stopped);
+        question.pushed = targets.iter().map(|(joint, _)| *joint).collect();
+        let found = self.impulses.admissible(&question, &options, self.group)?;
+        *unsolved += found.unsolved;
+        let better =
+            |best: Assessment, other: Assessment| if other.least() > best.least() { other } else { best };
+        Ok(found.list.into_iter().reduce(better))
     }
 
-    fn jumps(&self, found: &Assessment) -> Change {
-        let frictions = found.forces.frictions.iter().enumerate();
-        let mut forces: Vec<ContactFriction> =
-            frictions.map(|(k, friction)| friction.times(self.instant.units_of(k).force)).collect();
-        let stop = &mut forces[self.instant.joints[self.hit].contacts[0]];
-        stop.positive_face -= self.push * self.unit() / 2.0;
-        stop.negative_face -= self.push * self.unit() / 2.0;
-        Change { phase: found.phase.clone(), jumps: self.instant.influence.of_friction(&forces) }
+    /// How every sliding velocity changes; exactly not where the joint sticks.
+    fn changes(&self, state: &Assessment, jumps: &DVector<f64>) -> Vec<f64> {
+        let joints = self.impulses.instant.joints.iter().zip(&state.phase.joints);
+        joints
+            .map(|(joint, phase)| match phase {
+                JointPhase::Sticking => 0.0,
+                JointPhase::Sliding(_) => joint.row.change(jumps),
+            })
+            .collect()
     }
 
-    /// How fast every sliding velocity changes; exactly not where the joint sticks.
-    fn sliding_rates(&self, change: &Change) -> Vec<f64> {
-        let joints = self.instant.joints.iter().zip(&change.phase.joints);
-        let rate = |(joint, phase): (&super::instant::SlidingJoint, &JointPhase)| match phase {
-            JointPhase::Sticking => 0.0,
-            JointPhase::Sliding(_) => joint.row.change(&change.jumps),
-        };
-        joints.map(rate).collect()
-    }
-
-    /// How far the impulse goes until another joint stops, and which; the whole if none does.
-    fn until_one_stops(&self, velocities: &[f64], rates: &[f64], whole: f64) -> (f64, Option<usize>) {
-        let mut first = (whole, None);
-        for (joint, (velocity, rate)) in velocities.iter().zip(rates).enumerate() {
-            let length = -velocity / rate;
-            let rubs = self.instant.joints[joint].has_friction;
-            if joint != self.hit && rubs && *velocity != 0.0 && length >= 0.0 && length < first.0 {
-                first = (length, Some(joint));
+    /// The part of the way until another joint stops, and which; the whole if none does.
+    fn until_one_stops(
+        &self,
+        velocities: &[f64],
+        changes: &[f64],
+        targets: &[(usize, f64)],
+    ) -> (f64, Option<usize>) {
+        let mut first = (1.0, None);
+        for (joint, (velocity, change)) in velocities.iter().zip(changes).enumerate() {
+            let part = -velocity / change;
+            let rubs = self.impulses.instant.joints[joint].has_friction;
+            let is_pushed = targets.iter().any(|(pushed, _)| *pushed == joint);
+            if !is_pushed && rubs && *velocity != 0.0 && part >= 0.0 && part < first.0 {
+                first = (part, Some(joint));
             }
         }
         first
     }
 
-    /// All states of the group at these sliding velocities; other joints do not matter.
-    fn phases(&self, velocities: &[f64]) -> Result<Vec<Phase>, Faults> {
-        let joints: Vec<Vec<JointPhase>> =
-            (0..velocities.len()).map(|joint| self.options(joint, velocities[joint])).collect();
-        let mut all = Vec::new();
-        for joints in combinations(&joints) {
-            let sides = |k: usize| {
-                let mut sides = PRESSED.to_vec();
-                let slides =
-                    self.instant.joint_of(k).is_some_and(|joint| joints[joint] != JointPhase::Sticking);
-                if !slides || !self.group.contacts.contains(&k) {
-                    sides.truncate(1);
-                }
-                sides
-            };
-            let options: Vec<Vec<ContactPhase>> = (0..self.outputs.columns[0].ncols()).map(sides).collect();
-            let states = options.iter().fold(all.len() as u64, |n, sides| n.max(1) * sides.len() as u64);
-            if states > MOST_STATES {
-                return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
-            }
-            let phases = combinations(&options).into_iter();
-            all.extend(phases.map(|contacts| Phase { joints: joints.clone(), contacts }));
-        }
-        Ok(all)
+    /// The impulse with which the stop of a joint pushes in a state (N s): at the face that is not pressed it is half of that alone.
+    fn push(&self, state: &Assessment, joint: usize) -> f64 {
+        let joint = &self.impulses.instant.joints[joint];
+        let k = joint.contacts[0];
+        let friction = self.impulses.frictions(state)[k];
+        let half = match state.phase.contacts[k] {
+            ContactPhase::Pressed(Side::Positive) => friction.negative_face,
+            _ => friction.positive_face,
+        };
+        2.0 * joint.stop * half
     }
-
-    fn options(&self, joint: usize, velocity: f64) -> Vec<JointPhase> {
-        let rests = self.group.joints.contains(&joint) && self.instant.joints[joint].has_friction;
-        if velocity != 0.0 {
-            vec![JointPhase::Sliding(velocity.signum())]
-        } else if joint == self.hit {
-            vec![JointPhase::Sliding(self.push)]
-        } else if rests {
-            vec![JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)]
-        } else {
-            vec![JointPhase::Sliding(1.0)]
-        }
-    }
-}
-
-/// The configuration with jumps of the velocities.
-fn moved(instant: &Instant<'_>, configuration: &Configuration, jumps: &DVector<f64>) -> Configuration {
-    let mut after = configuration.clone();
-    for (body, velocity) in after.velocities.iter_mut().enumerate() {
-        velocity.linear += Vector2::new(jumps[3 * body], jumps[3 * body + 1]);
-        velocity.angular += jumps[3 * body + 2];
-    }
-    let rates = instant.equations.coordinate_jumps(jumps);
-    after.rates.iter_mut().zip(rates).for_each(|(rate, jump)| *rate += jump);
-    after
 }

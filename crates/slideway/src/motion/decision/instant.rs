@@ -10,7 +10,7 @@ use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism, Slider};
-use crate::model::{PreloadLine, SliderKind};
+use crate::model::{PreloadLine, SliderKind, Stop};
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
@@ -176,6 +176,7 @@ impl<'m> Instant<'m> {
             sides: possible_sides(self),
             stopped,
             opposes: None,
+            pushed: Vec::new(),
         }
     }
 
@@ -406,12 +407,13 @@ fn sliding_joints(
 
 /// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least one, else 0.
 fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
-    let Some([least, greatest]) = slider.travel.filter(|_| slider.restitution != [None; 2]) else {
+    let Some([least, greatest]) = slider.travel.filter(|_| slider.stops != [None; 2]) else {
         return 0.0;
     };
     let displacement = configuration.slide(mechanism, slider).displacement;
     let touches = |end: usize, limit: f64| {
-        slider.restitution[end].is_some() && (displacement - limit).abs() <= TOUCHES * mechanism.size
+        slider.stops[end].and_then(Stop::restitution).is_some()
+            && (displacement - limit).abs() <= TOUCHES * mechanism.size
     };
     if touches(1, greatest) {
         1.0

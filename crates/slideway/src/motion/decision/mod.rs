@@ -40,6 +40,7 @@ mod elastic;
 mod growth;
 mod holding;
 mod impact;
+mod impulse;
 mod instant;
 mod jam;
 mod parts;
@@ -53,7 +54,7 @@ mod system;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
-pub use impact::{Impact, impact};
+pub use impact::{Blow, Impact, impact};
 pub(super) use instant::{TOUCHES, scale_of_forces};
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;

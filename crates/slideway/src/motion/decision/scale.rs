@@ -94,6 +94,10 @@ pub(super) fn rounding(mechanism: &Mechanism, configuration: &Configuration, sha
                 (between.each_ref().map(|end| end.frame), *stiffness, 1.0)
             }
             LoadKind::TorsionalSpring { between, stiffness, .. } => (*between, *stiffness, length * length),
+            LoadKind::Pad(pad) if configuration.depth(mechanism, pad)[0] >= 0.0 => {
+                let Some(slider) = mechanism.slider(pad.joint) else { return 0.0 };
+                ([slider.block, slider.guide], Quantity::Constant(pad.constants[0]), 1.0)
+            }
             _ => return 0.0,
         };
         let counts = frames.into_iter().any(|frame| belongs(share, frame));

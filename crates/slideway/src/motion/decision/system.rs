@@ -76,6 +76,8 @@ pub(super) struct Question<'q> {
     pub(super) stopped: &'q [bool],
     /// A joint that sticks only at the end, and the sign of the sliding velocity that its friction opposes.
     pub(super) opposes: Option<(usize, f64)>,
+    /// Joints that slide and are pushed by the stops that they touch, so that they have the wanted acceleration, too.
+    pub(super) pushed: Vec<usize>,
 }
 
 /// A pattern with its equations solved as far as they go.
@@ -123,7 +125,7 @@ impl<'s> System<'s> {
         for &k in &group.contacts {
             system.friction[k] = system.friction_of(k);
         }
-        for joint in system.stuck_joints().into_iter().filter(|&joint| instant.joints[joint].stop != 0.0) {
+        for joint in system.bound_joints().into_iter().filter(|&joint| instant.joints[joint].stop != 0.0) {
             let unknown = system.new_unknown();
             system.stops.push((joint, unknown));
         }
@@ -140,9 +142,9 @@ impl<'s> System<'s> {
     /// Whether some equations follow from others by chance, so that they could contradict each other at another instant:
     /// not because joints that stick depend on one another.
     pub(super) fn is_redundant(&self) -> bool {
-        let stuck = self.stuck_joints();
-        let excess = self.group.contacts.len() + stuck.len() - (self.unknowns - self.dimension());
-        excess > 0 && excess > self.instant.dependent(&stuck)
+        let bound = self.bound_joints();
+        let excess = self.group.contacts.len() + bound.len() - (self.unknowns - self.dimension());
+        excess > 0 && excess > self.instant.dependent(&bound)
     }
 
     fn joint(&self, k: usize) -> JointPhase {
@@ -269,17 +271,17 @@ impl<'s> System<'s> {
         expression
     }
 
-    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that sticks.
+    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that is bound to one.
     fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let stuck = self.stuck_joints();
+        let bound = self.bound_joints();
         let contacts = self.group.contacts.len();
-        let mut matrix = DMatrix::zeros(contacts + stuck.len(), self.unknowns);
-        let mut right_hand_side = DVector::zeros(contacts + stuck.len());
+        let mut matrix = DMatrix::zeros(contacts + bound.len(), self.unknowns);
+        let mut right_hand_side = DVector::zeros(contacts + bound.len());
         for (row, &k) in self.group.contacts.iter().enumerate() {
             let normal = self.normal_force(k);
             write(row, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
         }
-        for (index, &joint) in stuck.iter().enumerate() {
+        for (index, &joint) in bound.iter().enumerate() {
             let acceleration = self.output(self.instant.sliding_output(joint));
             let equation = acceleration.shifted(-self.question.wanted[joint]);
             write(contacts + index, &equation, &mut matrix, &mut right_hand_side);
@@ -287,9 +289,12 @@ impl<'s> System<'s> {
         (matrix, right_hand_side)
     }
 
-    fn stuck_joints(&self) -> Vec<usize> {
-        let joints = self.group.joints.iter().copied();
-        joints.filter(|&joint| self.phase.joints[joint] == JointPhase::Sticking).collect()
+    /// The joints whose acceleration is wanted: those that stick, and those that are pushed.
+    fn bound_joints(&self) -> Vec<usize> {
+        let is_bound = |joint: &usize| {
+            self.phase.joints[*joint] == JointPhase::Sticking || self.question.pushed.contains(joint)
+        };
+        self.group.joints.iter().copied().filter(is_bound).collect()
     }
 
     fn normal_force(&self, k: usize) -> Expression {

@@ -1,33 +1,6 @@
+use super::models::block;
 use super::run;
 use crate::motion::{Cause, End, Event, History, SimulateOptions, simulate};
-
-/// A block of 2 kg on a horizontal guide, g = 10 m/s^2.
-pub(super) fn block(mu: &str, start: &str, more: &str) -> String {
-    format!(
-        r#"
-gravity = "10 m/s^2"
-[points]
-C = [0, 0]
-W = [-3, 0]
-[bodies.block]
-points = ["C"]
-mass = "2 kg"
-centre_of_mass = "C"
-shape = {{ rectangle = ["0.2 m", "0.1 m"] }}
-[joints.guide]
-type = "block_slider"
-block = "block"
-at = "C"
-along = "0 deg"
-length = "0.2 m"
-mu = {mu}
-[coordinates.x]
-slide = "guide"
-{start}
-{more}
-"#
-    )
-}
 
 /// v = v0 - mu g t: it stops at t = v0 / (mu g) = 2 / 2.5 = 0.8 s, at x = v0^2 / (2 mu g) = 0.8 m, and stays.
 #[test]

@@ -1,6 +1,6 @@
 //! What a simulation asks of decisions, with less work, against the same with all of it.
 
-use super::closed_forms::block;
+use super::models::block;
 use super::{mechanism_of, model_of};
 use crate::configuration::Configuration;
 use crate::fault::Faults;

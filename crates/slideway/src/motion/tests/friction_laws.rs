@@ -1,6 +1,6 @@
 //! Friction that depends on the sliding velocity, against closed forms.
 
-use super::closed_forms::block;
+use super::models::block;
 use super::run;
 use crate::model::Model;
 use crate::motion::{Cause, End, JointPhase, SimulateOptions, simulate};

@@ -1,6 +1,6 @@
 //! Where a simulation ends before its time, and what is refused.
 
-use super::closed_forms::block;
+use super::models::block;
 use super::{mechanism_of, run};
 use crate::configuration::Configuration;
 use crate::expression::{Names, parse};
@@ -10,7 +10,7 @@ use crate::model::{Model, Settings};
 use crate::modes::Side;
 use crate::motion::{
     ContactPhase, Crossing, Decisions, End, EventFunction, Instant, Jam, JointPhase, Phase, SimulateOptions,
-    Successor, Successors, UserEvent, simulate,
+    Successor, Successors, UserEvent, report, simulate,
 };
 use crate::progress::Progress;
 use crate::report::Verdict;
@@ -59,6 +59,40 @@ fn travel_ends_it() {
     assert!(matches!(history.end, End::TravelLimit(_)));
     assert!((history.stop() - (2.0 - 1.5_f64.sqrt()) / 2.5).abs() < 1e-11, "{}", history.stop());
     assert!(history.events[1].words.ends_with("guide reaches the greatest displacement of its travel"));
+}
+
+/// A block of 20 N that sticks is pressed down with (10 N/s) t more: each of its ends has half of it, 15 N after 1 s. The same where it
+/// slides, and at once where the limit is less than 10 N.
+#[test]
+fn a_limit_of_normal_forces_counts_while_joints_stick() {
+    let press = "
+[loads.press]
+type = \"force\"
+at = \"block.C\"
+components = [0, \"-10 N/s * t\"]
+";
+    for (start, limit, stop) in [("", 15.0, 1.0), ("rate = 30", 15.0, 1.0), ("", 9.5, 0.0)] {
+        let options = SimulateOptions { reaction_limit: Some(limit), ..SimulateOptions::new(2.0) };
+        let history = simulate(&model(&block("0.25", start, press)), &options).unwrap();
+        assert!(matches!(history.end, End::ReactionLimit(_)), "{start} {:?}", history.end);
+        assert!((history.stop() - stop).abs() < 1e-8, "{start} {}", history.stop());
+        assert!(report(&history, &options).hints.is_empty());
+    }
+    let options = SimulateOptions { reaction_limit: Some(25.0), ..SimulateOptions::new(2.0) };
+    assert_eq!(simulate(&model(&block("0.25", "", press)), &options).unwrap().end, End::Finished);
+}
+
+/// Klepp's bar after its jam: three contacts that stick in a mechanism with one degree of freedom leave the normal forces open.
+#[test]
+fn what_a_limit_of_normal_forces_cannot_see_is_told() {
+    let settings = [("F_20", "0"), ("mu_1", "0.46"), ("direction", "-1")];
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    let model = super::model_of("klepp-2002").with(&settings).unwrap();
+    let options = SimulateOptions { reaction_limit: Some(1e6), ..SimulateOptions::new(0.1) };
+    let history = simulate(&model, &options).unwrap();
+    assert_eq!(history.end, End::Finished);
+    let hints = report(&history, &options).hints;
+    assert!(hints.len() == 1 && hints[0].contains("are not determined while joints stick"), "{hints:?}");
 }
 
 /// A drawer whose supported length of 0.4 m is that from its rear end to the mouth: pulled out at 0.1 m/s it leaves its guide after 4 s,

@@ -151,7 +151,7 @@ const fn balanced(name: &'static str, duration: f64, events: usize) -> Balanced 
 }
 
 /// Every gallery model with inertia, so that something happens in each: driven ones are slowed down until they return.
-const BALANCED: [Balanced; 15] = [
+const BALANCED: [Balanced; 17] = [
     balanced("cam-follower", 1.0, 2),
     Balanced {
         replaced: Some(("acceleration = 0", "acceleration = \"-0.4 m/s^2\"")),
@@ -169,7 +169,9 @@ const BALANCED: [Balanced; 15] = [
     },
     balanced("sleeve-on-arm", 1.0, 6),
     balanced("slider-crank", 0.1, 20),
+    balanced("soft-closing-drawer", 1.0, 2),
     balanced("stick-slip", 2.0, 6),
+    balanced("stribeck-belt", 2.0, 6),
     balanced("telescopic-boom", 1.0, 3),
     balanced("thrown-drawer", 0.6, 1),
     Balanced {

@@ -1,6 +1,6 @@
 //! Jams, joints that stick together, tipping, accumulations, and changes of mode at places that are known otherwise.
 
-use super::closed_forms::block;
+use super::models::{self, block};
 use super::{model_of, run};
 use crate::limits::{LimitsOptions, limits};
 use crate::model::{Model, Settings};
@@ -35,49 +35,10 @@ fn the_example_jams_and_stands_still() {
     assert!(history.energy_error < 1e-12, "{:e}", history.energy_error);
 }
 
-/// A slab of 3 kg on a horizontal guide and a block of 2 kg on it, g = 10 m/s^2, mu = 0.1 below and 0.4 between; their
-/// mass centres are on the guides' lines, so that nothing turns them.
+/// mu = 0.1 below and 0.4 between, and a force on the upper block.
 fn stacked(rate: &str, force: &str) -> String {
-    format!(
-        r#"
-gravity = "10 m/s^2"
-[points]
-C = [0, 0]
-[bodies.slab]
-mass = "3 kg"
-centre_of_mass = "C"
-moment_of_inertia = "1 kg m^2"
-[bodies.top]
-points = ["C"]
-mass = "2 kg"
-centre_of_mass = "C"
-moment_of_inertia = "1 kg m^2"
-[joints.below]
-type = "block_slider"
-block = "slab"
-at = "C"
-along = "0 deg"
-length = "6 m"
-mu = 0.1
-[joints.between]
-type = "block_slider"
-block = "top"
-guide = "slab"
-at = "C"
-along = "0 deg"
-length = "1 m"
-mu = 0.4
-[loads.force]
-type = "force"
-at = "top.C"
-components = ["{force}", 0]
-[coordinates.x]
-slide = "below"
-rate = "{rate}"
-[coordinates.s]
-slide = "between"
-"#
-    )
+    let force = format!("[loads.force]\ntype = \"force\"\nat = \"top.C\"\ncomponents = [\"{force}\", 0]\n");
+    models::stacked(["mu = 0.1", "mu = 0.4"], [rate, "0 m/s"], &force)
 }
 
 /// Both bodies slow down by mu g = 1 m/s^2, which the friction between them (2 N of 8 N) can pass on: they stop after 2 s, 2 m

@@ -1,0 +1,221 @@
+//! Impacts on several stops, and with friction at several joints, against impulses by hand.
+
+use super::mechanism_of;
+use super::models::{block, stacked, with_stop};
+use crate::configuration::Configuration;
+use crate::ids::JointId;
+use crate::model::Model;
+use crate::motion::decision::{Impact, impact};
+use crate::motion::{Cause, End, History, SimulateOptions, simulate};
+
+fn run(text: &str, duration: f64) -> History {
+    simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(duration)).unwrap()
+}
+
+/// The impact of joints, by their names, with these coefficients of restitution, in the state of a model.
+fn impact_of(text: &str, stops: &[(&str, f64)]) -> Impact {
+    let mechanism = mechanism_of(text);
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let joint = |name: &str| mechanism.joints.iter().position(|joint| &*joint.name == name).map(JointId);
+    let stops: Vec<(JointId, f64)> = stops.iter().map(|(name, e)| (joint(name).unwrap(), *e)).collect();
+    impact(&mechanism, &configuration, &stops).unwrap()
+}
+
+fn impulses(impact: &Impact) -> Vec<f64> {
+    impact.blows.iter().flat_map(|blow| blow.stops.iter().map(|(_, impulse)| *impulse)).collect()
+}
+
+fn close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+    for (one, other) in found.iter().zip(expected) {
+        assert!((one - other).abs() <= tolerance, "{found:?} {expected:?}");
+    }
+}
+
+/// Two blocks that do not know of each other and reach their stops at the same instant: each as if alone.
+#[test]
+fn independent_joints_reach_their_stops_together() {
+    let one = with_stop(&block("0.1", "value = 0.1\nrate = 2", ""), "{ restitution = 0.5 }");
+    let other = one[one.find("[bodies.block]").unwrap()..]
+        .replace("bodies.block", "bodies.other")
+        .replace("joints.guide", "joints.rail")
+        .replace("block = \"block\"", "block = \"other\"")
+        .replace("coordinates.x", "coordinates.y")
+        .replace("slide = \"guide\"", "slide = \"rail\"")
+        .replace("restitution = 0.5", "restitution = 0.8");
+    let both = run(&(one.clone() + &other), 1.5);
+    assert_eq!(both.end, End::Finished);
+    let hits = |history: &History| -> Vec<(f64, f64)> {
+        let energy = |cause: &Cause| match cause {
+            Cause::Hits { energy_lost, .. } => *energy_lost,
+            _ => None,
+        };
+        let events = history.events.iter();
+        events
+            .flat_map(|event| event.causes.iter().filter_map(energy).map(|lost| (event.time, lost)))
+            .collect()
+    };
+    let found = both.reader().at(1.5).unwrap().configuration.clone();
+    for (index, restitution) in [0.5, 0.8].into_iter().enumerate() {
+        let alone = run(&one.replace("restitution = 0.5", &format!("restitution = {restitution}")), 1.5);
+        let expected = alone.reader().at(1.5).unwrap().configuration.clone();
+        assert!((found.coordinates[index] - expected.coordinates[0]).abs() < 1e-9);
+        assert!((found.rates[index] - expected.rates[0]).abs() < 1e-9);
+        let ((time, lost), (when, energy)) = (hits(&both)[index], hits(&alone)[0]);
+        assert!((time - when).abs() < 1e-9 && (lost - energy).abs() < 1e-9, "{lost} {energy}");
+    }
+    assert!(both.energy_error < 1e-8, "{:e}", both.energy_error);
+}
+
+/// A slab of 3 kg reaches its stop at 2 m/s and in the same instant a block of 2 kg on it, 1 m/s faster, reaches the stop on the slab. With
+/// e = 0.5 for both the slab goes on with -1 m/s, the block against it with -0.5 m/s: the block's velocity changes by -4.5 m/s, so
+/// that its stop gives 9 N s, and that of the slab 9 + 3*3 = 18 N s. With other coefficients likewise.
+#[test]
+fn stops_of_joints_in_a_row_act_together() {
+    let stop = "mu = 0.2\ntravel = [\"-3 m\", \"0 m\"]\nstop = { restitution = 0.5 }";
+    let text = stacked([stop, stop], ["2 m/s", "1 m/s"], "");
+    for [e, d] in [[0.5, 0.5], [0.0, 0.5], [0.5, 0.0], [0.0, 0.0], [1.0, 0.25]] {
+        let found = impact_of(&text, &[("below", e), ("between", d)]);
+        close(&found.after.rates, &[-2.0 * e, -d], 1e-12);
+        let upper = 2.0 * (2.0 * (1.0 + e) + 1.0 + d);
+        close(&impulses(&found), &[upper + 3.0 * 2.0 * (1.0 + e), upper], 1e-9);
+        let energy = |[x, s]: [f64; 2]| 1.5 * x * x + (x + s) * (x + s);
+        let lost = energy([2.0, 1.0]) - energy([-2.0 * e, -d]);
+        assert!((found.blows[0].energy_lost - lost).abs() < 1e-9);
+    }
+    let history = run(&text.replace("rate = \"2 m/s\"", "rate = \"2 m/s\"\nvalue = \"0 m\""), 0.2);
+    assert_eq!(history.end, End::Finished);
+}
+
+/// The block comes the other way, -1 m/s against the slab, to a stop at its rear: when the slab is thrown back it goes away from
+/// that stop by itself, which therefore gives no impulse: the slab has -1 m/s, the block keeps 2 - 1 = 1 m/s, 2 m/s against the slab.
+#[test]
+fn a_stop_from_which_a_joint_is_taken_gives_no_impulse() {
+    let below = "mu = 0.2\ntravel = [\"-3 m\", \"0 m\"]\nstop = { restitution = 0.5 }";
+    let between = "mu = 0.2\ntravel = [\"0 m\", \"3 m\"]\nstop = { restitution = 0.5 }";
+    let found =
+        impact_of(&stacked([below, between], ["2 m/s", "-1 m/s"], ""), &[("below", 0.5), ("between", 0.5)]);
+    close(&found.after.rates, &[-1.0, 2.0], 1e-12);
+    close(&impulses(&found), &[9.0, 0.0], 1e-9);
+}
+
+/// A bar of 4 kg that slides along x on two pins and reaches two stops at once: it comes back at the greater of both restitutions, whose
+/// stop then gives all of the impulse; with equal ones only the sum of both is determined.
+#[test]
+fn a_body_reaches_two_parallel_stops() {
+    let text = r#"
+[points]
+A = [1, 1]
+B = [-1, -1]
+[bodies.bar]
+points = ["A", "B"]
+mass = "4 kg"
+centre_of_mass = [0, 0]
+moment_of_inertia = "1 kg m^2"
+[joints.upper]
+type = "pin_in_slot"
+block = "bar"
+at = "A"
+along = 0
+mu = 0.3
+travel = ["-1 m", "0.5 m"]
+stop = { restitution = 0.25 }
+[joints.lower]
+type = "pin_in_slot"
+block = "bar"
+at = "B"
+along = 0
+mu = 0.3
+travel = ["-1 m", "0.5 m"]
+stop = { restitution = 0.25 }
+[coordinates.x]
+slide = "lower"
+rate = "2 m/s"
+"#;
+    let history = run(text, 0.5);
+    assert_eq!(history.end, End::Finished, "{:#?}", history.events);
+    let hits = history.events[1].causes.iter().filter(|cause| matches!(cause, Cause::Hits { .. })).count();
+    assert_eq!(hits, 2, "{:#?}", history.events);
+    assert!((history.reader().at(0.5).unwrap().configuration.rates[0] + 0.5).abs() < 1e-9);
+    assert!((history.impulses[0].1 - 8.0 * (1.0 - 0.0625)).abs() < 1e-9);
+    let at_the_stops =
+        text.replace("rate = \"2 m/s\"", "rate = \"2 m/s\"\nvalue = \"0.5 m\"").replace("mu = 0.3", "mu = 0");
+    let found = impact_of(&at_the_stops, &[("upper", 0.25), ("lower", 0.25)]);
+    assert!((impulses(&found).iter().sum::<f64>() - 4.0 * 2.0 * 1.25).abs() < 1e-9, "{found:?}");
+    let found = impact_of(&at_the_stops, &[("upper", 0.25), ("lower", 0.75)]);
+    close(&found.after.rates, &[-1.5], 1e-12);
+    close(&impulses(&found), &[0.0, 4.0 * 2.0 * 1.75], 1e-9);
+}
+
+/// Two sliders joined by a massless rod, as in a trammel: a of 1 kg at (L c, 0) on a level guide, b of 2 kg at (0, L s) on an upright one, friction
+/// mu at both. Compression S of the rod presses a down with S s and b to the left with S c. While a moves outwards and b down friction
+/// at b helps S and friction at a helps the stop; with v' = -1 for a and c/s for b
+///
+/// ```text
+/// m_b c/s = S (s + mu c)      P_1 = m_a + S (c - mu s)
+/// ```
+///
+/// for each m/s until a stands, and afterwards, both moving the other way, with the opposite sign of mu. P = v P_1(mu) + e v P_1(-mu).
+#[test]
+fn friction_acts_at_both_ends_of_a_rod() {
+    let text = |mu: f64| {
+        format!(
+            r#"
+[points]
+A = [0.8, 0]
+B = [0, 0.6]
+[bodies.a]
+points = ["A"]
+mass = "1 kg"
+centre_of_mass = "A"
+moment_of_inertia = "1 kg m^2"
+[bodies.b]
+points = ["B"]
+mass = "2 kg"
+centre_of_mass = "B"
+moment_of_inertia = "1 kg m^2"
+[bodies.rod]
+points = ["A", "B"]
+massless = true
+[joints.level]
+type = "guided_slider"
+block = "a"
+at = "A"
+along = 0
+length = "0.1 m"
+mu = {mu:?}
+travel = ["-0.5 m", "0 m"]
+stop = {{ restitution = 0.5 }}
+[joints.upright]
+type = "guided_slider"
+block = "b"
+at = "B"
+along = "90 deg"
+length = "0.1 m"
+mu = {mu:?}
+[joints.to_a]
+type = "hinge"
+between = ["rod.A", "a.A"]
+[joints.to_b]
+type = "hinge"
+between = ["rod.B", "b.B"]
+[coordinates.x]
+slide = "level"
+rate = "3 m/s"
+"#
+        )
+    };
+    let (c, s, v, e) = (0.8, 0.6, 3.0, 0.5);
+    for mu in [0.0, 0.1, 0.3, 0.6] {
+        let of_unit = |mu: f64| 1.0 + 2.0 * (c / s) * (c - mu * s) / (s + mu * c);
+        let found = impact_of(&text(mu), &[("level", e)]);
+        close(&impulses(&found), &[v * of_unit(mu) + e * v * of_unit(-mu)], 1e-9);
+        close(&found.after.rates, &[-e * v], 1e-12);
+        let kinetic = 0.5 * (1.0 + 2.0 * (c / s) * (c / s)) * v * v;
+        assert!((found.blows[0].energy_lost - kinetic * (1.0 - e * e)).abs() < 1e-9);
+    }
+    // With mu > s/c friction at b holds the rod: it is strut enough that a cannot come back.
+    let mechanism = mechanism_of(&text(0.8));
+    let configuration = Configuration::new(&mechanism).unwrap();
+    assert!(impact(&mechanism, &configuration, &[(JointId(0), e)]).is_err());
+}

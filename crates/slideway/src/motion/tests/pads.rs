@@ -1,0 +1,256 @@
+//! Pads at the ends of travels, against closed forms.
+
+use super::models::{block, stacked, with_stop};
+use crate::fault::FaultKind;
+use crate::model::{Model, Settings};
+use crate::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
+use crate::solve::solve;
+use crate::standstill::{HoldOptions, hold};
+
+fn run(text: &str, duration: f64) -> History {
+    let options = SimulateOptions { tolerance: 1e-11, ..SimulateOptions::new(duration) };
+    simulate(&Model::parse(text).unwrap(), &options).unwrap()
+}
+
+fn words(history: &History) -> Vec<String> {
+    history.events.iter().map(|event| format!("{} {}", event.time, event.words)).collect()
+}
+
+/// When the block meets a pad, and when it leaves it.
+fn contacts(history: &History) -> [Vec<f64>; 2] {
+    let times = |wanted: &dyn Fn(&Cause) -> bool| {
+        let events = history.events.iter().filter(|event| event.causes.iter().any(wanted));
+        events.map(|event| event.time).collect()
+    };
+    [
+        times(&|cause| matches!(cause, Cause::MeetsPad { .. })),
+        times(&|cause| matches!(cause, Cause::LeavesPad { .. })),
+    ]
+}
+
+/// A block of 2 kg at 2 m/s meets a pad of 2e4 N/m at 1 m without friction: it is in it for half a period, pi sqrt(m/k), and comes
+/// back as fast as it came; to the other pad it is 2 m.
+#[test]
+fn an_undamped_pad_gives_everything_back() {
+    let history = run(&with_stop(&block("0", "rate = 2", ""), "{ stiffness = 2e4 }"), 3.0);
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    let half = std::f64::consts::PI / 100.0;
+    let [meets, leaves] = contacts(&history);
+    let expected = [0.5, 0.5 + half + 1.0, 0.5 + 2.0 * (half + 1.0)];
+    assert_eq!((meets.len(), leaves.len()), (3, 3), "{:#?}", words(&history));
+    for ((meets, leaves), expected) in meets.iter().zip(&leaves).zip(expected) {
+        assert!(
+            (meets - expected).abs() < 1e-8 && (leaves - expected - half).abs() < 1e-8,
+            "{meets} {leaves}"
+        );
+    }
+    assert_eq!(history.events[1].words, "guide meets the pad at its greatest displacement");
+    assert_eq!(history.events[2].words, "guide leaves the pad at its greatest displacement");
+    assert!(history.events[3].words.starts_with("guide meets the pad at its least displacement"));
+    // In the middle of the pad all of the energy of 4 J is in its spring.
+    let mut reader = history.reader();
+    let middle = reader.at(0.5 + half / 2.0).unwrap().energy;
+    assert!((middle.potential - 4.0).abs() < 1e-7 && middle.kinetic < 1e-7, "{middle:?}");
+    assert!((reader.at(1.0).unwrap().configuration.rates[0] + 2.0).abs() < 1e-8);
+    assert!(history.energy_error < 1e-7, "{:e}", history.energy_error);
+}
+
+/// With friction f = mu g = 1 m/s^2 and w^2 = k/m the block that meets the pad with v is at d = -f/w^2 + (f/w^2 + D) cos(w t - ..), where the
+/// deepest place is D = sqrt((v/w)^2 + (f/w^2)^2) - f/w^2, reached after atan(v w/f)/w. From there d = f/w^2 + (D - f/w^2) cos(w t): it
+/// leaves where cos(w t) = -(f/w^2)/(D - f/w^2).
+#[test]
+fn friction_shifts_the_middle_of_an_undamped_pad() {
+    let (w, f) = (10.0_f64, 1.0_f64);
+    let history = run(&with_stop(&block("0.1", "value = 0.5\nrate = 2", ""), "{ stiffness = 200 }"), 2.0);
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    // v^2 = 4 - 2 f 0.5 = 3, after (2 - sqrt(3))/f.
+    let v = 3.0_f64.sqrt();
+    let met = (2.0 - v) / f;
+    let shift = f / (w * w);
+    let deepest = (v / w).hypot(shift) - shift;
+    let back = met + (v * w / f).atan() / w;
+    let left = back + (-shift / (deepest - shift)).acos() / w;
+    let [meets, leaves] = contacts(&history);
+    assert!((meets[0] - met).abs() < 1e-9 && (leaves[0] - left).abs() < 1e-8, "{:#?}", words(&history));
+    let stops =
+        history.events.iter().find(|event| event.causes.iter().any(|cause| matches!(cause, Cause::Stops(_))));
+    assert!((stops.unwrap().time - back).abs() < 1e-8);
+    let mut reader = history.reader();
+    let found = reader.at(back).unwrap().configuration.coordinates[0];
+    assert!((found - 1.0 - deepest).abs() < 1e-9, "{found}");
+    assert!(history.energy_error < 1e-8, "{:e}", history.energy_error);
+}
+
+/// A critically damped pad, c = 2 m w: d = v t e^(-w t), and k d + c d' = m w v (2 - w t) e^(-w t) lets go at t = 2/w, with the velocity
+/// -v e^-2 still 2 v e^-2/w deep. What the spring has then is lost: it takes (1 - e^-4) m v^2/2 in all.
+#[test]
+fn a_critically_damped_pad_lets_go_before_its_place() {
+    let (w, v) = (50.0, 2.0);
+    let (stiffness, damping) = (2.0 * w * w, 2.0 * 2.0 * w);
+    let stop = format!("{{ stiffness = {stiffness}, damping = {damping} }}");
+    let history = run(&with_stop(&block("0", "rate = 2", ""), &stop), 1.5);
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    let [meets, leaves] = contacts(&history);
+    let left = 0.5 + 2.0 / w;
+    assert!((meets[0] - 0.5).abs() < 1e-9 && (leaves[0] - left).abs() < 1e-8, "{meets:?} {leaves:?}");
+    let mut reader = history.reader();
+    let deep = reader.at(left).unwrap();
+    let back = v * (-2.0_f64).exp();
+    let place = deep.configuration.coordinates[0];
+    assert!((place - 1.0 - 2.0 * back / w).abs() < 1e-9, "{place}");
+    let last = reader.at(1.5).unwrap();
+    assert!((last.configuration.rates[0] + back).abs() < 1e-8, "{:?}", last.configuration.rates);
+    let taken = -last.energy.loads.iter().sum::<f64>();
+    assert!((taken - (1.0 - (-4.0_f64).exp()) * v * v).abs() < 1e-7, "{taken}");
+    assert!(last.energy.potential.abs() < 1e-12, "{}", last.energy.potential);
+    assert!(history.energy_error < 1e-7, "{:e}", history.energy_error);
+}
+
+/// Pushed with 50 N into a pad of 5000 N/m the block comes to rest where |50 N - k d| is within the static friction of 2 N; it
+/// stays there.
+#[test]
+fn a_block_rests_inside_a_preloaded_pad() {
+    let push = "[loads.push]\ntype = \"force\"\nat = \"block.C\"\ncomponents = [50, 0]\n";
+    let text = with_stop(&block("0.1", "value = 0.9", push), "{ stiffness = 5000, damping = 100 }");
+    let history = run(&text, 3.0);
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    assert_eq!(history.phases.last().unwrap().phase.joints, [JointPhase::Sticking], "{:#?}", words(&history));
+    let last = history.reader().at(3.0).unwrap();
+    let depth = last.configuration.coordinates[0] - 1.0;
+    assert!((50.0 - 5000.0 * depth).abs() <= 2.0 && last.configuration.rates == [0.0], "{depth}");
+    assert!((last.energy.potential - 2500.0 * depth * depth).abs() < 1e-9);
+    assert!(history.energy_error < 1e-7, "{:e}", history.energy_error);
+    // `hold` knows the pad: between 9.6 and 10.4 mm friction holds, beyond it moves.
+    for (depth, holds) in [(0.0097, true), (0.0103, true), (0.0095, false), (0.0105, false)] {
+        let model = Model::parse(&text).unwrap();
+        let settings = Settings::default().position("x", &format!("{} m", 1.0 + depth));
+        let report = hold(&model.with(&settings).unwrap(), &HoldOptions::default()).unwrap();
+        assert_eq!(report.holds, holds, "{depth}");
+    }
+}
+
+/// `solve` inside the pad: m x'' = -(k d + c d') - mu m g, where that is positive; at d = 10 mm and d' = -2 m/s a pad of 100 N s/m has
+/// let go.
+#[test]
+fn solve_knows_the_pad() {
+    for (depth, rate, force) in
+        [(0.01, 0.5, 100.0), (0.01, -0.25, 25.0), (0.01, -2.0, 0.0), (-0.01, 0.5, 0.0)]
+    {
+        let start = format!("value = {}\nrate = {rate}", 1.0 + depth);
+        let text = with_stop(&block("0.1", &start, ""), "{ stiffness = 5000, damping = 100 }");
+        let report = solve(&Model::parse(&text).unwrap()).unwrap();
+        let expected = -(force / 2.0) - f64::signum(rate);
+        let found = report.solutions[0].coordinates[0].acceleration;
+        assert!(
+            report.solutions.len() == 1 && (found - expected).abs() < 1e-12,
+            "{depth} {rate} {found} {expected}"
+        );
+        // The other pad is far away, the least displacement is permitted.
+        let other = text.replace(&format!("value = {}", 1.0 + depth), &format!("value = {}", -1.0 - depth));
+        let report = solve(
+            &Model::parse(&other.replace(&format!("rate = {rate}"), &format!("rate = {}", -rate))).unwrap(),
+        )
+        .unwrap();
+        assert!((report.solutions[0].coordinates[0].acceleration + expected).abs() < 1e-12);
+    }
+}
+
+/// A block of 2 kg on a slab of 3 kg, both without friction, a pad between them: it pushes both. In the frame of the common mass centre
+/// the reduced mass 1.2 kg meets it at 1 m/s; without damping the relative velocity is reversed after pi sqrt(1.2 kg/k).
+#[test]
+fn a_pad_between_moving_bodies_keeps_the_momentum() {
+    let between = "mu = 0\ntravel = [\"-2 m\", \"0.5 m\"]\nstop = { greatest = { stiffness = 1.2e4 } }";
+    let history = run(&stacked(["mu = 0", between], ["0 m/s", "1 m/s"], ""), 1.0);
+    assert_eq!(history.end, End::Finished);
+    let [meets, leaves] = contacts(&history);
+    let half = std::f64::consts::PI / 100.0;
+    assert!((meets[0] - 0.5).abs() < 1e-9 && (leaves[0] - 0.5 - half).abs() < 1e-8, "{:#?}", words(&history));
+    // 2 kg come at 1 m/s: the slab takes 2*2/5 = 0.8 m/s, the block keeps 0.8 - 1.
+    let rates = history.reader().at(1.0).unwrap().configuration.rates;
+    assert!((rates[0] - 0.8).abs() < 1e-8 && (rates[1] + 1.0).abs() < 1e-8, "{rates:?}");
+    assert!(history.energy_error < 1e-8, "{:e}", history.energy_error);
+}
+
+#[test]
+fn pads_without_sense_are_refused() {
+    let kind = |stop: &str| {
+        let faults = Model::parse(&with_stop(&block("0", "", ""), stop)).unwrap_err();
+        faults.sorted()[0].kind.clone()
+    };
+    assert!(matches!(kind("{ stiffness = -1 }"), FaultKind::OutOfRange { .. }));
+    assert!(matches!(kind("{ stiffness = 0 }"), FaultKind::OutOfRange { .. }));
+    assert!(matches!(kind("{ stiffness = 1, damping = -1 }"), FaultKind::OutOfRange { .. }));
+    assert!(matches!(kind("{ stiffness = \"1 N\" }"), FaultKind::WrongDimension { .. }));
+    assert!(matches!(kind("{ damping = 1 }"), FaultKind::MissingKey { key, .. } if key == "stiffness"));
+    assert!(
+        matches!(kind("{ least = { damping = 1 } }"), FaultKind::MissingKey { key, .. } if key == "stiffness")
+    );
+    assert!(matches!(kind("{ least = {} }"), FaultKind::NoneOf { .. }));
+    let both = "{ restitution = 0.5, stiffness = 1 }";
+    assert!(matches!(kind(both), FaultKind::Both { first: "restitution", second: "stiffness", .. }));
+    let both = "{ greatest = { restitution = 0.5, damping = 1 } }";
+    assert!(matches!(kind(both), FaultKind::Both { first: "restitution", second: "damping", .. }));
+    let text = with_stop(&block("0", "", ""), "{ stiffness = 1 }").replace("travel = [", "preload = 0 # [");
+    let faults = Model::parse(&text).unwrap_err();
+    assert!(matches!(&faults.sorted()[0].kind, FaultKind::MissingKey { key, .. } if key == "travel"));
+}
+
+/// A pad is a load that only pushes: k d + c d' beyond x = 1 m while that is positive. With a = c/(2 m) and w^2 = k/m - a^2 the block of
+/// 2 kg that comes at v = 2 m/s is at d = (v/w) e^(-a t) sin(w t), and the pad lets go where k d + c d' = 0: at
+/// w t = atan2(c w, c a - k), still with d > 0.
+#[test]
+fn a_pad_is_the_load_that_only_pushes() {
+    let (mass, stiffness, damping, speed) = (2.0, 2e4, 80.0, 2.0);
+    let pad = "[loads.pad]\ntype = \"force\"\nat = \"block.C\"\ncomponents = [\
+        \"-step(x - 1 m)*max(0 N, (2e4 N/m)*(x - 1 m) + (80 N s/m)*rate(x))\", 0]\n";
+    let as_a_load = run(&block("0", "rate = 2", pad), 0.75);
+    let as_a_stop = run(&with_stop(&block("0", "rate = 2", ""), "{ stiffness = 2e4, damping = 80 }"), 0.75);
+    let decay = damping / (2.0 * mass);
+    let frequency = f64::sqrt(stiffness / mass - decay * decay);
+    let angle = f64::atan2(damping * frequency, damping * decay - stiffness);
+    let (lasts, (sin, cos)) = (angle / frequency, angle.sin_cos());
+    let back = speed * (-decay * lasts).exp() * (cos - decay / frequency * sin);
+    assert!(back < 0.0 && back > -speed);
+    let place = 1.0 + speed / frequency * (-decay * lasts).exp() * sin;
+    let expected = place + back * (0.75 - 0.5 - lasts);
+    for history in [as_a_load, as_a_stop] {
+        assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+        let found = history.reader().at(0.75).unwrap().configuration;
+        assert!((found.rates[0] - back).abs() < 1e-7, "{} {back} {:#?}", found.rates[0], words(&history));
+        assert!((found.coordinates[0] - expected).abs() < 1e-8, "{} {expected}", found.coordinates[0]);
+    }
+}
+
+/// The gallery's drawer comes into its pad with v^2 = v_0^2 + 2 (F/m - mu g) x_0. With F' = F - mu m g, a = c/(2 m), w^2 = k/m - a^2 and
+/// e = d - F'/k: e = e^(-a t) (-F'/k cos w t + (v - a F'/k)/w sin w t), which stops first where tan w t = w v/(a v - F'/m), in the second
+/// quadrant, and stays there. Without damping it comes back.
+#[test]
+fn the_gallery_drawer_closes_softly() {
+    let model = Model::parse(crate::gallery::find("soft-closing-drawer").unwrap().text).unwrap();
+    let options = SimulateOptions { tolerance: 1e-11, ..SimulateOptions::new(1.0) };
+    let history = simulate(&model, &options).unwrap();
+    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+    let (mass, force, friction, stiffness, damping) = (5.0, 20.0, 0.05 * 9.81, 200.0, 60.0);
+    let acceleration = force / mass - friction;
+    let speed = (0.09_f64 + 2.0 * acceleration * 0.2).sqrt();
+    let met = (speed - 0.3) / acceleration;
+    let (decay, rest) = (damping / (2.0 * mass), mass * acceleration / stiffness);
+    let frequency = f64::sqrt(stiffness / mass - decay * decay);
+    let angle = f64::atan2(frequency * speed, decay * speed - acceleration);
+    let stops = met + angle / frequency;
+    let wave = -rest * angle.cos() + (speed - decay * rest) / frequency * angle.sin();
+    let deepest = rest + (-decay * angle / frequency).exp() * wave;
+    assert!((contacts(&history)[0][0] - met).abs() < 1e-9, "{met} {:#?}", words(&history));
+    let events = history.events.iter();
+    let found =
+        events.filter(|event| event.causes.iter().any(|cause| matches!(cause, Cause::Stops(_)))).last();
+    let (time, place) = (found.unwrap().time, history.reader().at(1.0).unwrap().configuration.coordinates[0]);
+    assert!(
+        (time - stops).abs() < 1e-7 && (place + deepest).abs() < 1e-9,
+        "{time} {stops} {place} {deepest}"
+    );
+    assert_eq!(history.phases.last().unwrap().phase.joints, [JointPhase::Sticking]);
+    let bounces = model.with(&Settings::default().parameter("c", "0 N s/m")).unwrap();
+    let [_, leaves] = contacts(&simulate(&bounces, &options).unwrap());
+    assert!(!leaves.is_empty());
+}
