@@ -5,7 +5,7 @@ use crate::arguments::{CheckArguments, CheckFormat};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
-use slideway::check;
+use slideway::check::{self};
 
 /// Says what a model consists of, and whether it can be solved.
 pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outcome, Failure> {

@@ -32,7 +32,7 @@ pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) ->
 }
 
 /// Whether an end of a mode is the same as the one before it.
-pub(crate) fn is_same_end(next: f64, kept: f64) -> bool {
+pub fn is_same_end(next: f64, kept: f64) -> bool {
     next.is_finite() && next - kept <= SAME_END * next.abs()
 }
 

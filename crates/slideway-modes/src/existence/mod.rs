@@ -29,7 +29,7 @@ use super::solutions::ContactState;
 use crate::progress::{Callback, Progress};
 use line::{Cause, Condition, End, Extent, Line, Part, Value};
 
-pub(crate) use counts::is_same_end;
+pub use counts::is_same_end;
 pub use counts::{CountInterval, cells, counts, counts_in};
 pub use line::Limit;
 
