@@ -87,3 +87,13 @@ pub use slideway_modes::{interval, printable, progress};
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// The examples of the book run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/src/library.md")]
+struct BookOfTheLibrary;
+
+/// Those of its page on matrices.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/src/raw-problems.md")]
+struct BookOfRawProblems;

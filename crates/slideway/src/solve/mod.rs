@@ -37,10 +37,8 @@ mod words;
 
 pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
-pub use mode_problem::mode_problem;
-pub(crate) use mode_problem::{
-    check_size, influence_coefficients, preload_columns, sides, sliding_signs, velocity_signs,
-};
+pub(crate) use mode_problem::{check_size, influence_coefficients, preload_columns, sides, sliding_signs};
+pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;

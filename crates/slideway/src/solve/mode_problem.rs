@@ -17,10 +17,10 @@ const SAME: f64 = 1e-12;
 const NO_INFLUENCE: f64 = 1e-13;
 
 /// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
-pub(crate) fn velocity_signs(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-) -> Result<DVector<f64>, Faults> {
+///
+/// # Errors
+/// A fault for each contact with friction that does not slide: eq. (2) does not say its friction.
+pub fn velocity_signs(mechanism: &Mechanism, configuration: &Configuration) -> Result<DVector<f64>, Faults> {
     let signs = sliding_signs(mechanism, configuration);
     let undefined: Vec<usize> =
         (0..signs.len()).filter(|&k| signs[k] == 0.0 && !mechanism.contacts[k].is_frictionless()).collect();
