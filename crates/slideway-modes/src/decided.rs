@@ -1,13 +1,13 @@
 //! Files what proofs say of patterns.
 
+use super::admitted::Admitted;
 use super::candidate::{Candidate, determinant, solve_pattern};
 use super::certificate::{Decision, ExactSet, Interval, Sign};
 use super::contact_set::ContactSet;
 use super::degenerate::{Examined, examine};
 use super::enumeration::EnumerationError;
 use super::findings::{Findings, SUSPECT_CONDITION};
-use super::solutions::{Certificate, ContactState, SolutionSet, UndecidedPattern};
-use super::support::Support;
+use super::solutions::{Certificate, ContactState, UndecidedPattern};
 
 /// Whether a decision settled a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub(super) enum Filed {
 /// What the middle of the bounds says of a pattern that is not decided within them.
 enum Centre {
     Solution(Candidate),
-    Set(SolutionSet),
+    Set(Admitted),
     Nothing,
     NotExamined,
 }
@@ -59,8 +59,8 @@ impl Findings<'_> {
             }
             Decision::Singular { set } => {
                 self.examined += 1;
-                let support = Support::of_exact_set(pattern, &set, &self.problem.has_jump);
-                self.file_singular(pattern, (set.normal_forces(pattern), support), Certificate::Singular);
+                let admitted = Admitted::exactly(pattern, &set, &self.problem.has_jump);
+                self.file_singular(pattern, admitted, Certificate::Singular);
             }
             Decision::Undecided { unknowns, in_doubt } => {
                 let centre = self.centre(pattern, proceed);
@@ -84,10 +84,9 @@ impl Findings<'_> {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
                 self.file_admissible(pattern, candidate, certificate)
             }
-            Centre::Set(set) => {
+            Centre::Set(admitted) => {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
-                let support = Support::of_set(pattern, &set, &self.problem.has_jump);
-                self.file_singular(pattern, (set, support), certificate);
+                self.file_singular(pattern, admitted, certificate);
                 Ok(())
             }
             Centre::Nothing if self.undecided.len() >= self.limits.solutions => {
@@ -120,8 +119,8 @@ impl Findings<'_> {
         self.examined += 1;
         match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => candidate.map_or(Centre::Nothing, judged),
-            Examined::Singular(set) if set.vertices().is_empty() => Centre::Nothing,
-            Examined::Singular(set) => Centre::Set(set),
+            Examined::Singular(admitted) if admitted.set.vertices().is_empty() => Centre::Nothing,
+            Examined::Singular(admitted) => Centre::Set(admitted),
         }
     }
 

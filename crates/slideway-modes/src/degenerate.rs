@@ -2,9 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::admitted::Admitted;
 use super::dense::Pace;
 use super::scaling::ScaledProblem;
 use super::solutions::{ContactState, SolutionSet};
+use super::support::Support;
 
 /// A pivot below this, with columns scaled to a largest entry of 1, is zero.
 const ZERO_PIVOT: f64 = 1e-12;
@@ -20,7 +22,7 @@ pub(super) enum Examined {
     /// It is regular.
     Regular,
     /// `D = 0`, and this is what it admits.
-    Singular(SolutionSet),
+    Singular(Admitted),
 }
 
 /// Whether a pattern is singular, by elimination with complete pivoting, and what it admits.
@@ -34,14 +36,21 @@ pub(super) fn examine(
     let contacts = pattern.len();
     let (mut matrix, right_hand_side) = problem.system(pattern);
     let column_sizes = scale_columns(&mut matrix);
+    let not_computed = || Examined::Singular(Admitted::not_computed(contacts));
     match Reduced::new(augment(&matrix, &right_hand_side), proceed) {
-        None => return Examined::Singular(SolutionSet::NotComputed),
+        None => return not_computed(),
         Some(reduced) if reduced.rank() == contacts => return Examined::Regular,
         Some(_) => {}
     }
     let (matrix, right_hand_side) = with_share_limits(&matrix, &right_hand_side, pattern, &column_sizes);
     let Some(polyhedron) = Polyhedron::new(&matrix, &right_hand_side, bases, proceed) else {
-        return Examined::Singular(SolutionSet::NotComputed);
+        return not_computed();
+    };
+    let corners = distinct(polyhedron.vertices.iter().cloned());
+    let support = Support::of_corners(pattern, (&corners, &polyhedron.directions), &problem.has_jump);
+    let mean_share = |contact: usize| {
+        corners.iter().map(|corner| corner[contact]).sum::<f64>()
+            / (corners.len() as f64 * column_sizes[contact])
     };
     // Signed normal forces from scaled unknowns; shares and their complements are left out.
     let normal_force = |unknowns: &DVector<f64>| {
@@ -53,7 +62,8 @@ pub(super) fn examine(
     let directions =
         polyhedron.directions.iter().map(normal_force).filter(|direction| direction.amax() > 0.0);
     let directions = distinct(directions.map(|direction| &direction / direction.amax()));
-    Examined::Singular(SolutionSet::from_corners(vertices, directions))
+    let set = SolutionSet::from_corners(vertices, directions);
+    Examined::Singular(Admitted::new(pattern, (set, support), (corners.len(), &mean_share)))
 }
 
 /// Divides every column by its largest entry, and returns these (1 for a zero column).
@@ -253,12 +263,4 @@ fn distinct(points: impl Iterator<Item = DVector<f64>>) -> Vec<DVector<f64>> {
 /// Whether two points agree within tolerance relative to the larger one.
 pub(super) fn same_point(one: &DVector<f64>, other: &DVector<f64>) -> bool {
     (one - other).amax() <= SAME_POINT * one.amax().max(other.amax())
-}
-
-/// Whether two sets have the same vertices and the same directions, in any order.
-pub(super) fn same_set(one: &SolutionSet, other: &SolutionSet) -> bool {
-    let same = |one: &[&DVector<f64>], other: &[&DVector<f64>]| {
-        one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| same_point(a, b)))
-    };
-    same(&one.vertices(), &other.vertices()) && same(&one.directions(), &other.directions())
 }

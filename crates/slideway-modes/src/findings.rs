@@ -4,15 +4,16 @@ use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
 
+use super::admitted::Admitted;
 use super::candidate::{Candidate, determinant, solve_pattern};
 use super::contact_set::ContactSet;
-use super::degenerate::{Examined, examine, same_point, same_set};
+use super::degenerate::{Examined, examine, same_point};
 use super::enumeration::{EnumerationError, Limits};
 use super::found::{Found, oriented, sides};
 use super::scaling::ScaledProblem;
 use super::solutions::{
-    Certificate, ClosestMode, ContactState, GapState, ModeSolution, PatternCounts, SingularMode, SolutionSet,
-    Solutions, UndecidedPattern,
+    Certificate, ClosestMode, ContactState, GapState, ModeSolution, PatternCounts, SingularMode, Solutions,
+    UndecidedPattern,
 };
 use super::support::Support;
 
@@ -37,8 +38,9 @@ pub(super) struct Findings<'a> {
     found: Vec<Found>,
     shared: HashMap<SharedPattern, usize>,
     singular: Vec<SingularMode>,
-    /// Places in `singular` of non-empty sets, by the signs that their normal forces take.
-    singular_places: HashMap<(ContactSet, ContactSet), Vec<usize>>,
+    /// Places in `singular` of non-empty sets. What patterns admit are faces of one polyhedron, so that those with the same
+    /// support are one set.
+    singular_places: HashMap<Support, usize>,
     pub(super) undecided: Vec<UndecidedPattern>,
     /// Whether what is found is exact but for rounding, so that nothing is merged within tolerances.
     exact: bool,
@@ -168,9 +170,8 @@ impl<'a> Findings<'a> {
         self.examined += 1;
         match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => self.examine_candidate(pattern, proceed),
-            Examined::Singular(set) => {
-                let support = Support::of_set(pattern, &set, &self.problem.has_jump);
-                self.file_singular(pattern, (set, support), Certificate::NotProven);
+            Examined::Singular(admitted) => {
+                self.file_singular(pattern, admitted, Certificate::NotProven);
                 Ok(())
             }
         }
@@ -286,15 +287,12 @@ impl<'a> Findings<'a> {
     pub(super) fn file_singular(
         &mut self,
         pattern: &[ContactState],
-        (set, support): (SolutionSet, Support),
+        Admitted { set, support, shares, shares_vary }: Admitted,
         certificate: Certificate,
     ) {
         self.counts_of(pattern).count_set(&set);
         if !set.vertices().is_empty() {
-            let places = self.singular_places.entry(signs_taken(&set, pattern.len())).or_default();
-            let exact = self.exact;
-            let same = |other: &SolutionSet| if exact { *other == set } else { same_set(other, &set) };
-            if let Some(&place) = places.iter().find(|&&place| same(&self.singular[place].set)) {
+            if let Some(&place) = self.singular_places.get(&support) {
                 let mode = &mut self.singular[place];
                 mode.pattern_count += 1;
                 if mode.patterns.len() < self.limits.listed {
@@ -302,13 +300,15 @@ impl<'a> Findings<'a> {
                 }
                 return;
             }
-            places.push(self.singular.len());
+            self.singular_places.insert(support.clone(), self.singular.len());
         }
         self.singular.push(SingularMode {
             pattern: pattern.to_vec(),
             patterns: vec![pattern.to_vec()],
             pattern_count: 1,
             set,
+            shares,
+            shares_vary,
             contains: Vec::new(),
             maximal: true,
             support,
@@ -425,8 +425,8 @@ impl<'a> Findings<'a> {
 
 /// Marks what is part of a larger set.
 fn mark_parts(solutions: &mut [ModeSolution], gaps: &mut [GapState], singular: &mut [SingularMode]) {
-    let continua = singular.iter().filter(|mode| mode.set.is_continuum());
-    let mut supports: Vec<&Support> = continua.map(|mode| &mode.support).collect();
+    let sets = singular.iter().filter(|mode| mode.set.is_continuum() || mode.shares_vary);
+    let mut supports: Vec<&Support> = sets.map(|mode| &mode.support).collect();
     supports.sort_by_key(|support| std::cmp::Reverse(support.len()));
     let mut largest: Vec<Support> = Vec::new();
     for support in supports {
@@ -438,21 +438,6 @@ fn mark_parts(solutions: &mut [ModeSolution], gaps: &mut [GapState], singular: &
     solutions.iter_mut().for_each(|solution| solution.maximal = is_maximal(&solution.support));
     gaps.iter_mut().for_each(|gap| gap.maximal = is_maximal(&gap.support));
     singular.iter_mut().for_each(|mode| mode.maximal = is_maximal(&mode.support));
-}
-
-/// The contacts whose normal forces are positive, and negative, somewhere in a set.
-fn signs_taken(set: &SolutionSet, contacts: usize) -> (ContactSet, ContactSet) {
-    let (mut positive, mut negative) = (ContactSet::none_of(contacts), ContactSet::none_of(contacts));
-    for force in set.vertices().into_iter().chain(set.directions()) {
-        for (contact, &value) in force.iter().enumerate() {
-            if value > 0.0 {
-                positive.insert(contact);
-            } else if value < 0.0 {
-                negative.insert(contact);
-            }
-        }
-    }
-    (positive, negative)
 }
 
 /// The pattern with all free contacts on their positive side.

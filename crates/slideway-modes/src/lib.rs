@@ -65,6 +65,7 @@
 //! reported with the set of normal forces that they admit. Contacts at which the right-hand side
 //! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
 
+mod admitted;
 pub mod batch;
 mod candidate;
 pub mod certificate;

@@ -291,6 +291,10 @@ pub struct SingularMode {
     /// What the pattern admits. For a pattern with gap states these are its normal forces; the
     /// shares `lambda` may vary besides.
     pub set: SolutionSet,
+    /// Where the set is a point, the shares of the contacts in their gaps; if they vary, those of one of the states.
+    pub shares: Vec<GapShare>,
+    /// Whether the set is a point, and there are several states with these normal forces, which differ in their shares.
+    pub shares_vary: bool,
     /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
     /// reported there as well.
     pub contains: Vec<usize>,

@@ -7,18 +7,19 @@
 //! somewhere in it is so somewhere in the other.
 
 use dashu_ratio::RBig;
+use nalgebra::DVector;
 
 use super::candidate::Candidate;
 use super::certificate::ExactSet;
 use super::contact_set::ContactSet;
-use super::solutions::{ContactState, SolutionSet};
+use super::solutions::ContactState;
 
 /// Unknowns of one contact.
 const UNKNOWNS: usize = 4;
 
 /// The unknowns that are positive somewhere in a set: of each contact `y^+`, `y^-`, and where the right-hand
 /// side jumps `lambda` and `1 - lambda`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Support {
     unknowns: ContactSet,
 }
@@ -54,17 +55,23 @@ impl Support {
         support
     }
 
-    /// Of what a singular pattern admits, from normal forces that vanish within tolerances; shares are taken as
-    /// neither 0 nor 1.
-    pub(super) fn of_set(pattern: &[ContactState], set: &SolutionSet, has_jump: &[bool]) -> Self {
+    /// Of what a singular pattern admits, within tolerances: its vertices and directions with `y_k`, or the share of a
+    /// contact in its gap, and behind these `1 - lambda` of the contacts in their gaps. What vanishes is exactly zero.
+    pub(super) fn of_corners(
+        pattern: &[ContactState],
+        (vertices, directions): (&[DVector<f64>], &[DVector<f64>]),
+        has_jump: &[bool],
+    ) -> Self {
         let mut support = Self::none_of(pattern.len());
-        for point in set.vertices() {
+        for point in vertices {
+            let mut complements = point.iter().skip(pattern.len());
             for (contact, &state) in pattern.iter().enumerate() {
-                let vanishes = state != ContactState::Gap && point[contact] == 0.0;
-                support.add(contact, state, has_jump[contact], (vanishes, false));
+                let is_full =
+                    state == ContactState::Gap && complements.next().is_some_and(|rest| *rest == 0.0);
+                support.add(contact, state, has_jump[contact], (point[contact] == 0.0, is_full));
             }
         }
-        for direction in set.directions() {
+        for direction in directions {
             support.add_direction(pattern, |contact| direction[contact] != 0.0);
         }
         support

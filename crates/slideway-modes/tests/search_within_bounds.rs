@@ -307,3 +307,28 @@ fn many_contacts_of_few_freedoms_within_bounds() {
         assert!(listed(&lists).iter().any(|(other, _)| *other == pattern));
     }
 }
+
+/// Row 2: `N_2 = -1 + lambda_2 + lambda_3`; `N_3 = 0`; and the first contact, whose column on its positive side is zero, has
+/// any force. With both others in their gaps it is `lambda_2 + lambda_3 = 1`. One end of that, `lambda = (1, 0)`, is what the
+/// others admit on a positive and a negative side: the same forces, but a smaller set. With the second contact in its gap and
+/// the third on its negative side it is the same end.
+#[test]
+fn sets_with_the_same_forces_and_other_shares_are_two() {
+    let columns = [dmatrix![0.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 1.0], -DMatrix::identity(3, 3)];
+    let [positive, negative] = columns;
+    let jumps = dmatrix![0.0, 0.0, 0.0; 0.0, 1.0, 1.0; 0.0, 0.0, 0.0];
+    let problem = ModeProblem::new(positive, negative, jumps, DMatrix::zeros(3, 3), dvector![0.0, -1.0, 0.0]);
+    let bounded =
+        IntervalModeProblem::widened(&problem.expect("shapes fit"), 1e-12).expect("a sensible radius");
+    let exact = IntervalModeProblem::widened(bounded.centre(), 0.0).expect("a sensible radius");
+    for problem in [bounded, exact] {
+        let lists = run(&problem, &SearchOptions::default()).1;
+        let is_maximal = |pattern: [ContactState; 3]| {
+            let mode = lists.singular.iter().find(|mode| mode.pattern == pattern);
+            mode.map(|mode| (mode.maximal, mode.pattern_count))
+        };
+        let (up, down, gap) = (ContactState::Positive, ContactState::Negative, ContactState::Gap);
+        assert_eq!(is_maximal([up, gap, gap]), Some((true, 1)));
+        assert_eq!(is_maximal([up, up, down]), Some((false, 2)));
+    }
+}

@@ -221,6 +221,49 @@ fn solution_of(json: &str) -> RawReport {
     solved(&RawProblem::from_json(json.as_bytes()).unwrap())
 }
 
+/// With both unknowns in their gaps 5 = 4 lambda_1 + 2 lambda_2 in both equations: from lambda = (3/4, 1) to (1, 1/2). The ends
+/// belong to patterns with one unknown in its gap, and are no states besides.
+#[test]
+fn shares_that_may_be_exchanged_are_one_gap_state() {
+    let report = solution_of(
+        r#"{"type": "modes", "columns_positive": [[1, -2], [-1, 1]], "columns_negative": [[-1, -1], [1, 2]],
+            "jumps_positive": [[-2, -1], [-2, -1]], "jumps_negative": [[2, 1], [2, 1]], "right_hand_side": [2, 2]}"#,
+    );
+    assert_eq!(
+        (report.complete, report.count.as_str(), report.gap_state_count.as_str()),
+        ("proven", "2", "1")
+    );
+    assert_eq!((report.faces.solutions.as_str(), report.faces.gap_states.as_str()), ("0", "2"));
+    let [state] = report.gap_states.as_slice() else { panic!("one state") };
+    let shares: Vec<(usize, f64)> = state.gaps.iter().map(|gap| (gap.index, gap.lambda)).collect();
+    assert_eq!(shares, [(0, 0.875), (1, 0.75)]);
+    assert!(state.shares_vary && state.residual == Some(0.0) && !state.on_boundary);
+    let told = to_text(&report, Style::Plain);
+    assert!(told.contains("These shares are an example: others have the same values"), "{told}");
+    assert!(to_json(&report).contains("\"shares_vary\": true"));
+}
+
+/// A pattern whose determinant is 1e-12 of its terms. Elimination in fractions (Python's) gives, for these very numbers,
+/// `N_1 = -573611896603267211751828659652045 / 1151026745007804056679198866014208`,
+/// `N_2 = -6755399441061368 / 1022317115413610417` and the share `2024368032505066551 / 8178536923308883336`.
+#[test]
+fn values_of_nearly_singular_patterns_are_as_accurate_as_others() {
+    let report = solution_of(
+        r#"{"type": "modes", "columns_positive": [[-1, -1, -1], [2, 0, -2], [-1, -1, 0]],
+            "columns_negative": [[2, -1, 0], [2, 2.0000000000002, 1.9999999999999982], [-2, -1.9999999999999996, 0]],
+            "right_hand_side": [0, 2.0000000000000004, -2],
+            "jumps_positive": [[-2, 1, 2.000000000002], [-1, -1, -1.9999999999999982], [-2, 0, 2]],
+            "jumps_negative": [[1.0000000000000009, 1, -2.000000000002], [-1, -1, 1.9999999999999982],
+                               [2.0000000000000018, 0, -2]]}"#,
+    );
+    let [state] = report.gap_states.as_slice() else { panic!("one state") };
+    let Unknowns::Modes { normal_forces, .. } = &state.unknowns else { panic!("normal forces") };
+    let told = [normal_forces[0], normal_forces[1], state.gaps[0].lambda];
+    for (told, exact) in told.into_iter().zip([-0.4983480176208921, -0.006607929515420721, 0.24752202643184315]) {
+        assert!((told - exact).abs() <= 2.0 * f64::EPSILON * exact.abs(), "{told} instead of {exact}");
+    }
+}
+
 /// z_1 = 1e10 / 1e-300 and z_2 = 1, which is told as every other number.
 #[test]
 fn values_beyond_floating_point_numbers_are_told_as_text() {

@@ -123,6 +123,12 @@ impl Encoder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::ValueEnum;
+    use slideway::sweep::SweepOptions;
+    use std::fs;
+    use std::io::Read;
+    use std::ops::ControlFlow;
+    use std::path::Path;
 
     #[test]
     fn a_command_stays_on_one_line() {
@@ -130,5 +136,112 @@ mod tests {
             ["slideway", "sweep", "it's.toml", "a\nb'\u{1b}]0;\u{9b}.toml", "--force", "--vary", "mu=0..1"];
         let told = command(words.into_iter().map(OsString::from));
         assert_eq!(told, r"slideway sweep 'it'\''s.toml' $'a\nb\'\033]0;\302\233.toml' --vary mu=0..1");
+    }
+
+    /// The rows of a sweep of the drawer, with these in place of some of its numbers.
+    fn rows_with(wrong: [f64; 3]) -> (Sweep, Layout, Rows) {
+        let text = slideway::gallery::find("drawer").expect("in the gallery").text;
+        let model = slideway::model::Model::parse(text).expect("a model");
+        let sweep = Sweep::new(&model, &SweepOptions::of(&["mu=0.1..0.5:5"])).expect("a sweep");
+        let mut all = Vec::new();
+        sweep.run(&mut sweep.start(), &Rows::clone, &mut |parts, _| {
+            all.extend(parts);
+            ControlFlow::Continue(())
+        });
+        let mut rows = all.swap_remove(0);
+        let (width, last) = (rows.width, rows.len() - 1);
+        // The varied quantity, a number of a state, and the last cell.
+        for (at, value) in [0, width + 1, last * width + width - 1].into_iter().zip(wrong) {
+            assert!(rows.numbers[at].is_finite());
+            rows.numbers[at] = value;
+        }
+        let layout = Layout::of(&sweep, rows.varied, false);
+        (sweep, layout, rows)
+    }
+
+    /// The cells with numbers of a table, row by row; nothing where a cell says that there is none.
+    fn cells(format: TableFormat, path: &Path, layout: &Layout) -> Vec<Option<f64>> {
+        match format {
+            TableFormat::Csv => csv_cells(&fs::read_to_string(path).expect("a table"), layout),
+            TableFormat::Npz => {
+                let mut archive =
+                    zip::ZipArchive::new(fs::File::open(path).expect("a table")).expect("an archive");
+                let mut array = Vec::new();
+                archive.by_name("rows.npy").expect("rows").read_to_end(&mut array).expect("whole");
+                let header = u32::from_le_bytes(array[8..12].try_into().expect("4 bytes"));
+                npz_cells(&array[12 + header as usize..], layout)
+            }
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => {
+                use ::parquet::file::reader::{FileReader, SerializedFileReader};
+                use ::parquet::record::Field;
+                let reader =
+                    SerializedFileReader::new(fs::File::open(path).expect("a table")).expect("Parquet");
+                let rows = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row"));
+                let names: Vec<&str> =
+                    layout.varied.iter().chain(&layout.numbers).map(|(name, _)| name.as_str()).collect();
+                let cells = rows.flat_map(|row| {
+                    let columns: Vec<(String, Field)> = row.into_columns();
+                    let numbers = columns.into_iter().filter(|(name, _)| names.contains(&name.as_str()));
+                    numbers
+                        .map(|(_, field)| if let Field::Double(value) = field { Some(value) } else { None })
+                        .collect::<Vec<_>>()
+                });
+                cells.collect()
+            }
+        }
+    }
+
+    fn csv_cells(text: &str, layout: &Layout) -> Vec<Option<f64>> {
+        let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+        let numbers = |line: &str| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let (varied, others) =
+                (&cells[1..=layout.varied.len()], &cells[cells.len() - layout.numbers.len()..]);
+            let number = |cell: &&str| (!cell.is_empty()).then(|| cell.parse().expect("a number"));
+            varied.iter().chain(others).map(number).collect::<Vec<_>>()
+        };
+        lines.flat_map(numbers).collect()
+    }
+
+    /// In records not a number stands where there is none.
+    fn npz_cells(records: &[u8], layout: &Layout) -> Vec<Option<f64>> {
+        let mut cells = Vec::new();
+        for mut record in records.chunks_exact(record::size(layout)) {
+            for field in record::fields(layout) {
+                let (bytes, rest) = record.split_at(field.kind.size());
+                record = rest;
+                if field.kind == record::FieldKind::Number {
+                    let value = f64::from_le_bytes(bytes.try_into().expect("8 bytes"));
+                    cells.push((!value.is_nan()).then_some(value));
+                }
+            }
+        }
+        cells
+    }
+
+    #[test]
+    fn what_is_not_finite_is_an_empty_cell_in_every_file() {
+        let formats: &[TableFormat] = TableFormat::value_variants();
+        for wrong in
+            [[f64::INFINITY, f64::NEG_INFINITY, f64::NAN], [f64::NAN, f64::INFINITY, f64::NEG_INFINITY]]
+        {
+            let (sweep, layout, rows) = rows_with(wrong);
+            let finite = |value: &f64| value.is_finite().then_some(*value);
+            let expected: Vec<Option<f64>> = rows.numbers.iter().map(finite).collect();
+            assert!(expected.iter().filter(|cell| cell.is_none()).count() >= 3);
+            for &format in formats {
+                let folder = tempfile::tempdir().expect("a folder");
+                let path = folder.path().join("table");
+                let metadata = Metadata { command: String::new(), model: String::new() };
+                let encoder = Encoder::new(format, layout.clone(), metadata);
+                let opened = PartialFile::open(&path, encoder.clone(), (false, false), sweep.start());
+                let Continued { mut file, state } = opened.expect("a file");
+                file.add(&[encoder.rows(&rows)], &state).expect("room");
+                let flow = file.complete(&mut |_| ControlFlow::Continue(())).expect("room");
+                assert!(flow.is_continue());
+                assert_eq!(cells(format, &path, &layout), expected, "{format:?}");
+            }
+        }
     }
 }

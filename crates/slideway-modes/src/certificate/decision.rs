@@ -159,7 +159,7 @@ pub(crate) fn decide_while(
         for precision in [Precision::Double, Precision::DoubleDouble] {
             enclosure = approximation.improve(precision).or(enclosure);
             match enclosure.as_ref().and_then(|found| found.decide(pattern)) {
-                Some(decision @ Decision::Solution { .. }) if precision == Precision::Double => {
+                Some(decision @ Decision::Solution { .. }) => {
                     return Some(Verdict { decision: approximation.sharpened(decision), precision });
                 }
                 Some(decision) => return Some(Verdict { decision, precision }),
@@ -213,14 +213,22 @@ impl<'a> Approximation<'a> {
 }
 
 impl Approximation<'_> {
-    /// The same solution within narrower bounds, if there are such.
+    /// The same solution within narrower bounds: residuals with twice the digits are taken as long as that halves a bound.
     fn sharpened(&mut self, solution: Decision) -> Decision {
-        let Decision::Solution { unknowns, determinant } = solution else { return solution };
-        let Some(sharper) = self.improve(Precision::DoubleDouble) else {
-            return Decision::Solution { unknowns, determinant };
-        };
-        let both = |(one, other): (&Interval, &Interval)| one.intersection(*other).unwrap_or(*one);
-        let unknowns = unknowns.iter().zip(&sharper.unknowns).map(both).collect();
+        let Decision::Solution { mut unknowns, determinant } = solution else { return solution };
+        let mut is_first = true;
+        while let Some(sharper) = self.improve(Precision::DoubleDouble) {
+            let both = |(one, other): (&Interval, &Interval)| one.intersection(*other).unwrap_or(*one);
+            let narrower: Vec<Interval> = unknowns.iter().zip(&sharper.unknowns).map(both).collect();
+            let gains = narrower.iter().zip(&unknowns).any(|(new, old)| new.width() < 0.5 * old.width());
+            if is_first || gains {
+                unknowns = narrower;
+            }
+            if !gains {
+                break;
+            }
+            is_first = false;
+        }
         Decision::Solution { unknowns, determinant }
     }
 }

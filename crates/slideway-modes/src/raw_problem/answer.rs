@@ -236,6 +236,7 @@ impl Teller<'_> {
             residual: values.residual(&self.equations, &pattern),
             beyond_range,
             gaps: values.gaps,
+            shares_vary: state.shares_vary(),
             end_of_continuum: None,
         }
     }

@@ -192,6 +192,9 @@ pub struct RawSolution {
     /// Unknowns in their gap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<GapShare>,
+    /// Whether the shares in `gaps` are those of one state of many, which have the same values otherwise.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub shares_vary: bool,
 }
 
 /// An unknown that is not zero and beyond the range of floating-point numbers of full precision: larger than

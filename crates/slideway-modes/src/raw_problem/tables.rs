@@ -141,6 +141,8 @@ impl Archive {
             }
         }
         self.push("gap_shares", npy::write_numbers(&[states.len(), self.size], &shares));
+        let vary: Vec<bool> = states.iter().map(|state| state.shares_vary).collect();
+        self.push("gap_shares_vary", npy::write_truths(&[vary.len()], &vary));
         self.beyond_range("gap_", states);
     }
 

@@ -6,7 +6,7 @@ use super::RawKind;
 use super::range::{exact_unknown, in_range, nearest, told};
 use super::report::{BeyondRange, GapShare, Unknowns};
 use super::residual::{Equations, exact};
-use crate::{CombinedState, ContactState, GroupState, ModeProblem};
+use crate::{CombinedState, ContactState, ModeProblem};
 
 /// Signed values `N` and shares of a state. One beyond the range of floating-point numbers is infinite or subnormal,
 /// with its sign.
@@ -21,15 +21,9 @@ impl Values {
     pub(super) fn new(state: &CombinedState<'_>, size: usize) -> Self {
         let signed =
             state.normal_force(size).map_or_else(|| vec![0.0; size], |force| force.as_slice().to_vec());
-        let mut gaps: Vec<GapShare> = Vec::new();
-        for (indices, part) in &state.parts {
-            if let GroupState::Gap(gap) = part {
-                let own = gap.shares.iter();
-                gaps.extend(own.map(|one| GapShare { index: indices[one.contact], lambda: one.lambda }));
-            }
-        }
-        gaps.sort_by_key(|share| share.index);
-        Self { signed, gaps, beyond: Vec::new() }
+        let gaps =
+            state.shares().into_iter().map(|share| GapShare { index: share.contact, lambda: share.lambda });
+        Self { signed, gaps: gaps.collect(), beyond: Vec::new() }
     }
 
     /// Puts the numbers nearest to the exact values where the search had none of full precision, and tells of the
@@ -70,11 +64,11 @@ impl Values {
     /// What these values leave over in the equations; none if one of them is not known.
     pub(super) fn residual(&self, equations: &Equations<'_>, pattern: &[ContactState]) -> Option<f64> {
         let share = |(at, state): (usize, &ContactState)| match state {
-            ContactState::Positive => 1.0,
-            ContactState::Negative => 0.0,
-            ContactState::Gap => self.gaps.iter().find(|gap| gap.index == at).map_or(0.5, |gap| gap.lambda),
+            ContactState::Positive => Some(1.0),
+            ContactState::Negative => Some(0.0),
+            ContactState::Gap => self.gaps.iter().find(|gap| gap.index == at).map(|gap| gap.lambda),
         };
-        let shares: Vec<f64> = pattern.iter().enumerate().map(share).collect();
+        let shares = pattern.iter().enumerate().map(share).collect::<Option<Vec<f64>>>()?;
         let plain = || equations.residual(&self.signed, &shares);
         if let Some(residual) = Some(()).filter(|()| self.beyond.is_empty()).and_then(|()| plain()) {
             return Some(residual);

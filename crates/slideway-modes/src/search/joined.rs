@@ -6,7 +6,7 @@ use super::product::{CombinedState, GroupState};
 use crate::certificate::Interval;
 use crate::problem::Side;
 use crate::solutions::{
-    Certificate, ContactState, GapShare, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
+    Certificate, ContactState, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
 };
 
 /// The most vertices and directions of a set that is a product of several.
@@ -66,17 +66,9 @@ impl Joint<'_> {
     fn gap_state(&self) -> GapState {
         let normal_force = self.normal_force();
         let (patterns, pattern_count) = self.patterns();
-        let mut shares: Vec<GapShare> = Vec::new();
-        for (members, state) in &self.state.parts {
-            if let GroupState::Gap(gap) = state {
-                let renumbered = gap.shares.iter();
-                shares.extend(renumbered.map(|share| GapShare { contact: members[share.contact], ..*share }));
-            }
-        }
-        shares.sort_by_key(|share| share.contact);
         GapState {
             pattern: self.state.pattern(self.contacts),
-            shares,
+            shares: self.state.shares(),
             signs: self.signs(),
             y: normal_force.abs(),
             normal_force,
@@ -93,11 +85,15 @@ impl Joint<'_> {
 
     fn singular_mode(&self) -> SingularMode {
         let (patterns, pattern_count) = self.patterns();
+        let set = self.set();
+        let is_point = matches!(set, SolutionSet::Point(_));
         SingularMode {
             pattern: self.state.pattern(self.contacts),
             patterns,
             pattern_count,
-            set: self.set(),
+            set,
+            shares: if is_point { self.state.shares() } else { Vec::new() },
+            shares_vary: is_point && self.state.shares_vary(),
             contains: Vec::new(),
             maximal: self.state.is_maximal(),
             support: self.state.support(self.contacts),

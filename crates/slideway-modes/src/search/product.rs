@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::count::BigCount;
 use crate::certificate::Interval;
 use crate::solutions::{
-    Certificate, ContactState, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
+    Certificate, ContactState, GapShare, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
 };
 use crate::support::Support;
 
@@ -224,6 +224,26 @@ impl SolutionProduct {
 }
 
 impl CombinedState<'_> {
+    /// The shares of contacts in their gaps, of one state where they vary.
+    pub fn shares(&self) -> Vec<GapShare> {
+        let mut all: Vec<GapShare> = Vec::new();
+        for (members, state) in &self.parts {
+            let own = match state {
+                GroupState::Gap(gap) => gap.shares.as_slice(),
+                GroupState::Singular(mode) => mode.shares.as_slice(),
+                GroupState::Solution(_) | GroupState::Undecided(_) => &[],
+            };
+            all.extend(own.iter().map(|share| GapShare { contact: members[share.contact], ..*share }));
+        }
+        all.sort_by_key(|share| share.contact);
+        all
+    }
+
+    /// Whether there are several states with the same normal forces, which differ in their shares.
+    pub fn shares_vary(&self) -> bool {
+        self.parts.iter().any(|(_, state)| matches!(state, GroupState::Singular(mode) if mode.shares_vary))
+    }
+
     /// The kind of the combination: that of the part of which most has to be said.
     pub fn kind(&self) -> StateKind {
         self.parts.iter().map(|(_, state)| state.kind()).max().unwrap_or(StateKind::Solution)

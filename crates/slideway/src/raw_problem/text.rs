@@ -132,6 +132,9 @@ impl Text<'_> {
                 let share = value(gap.lambda, ("lambda", gap.index), &solution.beyond_range);
                 self.line(&format!("  N_{} is in its gap, share {share}", gap.index + 1));
             }
+            if solution.shares_vary {
+                self.line("  These shares are an example: others have the same values");
+            }
             if !solution.beyond_range.is_empty() {
                 self.line("  Values that have an exponent beyond -308 or 308 have no floating-point number: 17 digits are shown");
             }
