@@ -248,10 +248,11 @@ fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() 
 }
 
 /// Two blocks in guided sliders along x, one on the other, with packings; `V` presses the lower one down, `M` turns the upper one,
-/// which nothing presses: `N_2 = 0`.
+/// which only `W` presses: `N_2 = W`.
 const PACKED: &str = r#"
     [parameters]
     V = "40 N"
+    W = 0
     M = "0.3 N m"
     F = "6 N"
     mu = 0
@@ -261,11 +262,13 @@ const PACKED: &str = r#"
     moment_of_inertia = 0.1
     points = ["S"]
     [bodies.upper]
+    points = ["T"]
     mass = 1
     centre_of_mass = [0, 0]
     moment_of_inertia = 0.1
     [points]
     S = [0, 0]
+    T = [0, 0]
     [joints.one]
     type = "guided_slider"
     block = "lower"
@@ -288,6 +291,10 @@ const PACKED: &str = r#"
     type = "force"
     at = "lower.S"
     components = [5, "-V"]
+    [loads.W]
+    type = "force"
+    at = "upper.T"
+    components = [0, "-W"]
     [loads.M]
     type = "torque"
     body = "upper"
@@ -302,7 +309,10 @@ const PACKED: &str = r#"
 #[test]
 fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
     let packed = Model::parse(PACKED).expect("sound");
-    for (x, [from, to]) in [("M", [-1.0, 1.0]), ("mu", [0.0, 0.8]), ("friction", [0.0, 2.0])] {
+    let mut between = 0;
+    for (x, [from, to]) in
+        [("M", [-1.0, 1.0]), ("mu", [0.0, 0.8]), ("friction", [0.0, 2.0]), ("W", [-40.0, 40.0])]
+    {
         let (size, pressing) = ([7, 6], [-60.0, 50.0]);
         let axes = [format!("{x}={from}..{to}"), format!("V={}..{}", pressing[0], pressing[1])];
         let options = options(&axes[0], &axes[1], size, ColourBy::Modes);
@@ -323,6 +333,12 @@ fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
             } else {
                 assert_eq!(*told, ClassMeaning::Modes { patterns }, "{x} = {value}, V = {force}");
             }
+            if x == "W" {
+                // The middle of the fourth pixel of seven.
+                let is_between = patterns_told(told).iter().any(|pattern| pattern.ends_with('0'));
+                assert!(!is_between || value == 0.0, "W = {value}, V = {force}");
+                between += usize::from(is_between);
+            }
             if x == "M" {
                 // N_1 is positive where it carries the load.
                 let stands = value.abs() < (force.abs() * 0.05 / 2.0).min(6.0 * 0.2 / 2.0);
@@ -330,4 +346,9 @@ fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
             }
         }
     }
+    assert!(between > 1, "{between} points with W = 0");
+}
+
+fn patterns_told(meaning: &ClassMeaning) -> &[String] {
+    if let ClassMeaning::Modes { patterns } = meaning { patterns } else { &[] }
 }

@@ -14,6 +14,17 @@ use nalgebra::{DMatrix, DVector};
 
 /// Pivots below this multiple of the greatest need the factorization with full pivoting.
 const WELL_CONDITIONED: f64 = 1e-8;
+/// Rounding of a state's numbers, as a part of the condition of its equations.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// How well normal forces are known: rounding leaves something of what should cancel out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Accuracy {
+    /// As a part of themselves.
+    pub(crate) part: f64,
+    /// Or of this load (N), if that is greater.
+    pub(crate) of_load: f64,
+}
 
 /// How the unknowns answer to friction.
 #[derive(Debug, Clone)]
@@ -27,9 +38,8 @@ pub(crate) struct Influences {
     pub(crate) condition: f64,
     /// The greatest applied force (N).
     pub(crate) greatest_load: f64,
-    /// The greatest unknown without friction in the scale of the equations, as a normal force (N): to a part of this the
-    /// normal forces are known.
-    pub(crate) greatest_unknown: f64,
+    /// The greatest unknown without friction in the scale of the equations, as a normal force (N).
+    greatest_unknown: f64,
     coordinate_rows: Vec<ConstraintRow>,
 }
 
@@ -46,6 +56,11 @@ pub(crate) struct Elimination {
 }
 
 impl Influences {
+    /// How well the normal forces are known: a part, and of which force (N) at least.
+    pub(crate) fn accuracy(&self) -> Accuracy {
+        Accuracy { part: ROUNDING * self.condition, of_load: self.greatest_load.max(self.greatest_unknown) }
+    }
+
     /// Accelerations of a chosen coordinate: without friction if `bias` is asked for, else what is added to it.
     pub(crate) fn coordinate(&self, index: usize, unknowns: &DVector<f64>, bias: bool) -> f64 {
         let row = &self.coordinate_rows[index];

@@ -18,7 +18,7 @@ mod rows;
 mod system;
 
 pub(crate) use elastic::MasslessMotions;
-pub(crate) use influences::{Elimination, Influences};
+pub(crate) use influences::{Accuracy, Elimination, Influences};
 pub use loads::Wrench;
 pub(crate) use loads::{Applied, unit_effort as effort_forces};
 pub(crate) use rows::ConstraintRow;

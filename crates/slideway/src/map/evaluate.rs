@@ -4,11 +4,18 @@ use super::class::{ClassKey, Point, class, reason};
 use super::{Axis, ColourBy};
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
+use crate::kinetics::Accuracy;
 use crate::limits::mechanism_with;
 use crate::model::{Model, Settings};
 use crate::progress::{Progress, Work};
 use crate::solve::{Parts, SolveOptions, Stages, Trail, states_between_faces};
 use std::ops::ControlFlow;
+
+/// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least accurate of them is known.
+struct Corners {
+    parts: Box<[Parts; 4]>,
+    accuracy: Accuracy,
+}
 
 /// What finds the class of a point.
 pub(super) struct Evaluator<'a> {
@@ -22,9 +29,9 @@ pub(super) struct Evaluator<'a> {
 /// Where mode problems come from.
 struct Source {
     model: Model,
-    /// The corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), between which mode problems are interpolated; if there are
-    /// none, they are made from the model at every point, from the states of the points before it.
-    corners: Option<Box<[Parts; 4]>>,
+    /// Between these mode problems are interpolated; if there are none, they are made from the model at every point, from the
+    /// states of the points before it.
+    corners: Option<Corners>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -69,7 +76,8 @@ impl Source {
     fn new(model: Model, axes: &[Axis; 2]) -> Result<Self, Faults> {
         let at = |[u, v]: [f64; 2]| {
             let (model, friction) = model_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)])?;
-            Stages::new(&model)?.parts(friction)
+            let stages = Stages::new(&model)?;
+            Ok::<_, Faults>((stages.parts(friction)?, stages.accuracy))
         };
         let [x, y] = axes.each_ref().map(|axis| axis.varied.dependence().problem);
         nothing_varies(axes, [x, y])?;
@@ -77,7 +85,10 @@ impl Source {
         let corners = if x.max(y) <= Degree::Affine
             && let [Ok(a), Ok(b), Ok(c), Ok(d)] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at)
         {
-            Some(Box::new([a, b, c, d]))
+            let greatest =
+                |number: fn(&Accuracy) -> f64| [a.1, b.1, c.1, d.1].iter().map(number).fold(0.0, f64::max);
+            let accuracy = Accuracy { part: greatest(|one| one.part), of_load: greatest(|one| one.of_load) };
+            Some(Corners { parts: Box::new([a.0, b.0, c.0, d.0]), accuracy })
         } else {
             None
         };
@@ -91,21 +102,15 @@ impl Source {
         trail: &mut Trail,
         work: Work<'_>,
     ) -> Result<Point, Faults> {
-        let (parts, stages) = match &self.corners {
-            Some(corners) => {
-                let share =
-                    |axis: &Axis, value: f64| (value - axis.range[0]) / (axis.range[1] - axis.range[0]);
-                let place = [share(&axes[0], values[0]), share(&axes[1], values[1])];
-                (Parts::mixture(&weighted(corners, place)).ok_or_else(Faults::default)?, None)
-            }
-            None => {
-                let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
-                let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
-                let stages = Stages::along(trail, mechanism)?;
-                (stages.parts(friction)?, Some(stages))
-            }
+        let (parts, accuracy, stages) = if let Some(corners) = &self.corners {
+            (corners.parts_at(axes, values).ok_or_else(Faults::default)?, corners.accuracy, None)
+        } else {
+            let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
+            let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
+            let stages = Stages::along(trail, mechanism)?;
+            (stages.parts(friction)?, stages.accuracy, Some(stages))
         };
-        if parts.with_free_faces().is_empty() {
+        if parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy) {
             return Ok(Point { parts, between_faces: Vec::new() });
         }
         let (model, friction) = model_at(&self.model, axes, values)?;
@@ -116,6 +121,15 @@ impl Source {
         let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();
         Ok(Point { parts, between_faces })
+    }
+}
+
+impl Corners {
+    /// The mode problem at a point; none if a number of contacts differs.
+    fn parts_at(&self, axes: &[Axis; 2], values: [f64; 2]) -> Option<Parts> {
+        let share = |axis: &Axis, value: f64| (value - axis.range[0]) / (axis.range[1] - axis.range[0]);
+        let place = [share(&axes[0], values[0]), share(&axes[1], values[1])];
+        Parts::mixture(&weighted(&self.parts, place))
     }
 }
 

@@ -50,13 +50,15 @@ impl Words<'_> {
                 let best = self.places.iter().filter_map(|place| Some((place.at, place.margin?)));
                 let best = best.min_by(|(_, one), (_, other)| one.demand(1.0).total_cmp(&other.demand(1.0)));
                 let range = format!("{} to {}", precise(report.vary.from), quantity(report, report.vary.to));
+                let gives =
+                    if report.without_position.is_empty() { "gives it" } else { "is known to give it" };
                 match best.and_then(|(at, margin)| Some((at, margin.factor()?))) {
                     Some((at, margin)) => format!(
-                        "{wish}: no {name} from {range} gives it; the greatest margin of the values that were tried is {}, at {}.",
+                        "{wish}: no {name} from {range} {gives}; the greatest margin of the values that were tried is {}, at {}.",
                         precise(margin),
                         quantity(report, at)
                     ),
-                    None => format!("{wish}: no {name} from {range} gives it."),
+                    None => format!("{wish}: no {name} from {range} {gives}."),
                 }
             }
             intervals => {

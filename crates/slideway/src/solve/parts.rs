@@ -6,10 +6,11 @@ use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
 use crate::ids::{DriveId, JointId};
 use crate::influence::Influence;
-use crate::kinetics::{KineticEquations, Reaction};
+use crate::kinetics::{Accuracy, Influences, KineticEquations, Reaction};
 use crate::mechanism::{JointKind, Mechanism};
 use crate::model::{Model, PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
+use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
 use nalgebra::{DMatrix, DVector};
 
@@ -34,6 +35,7 @@ pub(crate) struct Stages {
     pub(crate) configuration: Configuration,
     pub(crate) influence: Influence,
     pub(crate) velocity_signs: DVector<f64>,
+    pub(crate) accuracy: Accuracy,
 }
 
 impl Stages {
@@ -52,9 +54,7 @@ impl Stages {
         let configuration = follower.configuration(&mechanism)?;
         configuration.put_friction(&mut mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
-        let influence = Influence::new(&equations);
-        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        Ok(Self { mechanism, configuration, influence, velocity_signs })
+        Self::of(mechanism, configuration, equations.influences())
     }
 
     /// The same with the equations, too, from the states of the last ones if these are near.
@@ -65,9 +65,18 @@ impl Stages {
         check_size(&mechanism)?;
         let (configuration, influences) = trail.state(&mechanism)?;
         configuration.put_friction(&mut mechanism)?;
+        Self::of(mechanism, configuration, influences)
+    }
+
+    fn of(
+        mechanism: Mechanism,
+        configuration: Configuration,
+        influences: Influences,
+    ) -> Result<Self, Faults> {
+        let accuracy = influences.accuracy();
         let influence = Influence::of(influences);
         let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        Ok(Self { mechanism, configuration, influence, velocity_signs })
+        Ok(Self { mechanism, configuration, influence, velocity_signs, accuracy })
     }
 
     /// The mode problem with every coefficient of friction multiplied by a factor.
@@ -266,6 +275,28 @@ impl Parts {
             let size = self.right_hand_side[row].abs() + terms.iter().map(|term| term.abs()).sum::<f64>();
             couple.abs() > normal_force[bound.contact].abs() * bound.factor + COUPLE_TOLERANCE * size
         })
+    }
+
+    /// Whether elimination excludes that a normal force vanishes, or nearly, in a solution of some pattern: then no contact is between
+    /// its faces but in a pattern that says so.
+    pub(crate) fn is_off_boundaries(&self, accuracy: Accuracy) -> bool {
+        let contacts = self.columns.positive.ncols();
+        if contacts > MOST_CONTACTS {
+            return false;
+        }
+        let square = |matrix: &DMatrix<f64>| {
+            let mut square = [[0.0; MOST_CONTACTS]; MOST_CONTACTS];
+            for (k, column) in square.iter_mut().enumerate().take(contacts) {
+                (0..contacts).for_each(|row| column[row] = matrix[(row, k)]);
+            }
+            square
+        };
+        let mut problem = SmallProblem::new(contacts);
+        problem.columns = [square(&self.columns.positive), square(&self.columns.negative)];
+        problem.jumps = [square(&self.jumps.positive), square(&self.jumps.negative)];
+        (0..contacts).for_each(|row| problem.right_hand_side[row] = self.right_hand_side[row]);
+        problem.load = accuracy.of_load;
+        Screen::new(contacts).states(&problem, accuracy.part).is_ok()
     }
 
     /// The contacts of guided sliders whose preload changes their couple on the other side, but no normal force: only with one

@@ -283,11 +283,11 @@ impl<'p> Evaluator<'p> {
         if let Some((screen, problem)) = &mut self.small {
             fill(problem, &self.mechanism, stages);
             problem.load = if self.plan.columns.may_be_between_faces(&self.mechanism) {
-                stages.greatest_load.max(stages.greatest_unknown)
+                stages.accuracy.of_load
             } else {
                 0.0
             };
-            if let Ok(states) = screen.states(problem, stages.accuracy)
+            if let Ok(states) = screen.states(problem, stages.accuracy.part)
                 && write(self.plan, &self.mechanism, stages, (states, point), rows)?
             {
                 return Ok(());

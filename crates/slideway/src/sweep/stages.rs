@@ -4,16 +4,13 @@ use super::columns::{Columns, Output};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::influence::Influence;
-use crate::kinetics::Influences;
+use crate::kinetics::{Accuracy, Influences};
 use crate::mechanism::Mechanism;
 use crate::modes::screen::MOST_CONTACTS;
 use crate::solve::{Trail, preload_columns, sides, sliding_signs};
 use nalgebra::{DMatrix, DVector};
 
 type Square = [[f64; MOST_CONTACTS]; MOST_CONTACTS];
-
-/// Rounding of a state's numbers, as a part of the condition of its equations.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Everything about a state that does not depend on coefficients of friction and preloads.
 #[derive(Debug, Clone)]
@@ -32,10 +29,8 @@ pub(super) struct Stages {
     pub(super) influences: Vec<[Vec<f64>; 2]>,
     /// The greatest applied force (N).
     pub(super) greatest_load: f64,
-    /// The greatest unknown without friction, as a normal force (N).
-    pub(super) greatest_unknown: f64,
-    /// How well the numbers are known, as a part of them.
-    pub(super) accuracy: f64,
+    /// How well the numbers are known.
+    pub(super) accuracy: Accuracy,
 }
 
 impl Stages {
@@ -64,8 +59,7 @@ impl Stages {
         let frictionless = outputs(&influences.frictionless, true);
         let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, false));
         let per_force = influences.columns.iter().map(per_force).collect();
-        let (greatest_load, accuracy) = (influences.greatest_load, ROUNDING * influences.condition);
-        let greatest_unknown = influences.greatest_unknown;
+        let (greatest_load, accuracy) = (influences.greatest_load, influences.accuracy());
         let influence = Influence::of(influences);
         let (eta, eta_preload) = if columns.contacts <= MOST_CONTACTS {
             let eta = sides(mechanism, &influence);
@@ -85,7 +79,6 @@ impl Stages {
             frictionless,
             influences: per_force,
             greatest_load,
-            greatest_unknown,
             accuracy,
             configuration,
             influence,

@@ -48,7 +48,8 @@ impl Together {
             contacts = (0..mechanism.contacts.len()).collect();
         }
         let coefficients = influence_coefficients(mechanism, &stages.influence, &stages.signs);
-        let batch = FrictionBatch::new(&coefficients, &contacts).ok()?.known_to(SLACK.max(stages.accuracy));
+        let batch =
+            FrictionBatch::new(&coefficients, &contacts).ok()?.known_to(SLACK.max(stages.accuracy.part));
         (!batch.has_jump()).then_some(Self { batch, contacts })
     }
 

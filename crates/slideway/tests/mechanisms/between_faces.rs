@@ -1,9 +1,10 @@
-//! A guided slider along a slope, without transverse load but for rounding: its states between the faces in sweeps, tables of
-//! drives, sizes and limits.
+//! A guided slider along a slope, without transverse load but for rounding: its states between the faces in sweeps, maps,
+//! tables of drives, sizes and limits.
 
 use crate::answers::{assert_close, parameters};
 use slideway::drive::{DriveOptions, drive};
 use slideway::limits::{LimitsOptions, LimitsReport, limits};
+use slideway::map::{ClassMeaning, MapOptions, map};
 use slideway::model::Model;
 use slideway::size::{Against, SizeOptions, size};
 use slideway::solve::solve;
@@ -79,6 +80,23 @@ fn sweeps_have_the_states_of_solve() {
             ControlFlow::Continue(())
         });
         assert_eq!(points, sweep.points(), "{vary}");
+    }
+}
+
+/// The mode problem is bilinear in the moment and the load along the slope, but not in its angle.
+#[test]
+fn maps_have_them() {
+    let size = [6, 5];
+    for y in ["P=-20..20", "a=10 deg..80 deg"] {
+        let options =
+            MapOptions { width: size[0], height: size[1], probe: 1, ..MapOptions::of("M=-1..1", y) };
+        let report = map(&slope(), &options).expect("sound");
+        assert_eq!(report.guarantee.contains("interpolated"), y.starts_with('P'));
+        for (column, row) in (0..size[0]).flat_map(|column| (0..size[1]).map(move |row| (column, row))) {
+            let moment = (2 * column + 1) as f64 / size[0] as f64 - 1.0;
+            let is_locked = report.classes[report.class_at(column, row)].meaning == ClassMeaning::Locked;
+            assert_eq!(is_locked, moment.abs() > 0.6, "M = {moment}, row {row} of {y}");
+        }
     }
 }
 
