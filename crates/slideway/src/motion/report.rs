@@ -85,7 +85,7 @@ pub struct EventReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CauseReport {
     /// `start`, `normal_force_zero`, `preload_gap_ends`, `stops`, `slips`, `locks`, `reaction_limit`, `tips`,
-    /// `overlap_vanishes`, `travel_limit`, `hits`, `user`, `jams`.
+    /// `overlap_vanishes`, `travel_limit`, `hits`, `meets_pad`, `leaves_pad`, `load_jumps`, `user`, `jams`.
     pub kind: &'static str,
     /// The joint, contact or function.
     pub of: Option<String>,

@@ -1,5 +1,7 @@
 //! The motion within a phase: steps, projections, and where the phase ends.
 
+mod reactions;
+
 use super::decision::scale_of_forces;
 use super::equations::{Drift, Equations, Failure};
 use super::event::Cause;
@@ -156,63 +158,6 @@ impl<'o, 'm> Smooth<'o, 'm> {
             self.next = self.first_step();
         }
         Ok(())
-    }
-
-    /// The contacts whose normal forces are beyond the limit where the phase begins.
-    ///
-    /// # Errors
-    /// Whatever keeps normal forces of joints that stick from being computed.
-    pub(super) fn exceeded_reactions(
-        &mut self,
-        phase: &Phase,
-        decisions: &mut dyn Decisions,
-    ) -> Result<Vec<Cause>, Failure> {
-        let values = self.watch.list.iter().zip(&self.values[0]);
-        let limits =
-            |watched: &Watched| matches!(watched, Watched::ReactionLimit(_) | Watched::HeldReactions);
-        let exceeded: Vec<Watched> = values
-            .filter(|(watched, value)| limits(watched) && **value <= 0.0)
-            .map(|(watched, _)| *watched)
-            .collect();
-        let mut causes = self.causes(&exceeded);
-        causes.extend(self.held_causes(&exceeded, phase, decisions)?);
-        Ok(causes)
-    }
-
-    /// The contacts with the greatest of the normal forces that statics determines while joints stick, if these are what has reached its limit.
-    fn held_causes(
-        &mut self,
-        watched: &[Watched],
-        phase: &Phase,
-        decisions: &mut dyn Decisions,
-    ) -> Result<Vec<Cause>, Failure> {
-        if !watched.contains(&Watched::HeldReactions) {
-            return Ok(Vec::new());
-        }
-        self.equations.place(self.time, &self.state);
-        let forces = self.held_forces(phase, decisions)?;
-        let greatest = forces.iter().map(|(_, force)| *force).fold(0.0, f64::max);
-        let tolerance = self.watch.tolerance(Watched::HeldReactions, &self.equations);
-        let reached = forces.into_iter().filter(|(_, force)| *force >= greatest - tolerance);
-        Ok(reached.map(|(contact, _)| Cause::ReactionLimit(contact)).collect())
-    }
-
-    /// The magnitudes of the normal forces that statics determines while joints stick (N), at the last evaluation.
-    fn held_forces(
-        &mut self,
-        phase: &Phase,
-        decisions: &mut dyn Decisions,
-    ) -> Result<Vec<(ContactId, f64)>, Failure> {
-        let Equations { mechanism, configuration, .. } = &self.equations;
-        let forces = decisions.normal_forces(mechanism, configuration, phase).map_err(Failure::Loads)?;
-        let mut known = Vec::new();
-        for (k, force) in forces.into_iter().enumerate() {
-            match force {
-                Some(force) => known.push((ContactId(k), force.abs())),
-                None => _ = self.undetermined.insert(ContactId(k)),
-            }
-        }
-        Ok(known)
     }
 
     /// A step within which neither positions nor velocities change much.
@@ -516,8 +461,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             return Ok(self.switching.margin(&equations.configuration, switch));
         }
         if watched == Watched::HeldReactions {
-            let forces = self.held_forces(phase, decisions)?.into_iter().map(|(_, force)| force);
-            return Ok(self.watch.reaction_limit() - forces.fold(0.0, f64::max));
+            return self.room_of_held(phase, decisions);
         }
         let equations = &self.equations;
         if watched == Watched::Sticking {

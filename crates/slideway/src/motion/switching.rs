@@ -225,16 +225,12 @@ impl<'m> Switching<'m> {
     /// Parameters, coordinates and rates of the formula of a relation.
     fn arguments(&self, configuration: &Configuration, relation: usize) -> [Vec<Interval>; 3] {
         let points = |values: &[f64]| values.iter().map(|value| Interval::point(*value)).collect();
-        match &self.relations[relation].pad {
-            Some(pad) => {
-                let [depth, rate] = configuration.depth(self.mechanism, pad);
-                [points(&pad.constants), points(&[depth]), points(&[rate])]
-            }
-            None => {
-                let Configuration { coordinates, rates, .. } = configuration;
-                [self.parameters.clone(), points(coordinates), points(rates)]
-            }
+        if let Some(pad) = &self.relations[relation].pad {
+            let [depth, rate] = configuration.depth(self.mechanism, pad);
+            return [points(&pad.constants), points(&[depth]), points(&[rate])];
         }
+        let Configuration { coordinates, rates, .. } = configuration;
+        [self.parameters.clone(), points(coordinates), points(rates)]
     }
 
     /// The first time in a range at which a relation of time alone leaves its piece.

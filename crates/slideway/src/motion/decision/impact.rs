@@ -63,7 +63,9 @@ pub fn impact(
     let instant = Instant::new(mechanism, configuration)?;
     let place = |id: JointId| instant.joints.iter().position(|joint| joint.id == id);
     let hits = stops.iter().filter_map(|&(id, restitution)| Some(Hit { joint: place(id)?, restitution }));
-    let hits: Vec<Hit> = hits.filter(|hit| instant.joints[hit.joint].velocity != 0.0).collect();
+    // What stands at its stop stays or leaves as any joint at rest does.
+    let velocities = Impulses::new(&instant).velocities();
+    let hits: Vec<Hit> = hits.filter(|hit| velocities[hit.joint] != 0.0).collect();
     let mut found = Impact { after: configuration.clone(), blows: Vec::new() };
     for group in &instant.groups {
         let hits: Vec<Hit> = hits.iter().copied().filter(|hit| group.joints.contains(&hit.joint)).collect();
@@ -106,11 +108,11 @@ fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<Outcome
     let joints = || {
         hits.iter().map(|hit| instant.mechanism.joints[instant.joints[hit.joint].id.index()].name.to_string())
     };
-    let choices = 1_u64.checked_shl(hits.len() as u32).filter(|choices| *choices <= MOST_STATES);
-    let Some(choices) = choices else {
-        let kind = FaultKind::TooManyStates { states: choices.unwrap_or(u64::MAX), limit: MOST_STATES };
+    let choices = hits.iter().fold(1_u64, |choices, _| choices.saturating_mul(2));
+    if choices > MOST_STATES {
+        let kind = FaultKind::TooManyStates { states: choices, limit: MOST_STATES };
         return Err(Fault::general(kind).into());
-    };
+    }
     let mut found: Option<Outcome> = None;
     let mut unsolved = 0;
     // All of them first.

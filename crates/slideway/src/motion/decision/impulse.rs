@@ -106,10 +106,11 @@ impl<'s> Impulses<'s> {
             .map(|(joint, all)| all[..if inside(joint) { all.len() } else { 1 }].to_vec())
             .collect();
         let of_joint = |joint: &usize| {
-            let slides = 1_u64.checked_shl(self.instant.joints[*joint].contacts.len() as u32);
+            let contacts = &self.instant.joints[*joint].contacts;
+            let slides = contacts.iter().fold(1_u64, |sides, _| sides.saturating_mul(PRESSED.len() as u64));
             let states = joints[*joint].iter().map(|phase| match phase {
                 JointPhase::Sticking => 1,
-                JointPhase::Sliding(_) => slides.unwrap_or(u64::MAX),
+                JointPhase::Sliding(_) => slides,
             });
             states.fold(0, u64::saturating_add)
         };
