@@ -24,6 +24,7 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
+mod amounts;
 pub mod decision;
 mod energy;
 mod equations;

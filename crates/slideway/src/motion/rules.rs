@@ -85,8 +85,7 @@ pub trait Decisions {
         phase: &Phase,
     ) -> Result<f64, Faults>;
 
-    /// What computes [`sticking_margin`](Self::sticking_margin) faster for a mechanism without drives that stands still;
-    /// nothing if nothing does.
+    /// What looks ahead in time for a mechanism without drives that stands still; nothing if nothing does.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
@@ -102,16 +101,26 @@ pub trait Decisions {
 
 /// A mechanism that stands still while its loads change.
 pub trait Hold {
-    /// What [`Decisions::sticking_margin`] is at the time of a configuration.
+    /// When the joints that stick cannot any longer, and until when that is proven, in a span of time.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
-    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults>;
+    fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults>;
+
+    /// What [`Decisions::sticking_margin`] is at a time.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces from being computed.
+    fn margin(&mut self, time: f64) -> Result<f64, Faults>;
 }
 
 impl Hold for decision::Holding<'_> {
-    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
-        self.margin(configuration)
+    fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults> {
+        self.outlook(span)
+    }
+
+    fn margin(&mut self, time: f64) -> Result<f64, Faults> {
+        self.margin(time)
     }
 }
 

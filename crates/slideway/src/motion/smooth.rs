@@ -1,6 +1,6 @@
 //! The motion within a phase: steps, projections, and where the phase ends.
 
-use super::decision::scale_of_forces;
+use super::decision::{Outlook, scale_of_forces};
 use super::equations::{Drift, Equations, Failure};
 use super::event::Cause;
 use super::history::{End, History};
@@ -12,7 +12,7 @@ use super::stepper::{DENSE, StepControl, Stepper, within};
 use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
-use crate::fault::{Fault, FaultKind};
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 
 /// Fractions of a step at which watched functions are evaluated, besides its ends.
@@ -41,6 +41,9 @@ const LEAST_TOLERANCE: f64 = 1e-10;
 const REST: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
+
+/// What is known of the time ahead as long as nobody has looked.
+const NOTHING_KNOWN: Outlook = Outlook { proven: f64::NEG_INFINITY, slips: false };
 
 /// Why a phase is over.
 pub(super) enum Ended {
@@ -72,8 +75,10 @@ pub(super) struct Smooth<'o, 'm> {
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
-    /// What computes the margin of sticking while the whole mechanism stands still.
+    /// What knows when sticking ends while the whole mechanism stands still, ...
     hold: Option<Box<dyn Hold + 'm>>,
+    /// ... and what it knows.
+    outlook: Outlook,
     /// No step goes beyond this time.
     stop: f64,
 }
@@ -104,6 +109,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             values: Default::default(),
             inside: vec![0.0; size],
             hold: None,
+            outlook: NOTHING_KNOWN,
             stop: time,
             state,
             equations,
@@ -140,6 +146,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
         self.hold = None;
+        self.outlook = NOTHING_KNOWN;
         if self.equations.stands_still(REST * self.greatest_velocity()) {
             let configuration = &self.equations.configuration;
             let hold = decisions.hold(self.equations.mechanism, configuration, phase);
@@ -228,7 +235,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if !due.is_empty() {
             return Some(self.switch(&due, Vec::new()));
         }
-        self.stop = self.known_time();
+        match self.look_ahead() {
+            Ok(true) => return Some(Ended::Event(vec![Cause::Slips])),
+            Ok(false) => {}
+            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
+        }
         let (step, error) = match self.accepted_step(phase, decisions, history) {
             Ok(accepted) => accepted,
             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -305,6 +316,22 @@ impl<'o, 'm> Smooth<'o, 'm> {
     fn known_time(&mut self) -> f64 {
         let horizon = self.horizon();
         self.end.min(self.switching.next(self.time, horizon))
+    }
+
+    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood still with all else.
+    fn look_ahead(&mut self) -> Result<bool, Faults> {
+        let known = self.known_time();
+        let until = known.min(self.horizon());
+        self.stop = known;
+        let Some(hold) = &mut self.hold else { return Ok(false) };
+        if !self.outlook.slips && self.outlook.proven < until {
+            self.outlook = hold.outlook([self.time.max(self.outlook.proven), until])?;
+        }
+        let is_now = self.outlook.proven - self.time <= self.least_step();
+        if !is_now {
+            self.stop = known.min(self.outlook.proven);
+        }
+        Ok(is_now && self.outlook.slips)
     }
 
     /// No step goes beyond it.
@@ -461,8 +488,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
+            let known = self.outlook.proven + self.least_step();
             let margin = match &mut self.hold {
-                Some(hold) => hold.margin(configuration),
+                // It is known when it ends.
+                Some(_) if configuration.time <= known => return Ok(1.0),
+                Some(hold) => hold.margin(configuration.time),
                 None => decisions.sticking_margin(equations.mechanism, configuration, phase),
             };
             return margin.map_err(Failure::Loads);

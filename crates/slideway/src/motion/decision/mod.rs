@@ -43,6 +43,7 @@ mod impact;
 mod instant;
 mod jam;
 mod parts;
+mod plan;
 mod program;
 mod scale;
 mod sieve;
@@ -53,6 +54,7 @@ mod system;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
+pub use holding::Outlook;
 pub use impact::{Impact, impact};
 pub(super) use instant::{TOUCHES, scale_of_forces};
 pub use jam::{Impulse, Jam, jam};
