@@ -34,6 +34,7 @@ mod linear;
 mod options;
 mod phase;
 mod report;
+mod resolution;
 mod root;
 mod rules;
 mod run;

@@ -6,21 +6,18 @@ use super::event::Cause;
 use super::history::{End, History};
 use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
+use super::resolution::Resolution;
 use super::root::{dip, falling_root};
 use super::rules::{Decisions, Hold};
-use super::stepper::{DENSE, StepControl, Stepper, within};
+use super::stepper::{DENSE, SAMPLES, StepControl, Stepper, within};
 use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 
-/// Fractions of a step at which watched functions are evaluated, besides its ends.
-const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
-/// Where the equations have no solution at one of them, it is this part of the way nearer to the one before.
+/// Where the equations have no solution at a sample within a step, it is this part of the way nearer to the one before.
 const BESIDE: f64 = 0.1;
-/// These and the ends of the step.
-const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
 /// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors of steps.
@@ -71,6 +68,7 @@ pub(super) struct Smooth<'o, 'm> {
     mass: f64,
     watch: Watch<'o>,
     switching: Switching<'m>,
+    resolution: Resolution<'m>,
     options: &'o SimulateOptions,
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
@@ -105,6 +103,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
             switching: Switching::new(equations.mechanism, &equations.configuration),
+            resolution: Resolution::new(equations.mechanism),
             options,
             values: Default::default(),
             inside: vec![0.0; size],
@@ -362,6 +361,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             } else {
                 wanted
             };
+            let step = self.resolved(step);
             let least = self.least_step();
             let attempt = self.try_step(step, phase, decisions, history);
             match attempt {
@@ -377,6 +377,21 @@ impl<'o, 'm> Smooth<'o, 'm> {
             }
             history.statistics.rejected += 1;
         }
+    }
+
+    /// A step that sees what the loads do meanwhile; while everything stands still they only decide how long that lasts, which is known.
+    fn resolved(&mut self, step: f64) -> f64 {
+        if self.resolution.is_empty() {
+            return step;
+        }
+        let is_proven = self.hold.is_some() && self.time + step <= self.outlook.proven + self.least_step();
+        if is_proven && self.watch.list.iter().all(|watched| watched.needs() != Needs::Forces) {
+            return step;
+        }
+        self.equations.place(self.time, &self.state);
+        let velocity = self.watch.magnitudes.velocity;
+        let velocities = [velocity, self.tolerance * velocity];
+        self.resolution.step(&self.equations.configuration, velocities, [step, self.least_step()])
     }
 
     /// Why no step is short enough: the mode locks, or the loads grow beyond all bounds.
@@ -511,7 +526,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let mut places = SAMPLES;
         let mut falls = Vec::new();
         for part in 0..SAMPLES.len() - 1 {
-            if part < INSIDE.len() {
+            if part < SAMPLES.len() - 2 {
                 self.sample(phase, decisions, (dense, step), (part + 1, &mut places))?;
             }
             falls = self.falls_between([places[part], places[part + 1]], part);

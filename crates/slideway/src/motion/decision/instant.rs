@@ -137,17 +137,7 @@ impl<'m> Instant<'m> {
         let groups = groups(&joints, &outputs);
         let shift = DVector::zeros(outputs.base.len());
         let contacts = contacts(mechanism, configuration, &equations)?;
-        Ok(Self {
-            mechanism,
-            contacts,
-            equations,
-            influence,
-            joints,
-            units,
-            outputs,
-            shift,
-            groups,
-        })
+        Ok(Self { mechanism, contacts, equations, influence, joints, units, outputs, shift, groups })
     }
 
     /// The question for accelerations, with joints whose velocity is zero.

@@ -28,8 +28,6 @@ const EQUAL: f64 = 1e-9;
 const MOST_CELLS: usize = 1000;
 /// Cells of time that are narrower than this many units in the last place are not divided.
 const NARROWEST: f64 = 4.0;
-/// Accuracy of a zero, as a part of the time before it.
-const ACCURACY: f64 = 1e-15;
 
 /// A pattern of a group of joints.
 pub(super) struct System<'s> {
@@ -192,7 +190,7 @@ impl Plan {
             if values[0] <= 0.0 {
                 first = Fall::At(from);
             } else if values[1] <= 0.0 {
-                first = Fall::At(falling_root([from, end], values, ACCURACY * end.abs(), value).ok()?);
+                first = Fall::At(falling_root([from, end], values, 0.0, value).ok()?);
             }
         }
         Some(first)
@@ -210,7 +208,7 @@ impl Plan {
             let start = (until - step).max(from);
             let at_start = value(start)?;
             if at_start >= 0.0 {
-                return falling_root([start, end], [at_start, at_end], ACCURACY * until.abs(), value);
+                return falling_root([start, end], [at_start, at_end], 0.0, value);
             }
             (end, at_end) = (start, at_start);
             step *= NARROWEST;
