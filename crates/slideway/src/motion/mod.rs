@@ -57,7 +57,7 @@ pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
 pub use report::{
     BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
-    SimulateReport, StatisticsReport, report, to_json,
+    SampledReport, SimulateReport, StatisticsReport, report, to_json,
 };
 pub use rules::{Decisions, Hold, Instant, Jam, Successor, Successors, Thorough};
 pub use series::{Column, Series};

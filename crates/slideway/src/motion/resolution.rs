@@ -66,7 +66,13 @@ impl<'m> Resolution<'m> {
         let impulse = if self.mass.is_finite() { error * self.mass } else { 0.0 };
         for changing in &self.formulas {
             let force = changing.force + changing.force_of_velocity * velocity;
-            while step > 2.0 * least && !self.sees(configuration, changing.formula, (step, impulse / force)) {
+            while step > 2.0 * least
+                && !self.sees(
+                    configuration,
+                    changing.formula,
+                    (step, if impulse > 0.0 { impulse / force } else { 0.0 }),
+                )
+            {
                 step /= 2.0;
             }
         }

@@ -379,6 +379,12 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
     }
 
+    /// Whether joints have stuck until now under loads that change with time, and nothing has proven that they could.
+    pub(super) fn rests_unproven(&self) -> bool {
+        let is_proven = self.hold.is_some() && self.time <= self.outlook.proven + self.least_step();
+        self.watch.list.contains(&Watched::Sticking) && !is_proven && !self.resolution.is_empty()
+    }
+
     /// A step that sees what the loads do meanwhile; while everything stands still they only decide how long that lasts, which is known.
     fn resolved(&mut self, step: f64) -> f64 {
         if self.resolution.is_empty() {
