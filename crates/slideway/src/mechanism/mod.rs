@@ -13,7 +13,7 @@ use crate::interval::{Interval, Real};
 use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, SliderKind};
 use evaluation::Evaluation;
 use nalgebra::Vector2;
-pub(crate) use relations::{Pieces, Relation};
+pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.

@@ -4,7 +4,7 @@ use crate::configuration::Configuration;
 use crate::expression::{Symbol, Values};
 use crate::fault::Fault;
 use crate::interval::{Interval, Real, Sloped};
-use crate::mechanism::{Load, LoadKind, Mechanism, Pieces, Quantity, length};
+use crate::mechanism::{Load, LoadKind, Mechanism, Pieces, Quantity, length, loaded_bodies};
 use std::sync::Arc;
 
 /// A number to which what a load puts on the bodies is proportional, but for a part that does not change.
@@ -29,15 +29,16 @@ pub(super) struct Amounts<'m> {
 }
 
 impl<'m> Amounts<'m> {
-    /// The amounts of a mechanism in a configuration, with relations on the pieces of that.
-    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
+    /// The amounts of the loads on bodies that stand still in a configuration, with relations on the pieces of that.
+    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration, rests: &[bool]) -> Self {
+        let acts = |load: &&Load| loaded_bodies(&load.kind).iter().any(|body| rests[body.index()]);
         let one = |load: &Load| amounts_of(mechanism, configuration, load);
         let Configuration { coordinates, rates, pieces, .. } = configuration;
         let exactly = |values: &[f64]| values.iter().map(|value| Sloped::exactly(*value)).collect();
         let parameters = mechanism.values(&[], &[], 0.0).parameters;
         Self {
             mechanism,
-            list: mechanism.loads.iter().flat_map(one).collect(),
+            list: mechanism.loads.iter().filter(acts).flat_map(one).collect(),
             coordinates: coordinates.clone(),
             rates: rates.clone(),
             pieces: pieces.clone(),

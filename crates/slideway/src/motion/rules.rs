@@ -85,7 +85,7 @@ pub trait Decisions {
         phase: &Phase,
     ) -> Result<f64, Faults>;
 
-    /// What looks ahead in time for a mechanism without drives that stands still; nothing if nothing does.
+    /// What looks ahead in time for the bodies that stand still and stay as long as joints stick; nothing if nothing does.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
@@ -93,13 +93,13 @@ pub trait Decisions {
         &mut self,
         _mechanism: &'m Mechanism,
         _configuration: &Configuration,
-        _phase: &Phase,
+        _resting: (&Phase, &[bool]),
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         Ok(None)
     }
 }
 
-/// A mechanism that stands still while its loads change.
+/// What stands still while its loads change.
 pub trait Hold {
     /// When the joints that stick cannot any longer, and until when that is proven, in a span of time.
     ///
@@ -107,7 +107,7 @@ pub trait Hold {
     /// Whatever keeps the forces from being computed.
     fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults>;
 
-    /// What [`Decisions::sticking_margin`] is at a time.
+    /// What [`Decisions::sticking_margin`] is of the joints between these bodies at a time.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
@@ -166,8 +166,8 @@ impl Decisions for Thorough {
         &mut self,
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        phase: &Phase,
+        resting: (&Phase, &[bool]),
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
-        Ok(Some(Box::new(decision::Holding::new(mechanism, configuration, phase)?)))
+        Ok(Some(Box::new(decision::Holding::new(mechanism, configuration, resting)?)))
     }
 }

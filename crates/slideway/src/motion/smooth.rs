@@ -1,7 +1,7 @@
 //! The motion within a phase: steps, projections, and where the phase ends.
 
 use super::decision::{Outlook, scale_of_forces};
-use super::equations::{Drift, Equations, Failure};
+use super::equations::{Drift, Equations, Failure, joint_rests};
 use super::event::Cause;
 use super::history::{End, History};
 use super::options::SimulateOptions;
@@ -73,8 +73,10 @@ pub(super) struct Smooth<'o, 'm> {
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
-    /// What knows when sticking ends while the whole mechanism stands still, ...
+    /// What knows when sticking ends where bodies stand still, ...
     hold: Option<Box<dyn Hold + 'm>>,
+    /// ... whether that are all joints that stick, ...
+    holds_all: bool,
     /// ... and what it knows.
     outlook: Outlook,
     /// No step goes beyond this time.
@@ -108,6 +110,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             values: Default::default(),
             inside: vec![0.0; size],
             hold: None,
+            holds_all: false,
             outlook: NOTHING_KNOWN,
             stop: time,
             state,
@@ -146,10 +149,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.notice_force();
         self.hold = None;
         self.outlook = NOTHING_KNOWN;
-        if self.equations.stands_still(REST * self.greatest_velocity()) {
-            let configuration = &self.equations.configuration;
-            let hold = decisions.hold(self.equations.mechanism, configuration, phase);
-            self.hold = hold.map_err(Failure::Loads)?;
+        let rests = self.equations.resting(REST * self.greatest_velocity());
+        if rests.contains(&true) {
+            let Equations { mechanism, configuration, sliders, .. } = &self.equations;
+            self.hold = decisions.hold(mechanism, configuration, (phase, &rests)).map_err(Failure::Loads)?;
+            let sticking =
+                sliders.iter().zip(&phase.joints).filter(|(_, state)| **state == JointPhase::Sticking);
+            self.holds_all = sticking.into_iter().all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
         }
         let mut values = std::mem::take(&mut self.values);
         self.watch_all(phase, decisions, &mut values[0])?;
@@ -317,7 +323,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.end.min(self.switching.next(self.time, horizon))
     }
 
-    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood still with all else.
+    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood still.
     fn look_ahead(&mut self) -> Result<bool, Faults> {
         let known = self.known_time();
         let until = known.min(self.horizon());
@@ -379,9 +385,14 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
     }
 
+    /// Whether it is known of all joints that stick until when they do.
+    fn is_held(&self) -> bool {
+        self.hold.is_some() && self.holds_all
+    }
+
     /// Whether joints have stuck until now under loads that change with time, and nothing has proven that they could.
     pub(super) fn rests_unproven(&self) -> bool {
-        let is_proven = self.hold.is_some() && self.time <= self.outlook.proven + self.least_step();
+        let is_proven = self.is_held() && self.time <= self.outlook.proven + self.least_step();
         self.watch.list.contains(&Watched::Sticking) && !is_proven && !self.resolution.is_empty()
     }
 
@@ -390,7 +401,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if self.resolution.is_empty() {
             return step;
         }
-        let is_proven = self.hold.is_some() && self.time + step <= self.outlook.proven + self.least_step();
+        let is_proven = self.is_held() && self.time + step <= self.outlook.proven + self.least_step();
         if is_proven && self.watch.list.iter().all(|watched| watched.needs() != Needs::Forces) {
             return step;
         }
@@ -512,9 +523,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
             let known = self.outlook.proven + self.least_step();
             let margin = match &mut self.hold {
                 // It is known when it ends.
-                Some(_) if configuration.time <= known => return Ok(1.0),
-                Some(hold) => hold.margin(configuration.time),
-                None => decisions.sticking_margin(equations.mechanism, configuration, phase),
+                Some(_) if self.holds_all && configuration.time <= known => return Ok(1.0),
+                Some(hold) if self.holds_all => hold.margin(configuration.time),
+                _ => decisions.sticking_margin(equations.mechanism, configuration, phase),
             };
             return margin.map_err(Failure::Loads);
         }

@@ -1,4 +1,4 @@
-//! Mechanisms that stand still: only their loads change.
+//! What stands still while only its loads change.
 
 use super::BOUNDARY;
 use super::assessment::{Assessment, assess_group};
@@ -9,10 +9,11 @@ use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::motion::amounts::Amounts;
+use crate::motion::equations::joint_rests;
 use crate::motion::{JointPhase, Phase};
 use nalgebra::DVector;
 
-/// What is known of the time ahead of a mechanism that stands still.
+/// What is known of the time ahead of what stands still.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlook {
     /// Until this time (s) it is proven that nothing slips.
@@ -21,7 +22,7 @@ pub struct Outlook {
     pub slips: bool,
 }
 
-/// A mechanism without drives that stands still in a phase: equations and influence coefficients are computed once.
+/// Bodies that stand still in a phase: equations and influence coefficients are computed once.
 pub(crate) struct Holding<'m> {
     instant: Instant<'m>,
     /// With the sides of the last margin.
@@ -32,23 +33,28 @@ pub(crate) struct Holding<'m> {
     first: Vec<f64>,
     responses: Vec<DVector<f64>>,
     base: DVector<f64>,
-    /// For each group of joints forces with which it can stick.
-    plans: Vec<Option<Plan>>,
+    /// The groups of joints between these bodies, with forces with which they can stick.
+    plans: Vec<(Group, Option<Plan>)>,
 }
 
 impl<'m> Holding<'m> {
-    /// A mechanism in the configuration in which it stays.
+    /// Those bodies of a mechanism that stand still, in the configuration in which they stay.
     ///
     /// # Errors
     /// As [`sticking_margin`](super::sticking_margin).
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        phase: &Phase,
+        (phase, rests): (&Phase, &[bool]),
     ) -> Result<Self, Faults> {
         let instant = Instant::looking_ahead(mechanism, configuration)?;
         instant.check(phase)?;
-        let amounts = Amounts::new(mechanism, configuration);
+        let amounts = Amounts::new(mechanism, configuration, rests);
+        let sticks = |joint: &usize| {
+            phase.joints[*joint] == JointPhase::Sticking
+                && joint_rests(mechanism, instant.joints[*joint].id, rests)
+        };
+        let groups = instant.groups.iter().filter(|group| group.joints.iter().any(sticks));
         let response = |load| {
             let unknowns = instant.equations.answer_to(mechanism, configuration, load)?;
             Ok(instant.response(&unknowns))
@@ -59,7 +65,7 @@ impl<'m> Holding<'m> {
             first: amounts.at(configuration.time)?,
             responses: responses?,
             base: instant.outputs.base.clone(),
-            plans: vec![None; instant.groups.len()],
+            plans: groups.map(|group| (group.clone(), None)).collect(),
             phase: phase.clone(),
             amounts,
             instant,
@@ -74,7 +80,7 @@ impl<'m> Holding<'m> {
     pub(crate) fn margin(&mut self, time: f64) -> Result<f64, Faults> {
         let amounts = self.amounts.at(time)?;
         let mut margin = f64::INFINITY;
-        for group in self.instant.groups.clone() {
+        for (group, _) in self.plans.clone() {
             margin = margin.min(self.assess(&group, &amounts).map_or(NONE, |found| found.margin));
         }
         Ok(margin)
@@ -87,13 +93,9 @@ impl<'m> Holding<'m> {
     pub(crate) fn outlook(&mut self, [from, until]: [f64; 2]) -> Result<Outlook, Faults> {
         let mut outlook = Outlook { proven: until, slips: false };
         for index in 0..self.plans.len() {
-            let group = self.instant.groups[index].clone();
-            let plan = self.plans[index].take();
-            if !group.joints.iter().any(|joint| self.phase.joints[*joint] == JointPhase::Sticking) {
-                continue;
-            }
+            let (group, plan) = (self.plans[index].0.clone(), self.plans[index].1.take());
             let (plan, found) = self.outlook_of(&group, plan, [from, outlook.proven])?;
-            self.plans[index] = plan;
+            self.plans[index].1 = plan;
             if found.proven < outlook.proven || found.slips {
                 outlook = found;
             }

@@ -442,7 +442,7 @@ pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &
 }
 
 /// For each body a number that it shares with the bodies that are connected with it by joints.
-fn connected(mechanism: &Mechanism) -> Vec<usize> {
+pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
     let mut parts: Vec<usize> = (0..mechanism.bodies.len()).collect();
     for joint in &mechanism.joints {
         let [one, other] = match &joint.kind {

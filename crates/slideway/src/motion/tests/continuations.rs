@@ -225,11 +225,14 @@ fn a_margin_at_a_later_time_is_that_of_a_new_start() {
             joints: vec![JointPhase::Sticking; 2],
             contacts: vec![ContactPhase::Pressed(Side::Positive); 3],
         };
-        let mut holding = Holding::new(&mechanism, &configuration, &phase).unwrap();
+        let mut holding =
+            Holding::new(&mechanism, &configuration, (&phase, &vec![true; mechanism.bodies.len()])).unwrap();
         for _ in 0..8 {
             configuration.time = numbers.next();
             let margin = sticking_margin(&mechanism, &configuration, &phase).unwrap();
-            let mut anew = Holding::new(&mechanism, &configuration, &phase).unwrap();
+            let mut anew =
+                Holding::new(&mechanism, &configuration, (&phase, &vec![true; mechanism.bodies.len()]))
+                    .unwrap();
             let anew = anew.margin(configuration.time).unwrap();
             // From 0.01 on either may have taken other sides.
             assert!((margin - anew).abs() < 1e-11 || margin.min(anew) >= 0.01, "{margin} {anew}");
@@ -275,7 +278,8 @@ fn margins_near_the_boundary() {
         };
         let release = release(&mechanism, &mut configuration, &phase);
         configuration.time = 0.0;
-        let mut holding = Holding::new(&mechanism, &configuration, &phase).unwrap();
+        let mut holding =
+            Holding::new(&mechanism, &configuration, (&phase, &vec![true; mechanism.bodies.len()])).unwrap();
         let mut ratio = None;
         for part in [-1e-3, -1e-6, 1e-6, 1e-3] {
             configuration.time = release * (1.0 + part);

@@ -186,6 +186,20 @@ coordinates = { p = { slide = \"x\" }, q = { slide = \"y\" } }
     all_near(&slips(&found)[..2], &expected, 1e-10);
 }
 
+/// What rests is proven to rest while another block slides.
+#[test]
+fn a_spike_is_found_while_something_else_moves() {
+    let text = block(2.0, 0.1, ["1 N + (3 N)*exp(-((t - 0.73456 s)/(1e-5 s))^2)", "0"])
+        + "
+bodies.other = { points = [\"C\"], mass = 1, centre_of_mass = \"C\", moment_of_inertia = 0.01 }
+joints.rail = { type = \"block_slider\", block = \"other\", at = \"C\", along = 0, length = 0.2, mu = 0.1 }
+coordinates.y = { slide = \"rail\", rate = 20 }
+";
+    let found = history(&text, &SimulateOptions::new(10.0));
+    all_near(&slips(&found), &[0.734_56 - 1e-5 * (3.0_f64 / 0.962).ln().sqrt()], 1e-15);
+    assert_eq!(found.statistics.sampled, 0.0);
+}
+
 /// A block slides at 1 m/s and more, and a force of 30 N exp(-((t - t_0)/w)^2) lifts it against its weight of 19.62 N: it changes over to the
 /// upper guide for t_0 -+ w sqrt(ln(30/19.62)).
 #[test]
