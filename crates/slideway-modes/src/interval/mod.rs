@@ -11,8 +11,10 @@
 
 mod functions;
 mod real;
+mod sloped;
 
 pub use real::Real;
+pub use sloped::Sloped;
 
 use std::f64::consts::PI;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};

@@ -88,6 +88,20 @@ impl<T: Real> Applied<T> {
     }
 }
 
+/// What a single load puts on the bodies.
+///
+/// # Errors
+/// A load without a value or direction.
+pub(super) fn of_one<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    load: &Load<T>,
+) -> Result<Vec<Wrench<T>>, Fault> {
+    let mut wrenches = Vec::new();
+    Loads { mechanism, configuration, wrenches: &mut wrenches }.load(load)?;
+    Ok(wrenches)
+}
+
 /// A unit effort of a drive and its reaction.
 pub(crate) fn unit_effort<T: Real>(
     mechanism: &Mechanism<T>,

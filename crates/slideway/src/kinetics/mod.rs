@@ -27,7 +27,7 @@ use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{JointKind, Mechanism, Slider, rot90};
+use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
 use system::{Factorization, Singular};
@@ -135,25 +135,22 @@ impl KineticEquations {
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })
     }
 
-    /// Takes over the loads at another time, where neither positions nor velocities have changed, and the drives keep
-    /// what they prescribe.
+    /// What a load alone adds to the unknowns.
     ///
     /// # Errors
-    /// Loads without a value or direction.
-    pub(crate) fn change_loads(
-        &mut self,
+    /// A load without a value or direction.
+    pub(crate) fn answer_to(
+        &self,
         mechanism: &Mechanism,
         configuration: &Configuration,
-    ) -> Result<(), Faults> {
-        let mut applied = Applied::new();
-        applied.fill(mechanism, configuration)?;
-        self.applied = applied.wrenches;
+        load: &Load,
+    ) -> Result<DVector<f64>, Fault> {
+        let mut forces = DVector::zeros(self.load.len());
         let builder = Builder { mechanism, configuration, layout: &self.layout };
-        self.load.rows_mut(0, 3 * mechanism.bodies.len()).fill(0.0);
-        for wrench in &self.applied {
-            builder.add(wrench, |row, value| self.load[row] += value);
+        for wrench in &loads::of_one(mechanism, configuration, load)? {
+            builder.add(wrench, |row, value| forces[row] += value);
         }
-        Ok(())
+        Ok(self.without_noise(&self.factorization.solve(&forces)))
     }
 
     /// The unknowns without friction.

@@ -15,7 +15,7 @@ use crate::model::{CarriedBy, CrossingDirection, Formula, Model, PreloadLine, Sl
 use evaluation::Evaluation;
 use nalgebra::Vector2;
 pub use pad::Pad;
-pub(crate) use relations::{Pieces, Relation};
+pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.

@@ -2,7 +2,7 @@
 
 use super::{LoadKind, Mechanism, Pad, Quantity};
 use crate::expression::{Expression, Piece, RelationKind};
-use crate::ids::{ContactId, FormulaId};
+use crate::ids::{BodyId, ContactId, FormulaId, Frame};
 use std::sync::Arc;
 
 /// A relation in the formula of a load, of a drive, or of friction.
@@ -95,8 +95,27 @@ impl Mechanism {
     }
 }
 
+/// The bodies on which a load acts.
+pub(crate) fn loaded_bodies(mechanism: &Mechanism, kind: &LoadKind) -> Vec<BodyId> {
+    let frames = match kind {
+        LoadKind::Force { at, reaction, .. } => [Some(at.frame), *reaction],
+        LoadKind::Torque { body, reaction, .. } => [Some(*body), *reaction],
+        LoadKind::Spring { between, .. } | LoadKind::Damper { between, .. } => {
+            between.each_ref().map(|end| Some(end.frame))
+        }
+        LoadKind::TorsionalSpring { between, .. } | LoadKind::TorsionalDamper { between, .. } => {
+            between.map(Some)
+        }
+        LoadKind::Pad(pad) => match mechanism.slider(pad.joint) {
+            Some(slider) => [Some(slider.block), Some(slider.guide)],
+            None => [None; 2],
+        },
+    };
+    frames.into_iter().flatten().filter_map(Frame::body).collect()
+}
+
 /// The numbers of a load that may vary.
-fn quantities(kind: &LoadKind) -> Vec<Quantity> {
+pub(crate) fn quantities(kind: &LoadKind) -> Vec<Quantity> {
     match kind {
         LoadKind::Force { components, .. } => components.to_vec(),
         LoadKind::Torque { moment, .. } => vec![*moment],

@@ -24,6 +24,7 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
+mod amounts;
 pub mod decision;
 mod energy;
 mod equations;
@@ -33,6 +34,7 @@ mod linear;
 mod options;
 mod phase;
 mod report;
+mod resolution;
 mod root;
 mod rules;
 mod run;
@@ -55,7 +57,7 @@ pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use phase::{ContactPhase, JointPhase, Phase};
 pub use report::{
     BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
-    SimulateReport, StatisticsReport, report, to_json,
+    SampledReport, SimulateReport, StatisticsReport, report, to_json,
 };
 pub use rules::{Decisions, Hold, Instant, Jam, Successor, Successors, Thorough};
 pub use series::{Column, Series};

@@ -163,7 +163,7 @@ pub struct Named {
 }
 
 /// What a simulation cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StatisticsReport {
     /// Steps that were accepted.
     pub steps: usize,
@@ -173,6 +173,18 @@ pub struct StatisticsReport {
     pub evaluations: u64,
     /// Events.
     pub events: usize,
+    /// Rest under loads that change with time that was not proven, if there is any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampled: Option<SampledReport>,
+}
+
+/// Rest that was not proven, but looked at at four times in each step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SampledReport {
+    /// How long in all (s).
+    pub time: f64,
+    /// The longest of the steps (s).
+    pub longest_step: f64,
 }
 
 /// The report as indented JSON, ending in a line end; its version is in `schema`.
@@ -217,6 +229,10 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             repeated: history.statistics.rejected,
             evaluations: history.statistics.evaluations,
             events: history.events.iter().filter(|event| is_told(event)).count(),
+            sampled: (history.statistics.sampled > 0.0).then_some(SampledReport {
+                time: history.statistics.sampled,
+                longest_step: history.statistics.sampled_step,
+            }),
         },
         samples: None,
     }

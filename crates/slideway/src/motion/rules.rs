@@ -98,8 +98,7 @@ pub trait Decisions {
         Ok(vec![None; mechanism.contacts.len()])
     }
 
-    /// What computes [`sticking_margin`](Self::sticking_margin) faster for a mechanism without drives that stands still;
-    /// nothing if nothing does.
+    /// What looks ahead in time for the bodies that stand still and stay as long as joints stick; nothing if nothing does.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
@@ -107,24 +106,34 @@ pub trait Decisions {
         &mut self,
         _mechanism: &'m Mechanism,
         _configuration: &Configuration,
-        _phase: &Phase,
+        _resting: (&Phase, &[bool]),
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         Ok(None)
     }
 }
 
-/// A mechanism that stands still while its loads change.
+/// What stands still while its loads change.
 pub trait Hold {
-    /// What [`Decisions::sticking_margin`] is at the time of a configuration.
+    /// When the joints that stick cannot any longer, and until when that is proven, in a span of time.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
-    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults>;
+    fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults>;
+
+    /// What [`Decisions::sticking_margin`] is of the joints between these bodies at a time.
+    ///
+    /// # Errors
+    /// Whatever keeps the forces from being computed.
+    fn margin(&mut self, time: f64) -> Result<f64, Faults>;
 }
 
 impl Hold for decision::Holding<'_> {
-    fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
-        self.margin(configuration)
+    fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults> {
+        self.outlook(span)
+    }
+
+    fn margin(&mut self, time: f64) -> Result<f64, Faults> {
+        self.margin(time)
     }
 }
 
@@ -179,8 +188,8 @@ impl Decisions for Thorough {
         &mut self,
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        phase: &Phase,
+        resting: (&Phase, &[bool]),
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
-        Ok(Some(Box::new(decision::Holding::new(mechanism, configuration, phase)?)))
+        Ok(Some(Box::new(decision::Holding::new(mechanism, configuration, resting)?)))
     }
 }

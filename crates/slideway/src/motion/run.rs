@@ -147,6 +147,11 @@ impl<'a, 'm> Run<'a, 'm> {
                 let phase = self.history.phases.len() - 1;
                 self.history.steps.push(Step { time: from, length: to - from, phase });
                 self.history.statistics.steps += 1;
+                if self.smooth.rests_unproven() {
+                    let statistics = &mut self.history.statistics;
+                    statistics.sampled += to - from;
+                    statistics.sampled_step = statistics.sampled_step.max(to - from);
+                }
                 self.balance(total);
             }
             if let Some(ended) = step {

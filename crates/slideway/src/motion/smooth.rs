@@ -2,28 +2,25 @@
 
 mod reactions;
 
-use super::decision::scale_of_forces;
-use super::equations::{Drift, Equations, Failure};
+use super::decision::{Outlook, scale_of_forces};
+use super::equations::{Drift, Equations, Failure, joint_rests};
 use super::event::Cause;
 use super::history::{End, History};
 use super::options::SimulateOptions;
 use super::phase::{JointPhase, Phase};
+use super::resolution::Resolution;
 use super::root::{dip, falling_root};
 use super::rules::{Decisions, Hold};
-use super::stepper::{DENSE, StepControl, Stepper, within};
+use super::stepper::{DENSE, SAMPLES, StepControl, Stepper, within};
 use super::switching::{Switch, Switching};
 use super::watch::{Needs, Watch, Watched};
 use crate::configuration::Velocity;
-use crate::fault::{Fault, FaultKind};
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use std::collections::BTreeSet;
 
-/// Fractions of a step at which watched functions are evaluated, besides its ends.
-const INSIDE: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
-/// Where the equations have no solution at one of them, it is this part of the way nearer to the one before.
+/// Where the equations have no solution at a sample within a step, it is this part of the way nearer to the one before.
 const BESIDE: f64 = 0.1;
-/// These and the ends of the step.
-const SAMPLES: [f64; 4] = [0.0, INSIDE[0], INSIDE[1], 1.0];
 /// Part of a step within which zeros count as one event.
 const SAME_INSTANT: f64 = 1e-9;
 /// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors of steps.
@@ -44,6 +41,9 @@ const LEAST_TOLERANCE: f64 = 1e-10;
 const REST: f64 = 1e-10;
 /// Energies below this part of the greatest force times the size of the mechanism do not count.
 const LITTLE_ENERGY: f64 = 1e-2;
+
+/// What is known of the time ahead as long as nobody has looked.
+const NOTHING_KNOWN: Outlook = Outlook { proven: f64::NEG_INFINITY, slips: false };
 
 /// Why a phase is over.
 pub(super) enum Ended {
@@ -71,12 +71,17 @@ pub(super) struct Smooth<'o, 'm> {
     mass: f64,
     watch: Watch<'o>,
     switching: Switching<'m>,
+    resolution: Resolution<'m>,
     options: &'o SimulateOptions,
     /// Values of the watched functions at the start of the step, inside, and at its end.
     values: [Vec<f64>; 4],
     inside: Vec<f64>,
-    /// What computes the margin of sticking while the whole mechanism stands still.
+    /// What knows when sticking ends where bodies stand still, ...
     hold: Option<Box<dyn Hold + 'm>>,
+    /// ... whether that are all joints that stick, ...
+    holds_all: bool,
+    /// ... and what it knows.
+    outlook: Outlook,
     /// No step goes beyond this time.
     stop: f64,
     /// Contacts whose normal forces were beyond what statics determines when they were asked for.
@@ -105,10 +110,13 @@ impl<'o, 'm> Smooth<'o, 'm> {
             mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
             watch: Watch::new(&options.events, options.reaction_limit),
             switching: Switching::new(equations.mechanism, &equations.configuration),
+            resolution: Resolution::new(equations.mechanism),
             options,
             values: Default::default(),
             inside: vec![0.0; size],
             hold: None,
+            holds_all: false,
+            outlook: NOTHING_KNOWN,
             stop: time,
             undetermined: BTreeSet::new(),
             state,
@@ -146,10 +154,14 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.stepper.start(&mut self.equations, self.time, &self.state)?;
         self.notice_force();
         self.hold = None;
-        if self.equations.stands_still(REST * self.greatest_velocity()) {
-            let configuration = &self.equations.configuration;
-            let hold = decisions.hold(self.equations.mechanism, configuration, phase);
-            self.hold = hold.map_err(Failure::Loads)?;
+        self.outlook = NOTHING_KNOWN;
+        let rests = self.equations.resting(REST * self.greatest_velocity());
+        if rests.contains(&true) {
+            let Equations { mechanism, configuration, sliders, .. } = &self.equations;
+            self.hold = decisions.hold(mechanism, configuration, (phase, &rests)).map_err(Failure::Loads)?;
+            let sticking =
+                sliders.iter().zip(&phase.joints).filter(|(_, state)| **state == JointPhase::Sticking);
+            self.holds_all = sticking.into_iter().all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
         }
         let mut values = std::mem::take(&mut self.values);
         self.watch_all(phase, decisions, &mut values[0])?;
@@ -224,7 +236,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         if !due.is_empty() {
             return Some(self.switch(&due, Vec::new()));
         }
-        self.stop = self.known_time();
+        match self.look_ahead() {
+            Ok(true) => return Some(Ended::Event(vec![Cause::Slips])),
+            Ok(false) => {}
+            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
+        }
         let (step, error) = match self.accepted_step(phase, decisions, history) {
             Ok(accepted) => accepted,
             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -308,6 +324,22 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.end.min(self.switching.next(self.time, horizon))
     }
 
+    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood still.
+    fn look_ahead(&mut self) -> Result<bool, Faults> {
+        let known = self.known_time();
+        let until = known.min(self.horizon());
+        self.stop = known;
+        let Some(hold) = &mut self.hold else { return Ok(false) };
+        if !self.outlook.slips && self.outlook.proven < until {
+            self.outlook = hold.outlook([self.time.max(self.outlook.proven), until])?;
+        }
+        let is_now = self.outlook.proven - self.time <= self.least_step();
+        if !is_now {
+            self.stop = known.min(self.outlook.proven);
+        }
+        Ok(is_now && self.outlook.slips)
+    }
+
     /// No step goes beyond it.
     fn horizon(&self) -> f64 {
         self.end.min(self.time + 2.0 * self.longest)
@@ -336,6 +368,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             } else {
                 wanted
             };
+            let step = self.resolved(step);
             let least = self.least_step();
             let attempt = self.try_step(step, phase, decisions, history);
             match attempt {
@@ -351,6 +384,32 @@ impl<'o, 'm> Smooth<'o, 'm> {
             }
             history.statistics.rejected += 1;
         }
+    }
+
+    /// Whether it is known of all joints that stick until when they do.
+    fn is_held(&self) -> bool {
+        self.hold.is_some() && self.holds_all
+    }
+
+    /// Whether joints have stuck until now under loads that change with time, and nothing has proven that they could.
+    pub(super) fn rests_unproven(&self) -> bool {
+        let is_proven = self.is_held() && self.time <= self.outlook.proven + self.least_step();
+        self.watch.list.contains(&Watched::Sticking) && !is_proven && !self.resolution.is_empty()
+    }
+
+    /// A step that sees what the loads do meanwhile; while everything stands still they only decide how long that lasts, which is known.
+    fn resolved(&mut self, step: f64) -> f64 {
+        if self.resolution.is_empty() {
+            return step;
+        }
+        let is_proven = self.is_held() && self.time + step <= self.outlook.proven + self.least_step();
+        if is_proven && self.watch.list.iter().all(|watched| watched.needs() != Needs::Forces) {
+            return step;
+        }
+        self.equations.place(self.time, &self.state);
+        let velocity = self.watch.magnitudes.velocity;
+        let velocities = [velocity, self.tolerance * velocity];
+        self.resolution.step(&self.equations.configuration, velocities, [step, self.least_step()])
     }
 
     /// Why no step is short enough: the mode locks, or the loads grow beyond all bounds.
@@ -466,9 +525,12 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let equations = &self.equations;
         if watched == Watched::Sticking {
             let configuration = &equations.configuration;
+            let known = self.outlook.proven + self.least_step();
             let margin = match &mut self.hold {
-                Some(hold) => hold.margin(configuration),
-                None => decisions.sticking_margin(equations.mechanism, configuration, phase),
+                // It is known when it ends.
+                Some(_) if self.holds_all && configuration.time <= known => return Ok(1.0),
+                Some(hold) if self.holds_all => hold.margin(configuration.time),
+                _ => decisions.sticking_margin(equations.mechanism, configuration, phase),
             };
             return margin.map_err(Failure::Loads);
         }
@@ -486,7 +548,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let mut places = SAMPLES;
         let mut falls = Vec::new();
         for part in 0..SAMPLES.len() - 1 {
-            if part < INSIDE.len() {
+            if part < SAMPLES.len() - 2 {
                 self.sample(phase, decisions, (dense, step), (part + 1, &mut places))?;
             }
             falls = self.falls_between([places[part], places[part + 1]], part);

@@ -38,6 +38,8 @@ const WITHIN: [f64; STAGES] = [
     -1_453_857_185.0 / 822_651_844.0,
     69_997_945.0 / 29_380_423.0,
 ];
+/// Fractions of a step at which what is watched is evaluated: its ends and two places inside.
+pub(super) const SAMPLES: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
 /// Vectors that describe the solution within a step.
 pub(super) const DENSE: usize = 5;
 

@@ -180,6 +180,14 @@ impl Page<'_, SimulateReport> {
             report.position_drift
         ));
         let statistics = &report.statistics;
+        if let Some(sampled) = &statistics.sampled {
+            self.line(&format!(
+                "For {} s in all joints stuck under loads that change with time without a proof that they could: it was looked at four \
+                 times in each step, the longest of {} s.",
+                number(sampled.time),
+                number(sampled.longest_step)
+            ));
+        }
         self.line(&format!(
             "{} ({} repeated), {} of the equations, {}; tolerance {}.",
             count(statistics.steps, "step", "steps"),

@@ -182,17 +182,24 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
         let value = without_rounding(inequality.slack.constant);
         found.slacks.push(Slack { subject: Decisive::One(inequality.subject), value });
     }
-    let sticks = |subject: &Decisive| match subject {
+    let sticks = |slack: &&Slack| match slack.subject {
         Decisive::Open(_) => true,
-        Decisive::One(Subject::Pressure(k) | Subject::Couple(k) | Subject::Friction(k)) => {
-            instant.joint_of(*k).is_some_and(|joint| phase.joints[joint] == JointPhase::Sticking)
-        }
-        Decisive::One(Subject::Share(_) | Subject::Slip(_)) => false,
+        Decisive::One(subject) => concerns_sticking((instant, phase), subject),
     };
-    let margins = found.slacks.iter().filter(|slack| sticks(&slack.subject)).map(|slack| slack.value);
+    let margins = found.slacks.iter().filter(sticks).map(|slack| slack.value);
     found.margin = margins.fold(f64::INFINITY, f64::min);
     system.write_forces(&open, &mut found.forces);
     Ok(found)
+}
+
+/// Whether an inequality is about a joint that sticks in a phase.
+pub(super) fn concerns_sticking((instant, phase): (&Instant<'_>, &Phase), subject: Subject) -> bool {
+    match subject {
+        Subject::Pressure(k) | Subject::Couple(k) | Subject::Friction(k) => {
+            instant.joint_of(k).is_some_and(|joint| phase.joints[joint] == JointPhase::Sticking)
+        }
+        Subject::Share(_) | Subject::Slip(_) => false,
+    }
 }
 
 fn without_rounding(slack: f64) -> f64 {

@@ -10,6 +10,7 @@ use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::motion::Phase;
+use crate::motion::resolution::Resolution;
 use nalgebra::{DVector, Vector2};
 
 /// Length of a step, as a part of the time in which something of the motion can change.
@@ -27,6 +28,9 @@ struct Accelerations {
 
 /// How a phase stands to its bounds; else those that it violates at once, or none if its equations contradict each other a
 /// little later.
+///
+/// Something of the motion can change in the time in which accelerations or velocities go through the whole mechanism, or in that over
+/// which four samples show what the loads do.
 ///
 /// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
 /// differences over two steps: with constant accelerations, which tells rates as well as any, and by Heun's method where a rate
@@ -46,6 +50,7 @@ pub(super) fn standing(
     };
     let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
     let scale = time_scale(instant, configuration);
+    let scale = Resolution::new(mechanism).step(configuration, [0.0; 2], [scale, least_step(configuration)]);
     let start = (configuration, accelerations(instant, assessment));
     let (mut constant, mut violated) = (Vec::new(), Vec::new());
     for method in [Method::ConstantAccelerations, Method::Heun] {
@@ -98,6 +103,11 @@ fn limit(instant: &Instant<'_>, subject: Decisive) -> Limit {
             Limit::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
         }
     }
+}
+
+/// The shortest time (s) ahead that steps can tell from now.
+fn least_step(configuration: &Configuration) -> f64 {
+    f64::EPSILON / STEP.powi(2) * configuration.time.abs()
 }
 
 /// The time in which accelerations or velocities go through the whole mechanism (s).

@@ -1,50 +1,175 @@
-//! Mechanisms that stand still: only their loads change.
+//! What stands still while only its loads change.
 
 use super::BOUNDARY;
-use super::assessment::assess;
-use super::instant::Instant;
+use super::assessment::{Assessment, assess_group};
+use super::instant::{Group, Instant};
+use super::plan::{Fall, Plan, System};
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
-use crate::motion::Phase;
+use crate::motion::amounts::Amounts;
+use crate::motion::equations::joint_rests;
+use crate::motion::{JointPhase, Phase};
+use nalgebra::DVector;
 
-/// A mechanism without drives that stands still in a phase: equations and influence coefficients are computed once.
+/// What is known of the time ahead of what stands still.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outlook {
+    /// Until this time (s) it is proven that nothing slips.
+    pub proven: f64,
+    /// Whether something slips then.
+    pub slips: bool,
+}
+
+/// Bodies that stand still in a phase: equations and influence coefficients are computed once.
 pub(crate) struct Holding<'m> {
     instant: Instant<'m>,
     /// With the sides of the last margin.
     phase: Phase,
     stopped: Vec<bool>,
+    amounts: Amounts<'m>,
+    /// The amounts at the time of the instant, and what one of each adds to what is asked of forces and accelerations.
+    first: Vec<f64>,
+    responses: Vec<DVector<f64>>,
+    base: DVector<f64>,
+    /// The groups of joints between these bodies, with forces with which they can stick.
+    plans: Vec<(Group, Option<Plan>)>,
 }
 
 impl<'m> Holding<'m> {
-    /// A mechanism in the configuration in which it stays.
+    /// Those bodies of a mechanism that stand still, in the configuration in which they stay.
     ///
     /// # Errors
     /// As [`sticking_margin`](super::sticking_margin).
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        phase: &Phase,
+        (phase, rests): (&Phase, &[bool]),
     ) -> Result<Self, Faults> {
-        let instant = Instant::new(mechanism, configuration)?;
+        let instant = Instant::looking_ahead(mechanism, configuration)?;
         instant.check(phase)?;
-        let stopped = vec![false; instant.joints.len()];
-        Ok(Self { instant, phase: phase.clone(), stopped })
+        let amounts = Amounts::new(mechanism, configuration, rests);
+        let sticks = |joint: &usize| {
+            phase.joints[*joint] == JointPhase::Sticking
+                && joint_rests(mechanism, instant.joints[*joint].id, rests)
+        };
+        let groups = instant.groups.iter().filter(|group| group.joints.iter().any(sticks));
+        let response = |load| {
+            let unknowns = instant.equations.answer_to(mechanism, configuration, load)?;
+            Ok(instant.response(&unknowns))
+        };
+        let responses: Result<Vec<DVector<f64>>, Faults> = amounts.units().map(response).collect();
+        Ok(Self {
+            stopped: vec![false; instant.joints.len()],
+            first: amounts.at(configuration.time)?,
+            responses: responses?,
+            base: instant.outputs.base.clone(),
+            plans: groups.map(|group| (group.clone(), None)).collect(),
+            phase: phase.clone(),
+            amounts,
+            instant,
+        })
     }
 
-    /// [`sticking_margin`](super::sticking_margin) at the time of this configuration; sides that have left enough at
-    /// the last time are tried first.
+    /// [`sticking_margin`](super::sticking_margin) at a time, in the units of the first instant; sides that have left enough
+    /// at the last time are tried first.
     ///
     /// # Errors
     /// Loads without a value.
-    pub(crate) fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
-        self.instant.change_loads(configuration)?;
-        let question = self.instant.question(&self.stopped);
-        let found = assess(&self.instant, &question, &self.phase, (BOUNDARY, ENOUGH)).ok().flatten();
-        Ok(found.map_or(NONE, |assessment| {
-            self.phase = assessment.phase;
-            assessment.margin
+    pub(crate) fn margin(&mut self, time: f64) -> Result<f64, Faults> {
+        let amounts = self.amounts.at(time)?;
+        let mut margin = f64::INFINITY;
+        for (group, _) in self.plans.clone() {
+            margin = margin.min(self.assess(&group, &amounts).map_or(NONE, |found| found.margin));
+        }
+        Ok(margin)
+    }
+
+    /// What is known of a span of time.
+    ///
+    /// # Errors
+    /// Loads without a value.
+    pub(crate) fn outlook(&mut self, [from, until]: [f64; 2]) -> Result<Outlook, Faults> {
+        let mut outlook = Outlook { proven: until, slips: false };
+        for index in 0..self.plans.len() {
+            let (group, plan) = (self.plans[index].0.clone(), self.plans[index].1.take());
+            let (plan, found) = self.outlook_of(&group, plan, [from, outlook.proven])?;
+            self.plans[index].1 = plan;
+            if found.proven < outlook.proven || found.slips {
+                outlook = found;
+            }
+        }
+        Ok(outlook)
+    }
+
+    /// The same of a group of joints: a plan is followed as far as it goes, and replaced by the one that leaves most there.
+    fn outlook_of(
+        &mut self,
+        group: &Group,
+        plan: Option<Plan>,
+        [from, until]: [f64; 2],
+    ) -> Result<(Option<Plan>, Outlook), Faults> {
+        let mut time = from;
+        let first = match plan {
+            Some(plan) => Some(plan),
+            None => self.plan(group, from)?.filter(|plan| plan.margin() >= -BOUNDARY),
+        };
+        let Some(mut plan) = first else { return Ok((None, Outlook { proven: from, slips: false })) };
+        let mut cells = 0;
+        loop {
+            let end = match plan.first_fall(&self.amounts, [time, until], &mut cells) {
+                Fall::None => return Ok((Some(plan), Outlook { proven: until, slips: false })),
+                Fall::Unknown(end) => return Ok((Some(plan), Outlook { proven: end, slips: false })),
+                Fall::At(end) => end,
+            };
+            match self.plan(group, end)? {
+                None => return Ok((None, Outlook { proven: end, slips: false })),
+                Some(next) if next.margin() < -BOUNDARY => {
+                    let slips = self.zero_before(group, next, [time, end])?;
+                    return Ok((None, Outlook { proven: slips, slips: true }));
+                }
+                Some(next) => (plan, time) = (next, end),
+            }
+        }
+    }
+
+    /// Where the margin has fallen through zero before it was found to be negative: on the supporting plane of the margin, which is a
+    /// concave function of the amounts for given sides, and from there on if that was not enough.
+    fn zero_before(&mut self, group: &Group, plan: Plan, [from, end]: [f64; 2]) -> Result<f64, Faults> {
+        let (mut plan, mut end) = (plan, end);
+        loop {
+            let zero = plan.zero_before(&self.amounts, [from, end])?;
+            match self.plan(group, zero)? {
+                Some(next) if next.margin() < plan.margin() / 2.0 && zero > from && zero < end => {
+                    (plan, end) = (next, zero);
+                }
+                _ => return Ok(zero),
+            }
+        }
+    }
+
+    /// Forces of a group at a time, and how they go with the amounts; nothing if there are none, or a linear program was not solved.
+    fn plan(&mut self, group: &Group, time: f64) -> Result<Option<Plan>, Faults> {
+        let amounts = self.amounts.at(time)?;
+        Ok(self.assess(group, &amounts).and_then(|found| {
+            let system = System { phase: &found.phase, group, stopped: &self.stopped };
+            Plan::new(&mut self.instant, &system, (&amounts, &self.responses))
         }))
+    }
+
+    /// The sides of a group that leave most, or enough, with these amounts of the loads.
+    fn assess(&mut self, group: &Group, amounts: &[f64]) -> Option<Assessment> {
+        self.instant.outputs.base.copy_from(&self.base);
+        for ((amount, first), response) in amounts.iter().zip(&self.first).zip(&self.responses) {
+            self.instant.outputs.base.axpy(amount - first, response, 1.0);
+        }
+        let question = self.instant.question(&self.stopped);
+        let found = assess_group(&self.instant, &question, (&self.phase, group), (BOUNDARY, ENOUGH));
+        let found = found.ok().flatten()?;
+        for &k in &group.contacts {
+            self.phase.contacts[k] = found.phase.contacts[k];
+        }
+        Some(found)
     }
 }

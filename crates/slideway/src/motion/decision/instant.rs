@@ -99,8 +99,6 @@ pub(super) struct Instant<'m> {
     pub(super) joints: Vec<SlidingJoint>,
     /// Units of the whole.
     pub(super) units: Units,
-    /// The least units of force (N), of the whole and of what is connected with each joint.
-    least_forces: Vec<f64>,
     /// What is asked of forces and accelerations.
     pub(super) outputs: Outputs,
     /// By how much these differ from the loads, see [`Self::vanish`].
@@ -133,38 +131,13 @@ impl<'m> Instant<'m> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         let influence = Influence::new(&equations);
         let mut joints = sliding_joints(mechanism, configuration, &equations);
-        let mut least_forces = Vec::new();
-        let now = Some((configuration, least));
-        let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut least_forces));
+        let forces = (&influence, &equations);
+        let units = set_units(mechanism, forces, (configuration, least), &mut joints);
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);
         let shift = DVector::zeros(outputs.base.len());
         let contacts = contacts(mechanism, configuration, &equations)?;
-        Ok(Self {
-            mechanism,
-            contacts,
-            equations,
-            influence,
-            joints,
-            units,
-            least_forces,
-            outputs,
-            shift,
-            groups,
-        })
-    }
-
-    /// Takes over the loads at another time, where nothing has moved.
-    ///
-    /// # Errors
-    /// Loads without a value.
-    pub(super) fn change_loads(&mut self, configuration: &Configuration) -> Result<(), Faults> {
-        self.equations.change_loads(self.mechanism, configuration)?;
-        self.influence.frictionless = self.equations.without_noise(&self.equations.frictionless());
-        let forces = (&self.influence, &self.equations);
-        self.units = set_units(self.mechanism, forces, None, (&mut self.joints, &mut self.least_forces));
-        self.outputs = outputs(self.mechanism, &self.influence, &self.joints);
-        Ok(())
+        Ok(Self { mechanism, contacts, equations, influence, joints, units, outputs, shift, groups })
     }
 
     /// The question for accelerations, with joints whose velocity is zero.
@@ -196,6 +169,18 @@ impl<'m> Instant<'m> {
     /// The answer to friction impulses alone, without loads.
     pub(super) fn impulse_outputs(&self) -> Outputs {
         Outputs { base: DVector::zeros(self.outputs.base.len()), columns: self.outputs.columns.clone() }
+    }
+
+    /// What is asked of forces and accelerations, of changes of all unknowns.
+    pub(super) fn response(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        let normals = self.influence.normal_part(unknowns);
+        let normals = normals.iter().enumerate().map(|(k, normal)| normal / self.units_of(k).force);
+        let slides = self.joints.iter().map(|joint| joint.row.change(unknowns) / joint.units.acceleration);
+        let couples = self.joints.iter().filter_map(|joint| {
+            let (_, place) = joint.couple?;
+            Some(unknowns[place] / (joint.units.force * joint.units.length))
+        });
+        DVector::from_vec(normals.chain(slides).chain(couples).collect())
     }
 
     /// The units of a contact.
@@ -425,27 +410,25 @@ fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &S
 }
 
 /// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is
-/// small; the units of the whole. Their least forces are found anew or remain.
+/// small; the units of the whole.
 fn set_units(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),
-    least: Option<(&Configuration, Scale)>,
-    (joints, least_forces): (&mut [SlidingJoint], &mut Vec<f64>),
+    (configuration, least): (&Configuration, Scale),
+    joints: &mut [SlidingJoint],
 ) -> Units {
     let connected = connected(mechanism);
-    let mut one = |counts: &dyn Fn(BodyId) -> bool, place: usize, otherwise: f64| {
+    let one = |counts: &dyn Fn(BodyId) -> bool, otherwise: f64| {
         let (force, mass) = greatest(mechanism, (influence, equations), counts);
-        if let Some((configuration, least)) = least {
-            least_forces.push(least(mechanism, configuration, Share { counts, mass, force }));
-        }
-        units(mechanism.size, (force.max(least_forces[place]), mass), otherwise)
+        let least = least(mechanism, configuration, Share { counts, mass, force });
+        units(mechanism.size, (force.max(least), mass), otherwise)
     };
-    let whole = one(&|_| true, 0, 1.0);
-    for (index, joint) in joints.iter_mut().enumerate() {
+    let whole = one(&|_| true, 1.0);
+    for joint in joints {
         let slider = mechanism.slider(joint.id);
         let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
         let part = body.map(|body| connected[body.index()]);
-        joint.units = one(&|other| Some(connected[other.index()]) == part, index + 1, whole.force);
+        joint.units = one(&|other| Some(connected[other.index()]) == part, whole.force);
     }
     whole
 }
@@ -461,7 +444,7 @@ pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &
 }
 
 /// For each body a number that it shares with the bodies that are connected with it by joints.
-fn connected(mechanism: &Mechanism) -> Vec<usize> {
+pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
     let mut parts: Vec<usize> = (0..mechanism.bodies.len()).collect();
     for joint in &mechanism.joints {
         let [one, other] = match &joint.kind {

@@ -44,6 +44,7 @@ mod impulse;
 mod instant;
 mod jam;
 mod parts;
+mod plan;
 mod program;
 mod scale;
 mod sieve;
@@ -54,8 +55,9 @@ mod system;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
+pub use holding::Outlook;
 pub use impact::{Blow, Impact, impact};
-pub(super) use instant::{TOUCHES, scale_of_forces};
+pub(super) use instant::{TOUCHES, connected, scale_of_forces};
 pub use jam::{Impulse, Jam, jam};
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};

@@ -19,6 +19,9 @@
 mod assembly;
 mod phase;
 mod projection;
+mod rest;
+
+pub(super) use rest::joint_rests;
 
 use super::linear::{Determinant, LinearSystem};
 use super::phase::Phase;
@@ -261,19 +264,6 @@ impl<'m> Equations<'m> {
             }
             Rubbing::Sticking => None,
         }
-    }
-
-    /// Whether the joints that stick leave no motion at all, nothing is driven, and no body is faster than this (m/s).
-    pub(super) fn stands_still(&self, velocity: f64) -> bool {
-        let bodies = self.mechanism.bodies.len();
-        let size = self.mechanism.size;
-        let is_slow = |v: &crate::configuration::Velocity| {
-            v.linear.amax() <= velocity && v.angular.abs() * size <= velocity
-        };
-        !self.stuck.is_empty()
-            && self.mechanism.drives.is_empty()
-            && self.row_ends.len() >= 3 * bodies
-            && self.configuration.velocities.iter().all(is_slow)
     }
 
     /// Effort of a drive.
