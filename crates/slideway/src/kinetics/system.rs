@@ -2,7 +2,7 @@
 
 use crate::configuration::null_space;
 use crate::interval::Real;
-use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
+use nalgebra::{DMatrix, DVector};
 
 /// Pivots below this multiple of the greatest count as zero; the equations are then singular.
 const SINGULAR: f64 = 1e-13;
@@ -16,7 +16,7 @@ pub(super) struct Factorization {
     /// Powers of two that bring every row and column to order one.
     row_scale: DVector<f64>,
     column_scale: DVector<f64>,
-    factors: FullPivLU<f64, Dyn, Dyn>,
+    factors: Factors,
     condition: f64,
 }
 
@@ -44,9 +44,8 @@ impl Factorization {
         }
         let (row_scale, column_scale) = equilibration(&matrix);
         let scaled = scaled(&matrix, &row_scale, &column_scale);
-        let factors = scaled.clone().full_piv_lu();
-        let pivots = factors.u().diagonal().abs();
-        let condition = if pivots.is_empty() { 1.0 } else { pivots.max() / pivots.min() };
+        let factors = Factors::of(&scaled);
+        let condition = factors.condition();
         if condition.is_finite() && condition < 1.0 / SINGULAR {
             return Ok(Self { matrix, row_scale, column_scale, factors, condition });
         }
@@ -80,9 +79,100 @@ impl Factorization {
     }
 
     fn solve_once(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
-        let scaled = right_hand_side.component_mul(&self.row_scale);
-        let solution = self.factors.solve(&scaled).expect("the pivots were found to be regular");
-        solution.component_mul(&self.column_scale)
+        let mut solution = self.factors.solve(&right_hand_side.component_mul(&self.row_scale));
+        solution.component_mul_assign(&self.column_scale);
+        solution
+    }
+}
+
+/// Triangular factors of a square matrix whose rows and columns have been exchanged, by elimination with complete pivoting: several
+/// times as fast on matrices of a few dozen rows as a factorization for all sizes.
+#[derive(Debug, Clone)]
+struct Factors {
+    /// Column by column: the upper triangle, and below the diagonal the multipliers.
+    entries: Vec<f64>,
+    /// The row, and the column, that stands at each place.
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+}
+
+impl Factors {
+    fn of(matrix: &DMatrix<f64>) -> Self {
+        let size = matrix.nrows();
+        let mut entries = matrix.as_slice().to_vec();
+        let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..size).collect(), (0..size).collect());
+        for step in 0..size {
+            let (row, column) = greatest(&entries, size, step);
+            if entries[column * size + row] == 0.0 {
+                break;
+            }
+            rows.swap(step, row);
+            columns.swap(step, column);
+            if column != step {
+                let (left, right) = entries.split_at_mut(column * size);
+                left[step * size..][..size].swap_with_slice(&mut right[..size]);
+            }
+            if row != step {
+                entries.chunks_exact_mut(size).for_each(|entries| entries.swap(step, row));
+            }
+            let (left, right) = entries.split_at_mut((step + 1) * size);
+            let (pivot, multipliers) = left[step * size + step..].split_at_mut(1);
+            let inverse = 1.0 / pivot[0];
+            multipliers.iter_mut().for_each(|entry| *entry *= inverse);
+            for later in right.chunks_exact_mut(size).filter(|later| later[step] != 0.0) {
+                let (above, below) = later.split_at_mut(step + 1);
+                subtract(above[step], multipliers, below);
+            }
+        }
+        Self { entries, rows, columns }
+    }
+
+    /// Ratio of the greatest to the least pivot.
+    fn condition(&self) -> f64 {
+        let size = self.rows.len();
+        let pivots = (0..size).map(|step| self.entries[step * (size + 1)].abs());
+        let (greatest, least) =
+            pivots.fold((0.0_f64, f64::INFINITY), |(most, least), pivot| (most.max(pivot), least.min(pivot)));
+        if size == 0 { 1.0 } else { greatest / least }
+    }
+
+    fn solve(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
+        let size = self.rows.len();
+        let mut work: Vec<f64> = self.rows.iter().map(|row| right_hand_side[*row]).collect();
+        for step in 0..size {
+            let (known, rest) = work.split_at_mut(step + 1);
+            subtract(known[step], &self.entries[step * size + step + 1..(step + 1) * size], rest);
+        }
+        for step in (0..size).rev() {
+            work[step] /= self.entries[step * (size + 1)];
+            let (rest, known) = work.split_at_mut(step);
+            subtract(known[0], &self.entries[step * size..][..step], rest);
+        }
+        let mut solution = DVector::zeros(size);
+        for (column, value) in self.columns.iter().zip(work) {
+            solution[*column] = value;
+        }
+        solution
+    }
+}
+
+/// Row and column of the greatest entry from this place on.
+fn greatest(entries: &[f64], size: usize, from: usize) -> (usize, usize) {
+    let (mut place, mut most) = ((from, from), entries[from * (size + 1)].abs());
+    for column in from..size {
+        for row in from..size {
+            let entry = entries[column * size + row].abs();
+            if entry > most {
+                (place, most) = ((row, column), entry);
+            }
+        }
+    }
+    place
+}
+
+fn subtract(factor: f64, from: &[f64], target: &mut [f64]) {
+    for (target, value) in target.iter_mut().zip(from) {
+        *target -= factor * value;
     }
 }
 

@@ -4,6 +4,7 @@ use super::BOUNDARY;
 use super::assessment::side_options;
 use super::instant::Instant;
 use crate::motion::ContactPhase;
+use nalgebra::{DMatrix, DVector};
 
 /// Rounds of the iteration for the greatest pressures.
 const ROUNDS: usize = 30;
@@ -35,31 +36,30 @@ pub(super) fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
 }
 
 /// By how much friction changes each normal force at most, in units; nothing where no bound was found.
-fn greatest_changes(instant: &Instant<'_>) -> Option<Vec<f64>> {
+fn greatest_changes(instant: &Instant<'_>) -> Option<DVector<f64>> {
     let [plus, minus] = &instant.outputs.columns;
     let contacts = plus.ncols();
-    let change = |pressures: &[f64]| -> Vec<f64> {
-        let friction = |k: usize| {
-            let contact = instant.contact(k);
-            let greatest = |list: [f64; 2]| list[0].max(list[1]);
-            let mu = greatest(contact.mu).max(greatest(contact.mu_static));
-            mu * pressures[k] + greatest(contact.preload) / instant.units_of(k).force
-        };
-        let frictions: Vec<f64> = (0..contacts).map(friction).collect();
-        let one = |j: usize| -> f64 {
-            (0..contacts).map(|k| plus[(j, k)].abs().max(minus[(j, k)].abs()) * frictions[k]).sum()
-        };
-        (0..contacts).map(one).collect()
+    let greatest = |list: [f64; 2]| list[0].max(list[1]);
+    let friction = |k: usize| greatest(instant.contact(k).mu).max(greatest(instant.contact(k).mu_static));
+    let influence = |j: usize, k: usize| plus[(j, k)].abs().max(minus[(j, k)].abs());
+    let by_pressures = DMatrix::from_fn(contacts, contacts, |j, k| influence(j, k) * friction(k));
+    let preload = |k: usize| greatest(instant.contact(k).preload) / instant.units_of(k).force;
+    let by_preloads =
+        DVector::from_fn(contacts, |j, _| (0..contacts).map(|k| influence(j, k) * preload(k)).sum());
+    let normal = instant.outputs.base.rows(0, contacts).abs();
+    let mut pressures = DVector::zeros(contacts);
+    let mut changes = by_preloads.clone();
+    let bound = |pressures: &DVector<f64>, changes: &mut DVector<f64>| {
+        changes.copy_from(&by_preloads);
+        changes.gemv(1.0, &by_pressures, pressures, 1.0);
     };
-    let bound = |pressures: &[f64]| -> Vec<f64> {
-        let changes = change(pressures).into_iter().zip(instant.outputs.base.iter());
-        changes.map(|(change, normal)| change + normal.abs()).collect()
-    };
-    let mut pressures = vec![0.0; contacts];
     for _ in 0..ROUNDS {
-        pressures = bound(&pressures);
+        pressures.copy_from(&normal);
+        pressures += &changes;
+        bound(&pressures, &mut changes);
     }
-    pressures.iter_mut().for_each(|pressure| *pressure *= ENLARGED);
-    let holds = bound(&pressures).iter().zip(&pressures).all(|(again, pressure)| again <= pressure);
-    holds.then(|| change(&pressures))
+    pressures *= ENLARGED;
+    bound(&pressures, &mut changes);
+    let holds = (0..contacts).all(|k| normal[k] + changes[k] <= pressures[k]);
+    holds.then_some(changes)
 }

@@ -23,7 +23,7 @@ pub(in crate::motion) fn determined_normal_forces(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let question = instant.question(&stopped);
+    let question = instant.question(&stopped, Some(phase));
     let mut normal = vec![None; phase.contacts.len()];
     for group in &instant.groups {
         let found = of_group(&instant, &question, (phase, group)).unwrap_or_default();

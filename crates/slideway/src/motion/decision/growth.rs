@@ -184,7 +184,7 @@ impl Flow<'_> {
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
         let mut instant = Instant::looking_ahead(self.mechanism, configuration)?;
         instant.change_base(self.shift);
-        let question = instant.question(self.stopped);
+        let question = instant.question(self.stopped, Some(self.phase));
         let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
             Ok(Some(assessment)) => assessment,
             Ok(None) => return Ok(Later::Ends),

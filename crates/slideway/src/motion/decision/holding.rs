@@ -40,7 +40,7 @@ impl<'m> Holding<'m> {
     /// Loads without a value.
     pub(crate) fn margin(&mut self, configuration: &Configuration) -> Result<f64, Faults> {
         self.instant.change_loads(configuration)?;
-        let question = self.instant.question(&self.stopped);
+        let question = self.instant.question(&self.stopped, Some(&self.phase));
         let found = assess(&self.instant, &question, &self.phase, (BOUNDARY, ENOUGH)).ok().flatten();
         Ok(found.map_or(NONE, |assessment| {
             self.phase = assessment.phase;

@@ -167,13 +167,18 @@ impl<'m> Instant<'m> {
         Ok(())
     }
 
-    /// The question for accelerations, with joints whose velocity is zero.
-    pub(super) fn question<'q>(&'q self, stopped: &'q [bool]) -> Question<'q> {
+    /// The question for accelerations, with joints whose velocity is zero: about all phases, or one, in which sides are open only if a joint
+    /// sticks.
+    pub(super) fn question<'q>(&'q self, stopped: &'q [bool], phase: Option<&Phase>) -> Question<'q> {
+        let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
         Question {
             outputs: &self.outputs,
             wanted: vec![0.0; self.joints.len()],
             has_preload: true,
-            sides: possible_sides(self),
+            sides: match slides {
+                Some(phase) => phase.contacts.iter().map(|contact| vec![*contact]).collect(),
+                None => possible_sides(self),
+            },
             stopped,
             opposes: None,
         }

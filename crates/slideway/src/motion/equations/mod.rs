@@ -153,7 +153,7 @@ impl<'m> Equations<'m> {
         state
     }
 
-    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations.
+    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations, and solves them there.
     ///
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
@@ -211,6 +211,14 @@ impl<'m> Equations<'m> {
         }
         self.system.solve(&mut self.unknowns);
         if self.unknowns.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(Failure::Singular) }
+    }
+
+    /// The rates of the components of a state at which the equations have just been solved.
+    pub(super) fn write_rates(&self, state: &[f64], rates: &mut [f64]) {
+        let bodies = 3 * self.mechanism.bodies.len();
+        rates[..bodies].copy_from_slice(&state[bodies..2 * bodies]);
+        rates[bodies..2 * bodies].copy_from_slice(self.accelerations());
+        super::energy::powers(self, &mut rates[2 * bodies..]);
     }
 
     /// Accelerations of the bodies at the last evaluation: (x, y, angle) of each.
@@ -307,10 +315,7 @@ impl Derivative for Equations<'_> {
 
     fn derivative(&mut self, time: f64, state: &[f64], rate: &mut [f64]) -> Result<(), Failure> {
         self.evaluate(time, state)?;
-        let bodies = 3 * self.mechanism.bodies.len();
-        rate[..bodies].copy_from_slice(&state[bodies..2 * bodies]);
-        rate[bodies..2 * bodies].copy_from_slice(self.accelerations());
-        super::energy::powers(self, &mut rate[2 * bodies..]);
+        self.write_rates(state, rate);
         Ok(())
     }
 }
