@@ -44,6 +44,7 @@ pub mod mechanism;
 pub mod model;
 pub mod modes;
 pub mod motion;
+mod pattern;
 pub mod printable;
 pub mod progress;
 pub mod raw_problem;

@@ -158,15 +158,14 @@ impl KineticEquations {
 
     /// The unknowns without friction.
     pub fn frictionless(&self) -> DVector<f64> {
-        self.factorization.solve(&self.load)
+        self.factorization.solve(&[&self.load]).remove(0)
     }
 
     /// What a unit friction force of a contact adds to the unknowns, for both sides of contact.
     pub fn influence_of(&self, contact: ContactId) -> [DVector<f64>; 2] {
-        let [positive, negative] = &self.friction[contact.index()];
-        let first = self.factorization.solve(positive);
-        let second = if positive == negative { first.clone() } else { self.factorization.solve(negative) };
-        [first, second]
+        let sides = self.friction[contact.index()].each_ref();
+        let mut columns = self.factorization.solve(&sides);
+        [columns.swap_remove(0), columns.remove(0)]
     }
 
     /// The unknowns with every component set to zero that is below the rounding errors of the solution.

@@ -1,8 +1,8 @@
 //! Sides that contacts take in every admissible state.
 
 use super::BOUNDARY;
-use super::assessment::side_options;
 use super::instant::Instant;
+use crate::ids::ContactId;
 use crate::motion::ContactPhase;
 use nalgebra::{DMatrix, DVector};
 
@@ -25,7 +25,7 @@ pub(super) fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let change = if is_free { greatest_changes(instant) } else { None };
     contacts
         .map(|j| {
-            let all = side_options(instant, j);
+            let all = ContactPhase::options(instant.mechanism, ContactId(j));
             let normal = instant.outputs.base[j];
             match &change {
                 Some(change) if normal.abs() > change[j] + BOUNDARY => vec![all[usize::from(normal < 0.0)]],

@@ -10,9 +10,9 @@ use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism, Slider};
-use crate::model::{PreloadLine, SliderKind};
-use crate::modes::Side;
+use crate::model::SliderKind;
 use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::pattern::Law;
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
 
@@ -226,26 +226,19 @@ impl<'m> Instant<'m> {
             else {
                 continue;
             };
-            let [plus, minus] = [0, 1].map(|side| self.outputs.columns[side].column(k));
-            let contact = self.contact(k);
+            let law = self.law(k, true);
+            let mut add = |amount: f64, faces: [[f64; 2]; 2]| {
+                for (column, [factor, _]) in self.outputs.columns.iter().zip(faces) {
+                    shift.axpy(amount * factor, &column.column(k), 1.0);
+                }
+            };
             match (state.phase.contacts[k], state.forces.shares[k]) {
                 (ContactPhase::Pressed(side), _) if state.forces.normal[k].abs() <= NEARLY_ZERO => {
-                    let face = usize::from(side == Side::Negative);
-                    let pressure = side.sign() * state.forces.normal[k];
-                    shift.axpy(contact.mu[face] * sign * pressure, &[plus, minus][face], 1.0);
+                    add(side.sign() * state.forces.normal[k], law.kinetic(side, sign));
                     shift[k] -= state.forces.normal[k];
                 }
                 (ContactPhase::PreloadGap, Some(share)) if (share - share.round()).abs() <= NEARLY_ZERO => {
-                    let unit = self.units_of(k).force;
-                    let [more, less] =
-                        contact.preload.map(|preload| (share - share.round()) * sign * preload / unit);
-                    match contact.preload_line {
-                        PreloadLine::Pressed => {
-                            shift.axpy(more, &plus, 1.0);
-                            shift.axpy(-less, &minus, 1.0);
-                        }
-                        PreloadLine::Centre => shift.axpy((more - less) / 2.0, &(plus + minus), 1.0),
-                    }
+                    add(share - share.round(), law.in_gap(sign));
                 }
                 _ => {}
             }
@@ -308,6 +301,13 @@ impl<'m> Instant<'m> {
     /// A contact by its number.
     pub(super) fn contact(&self, k: usize) -> &Contact {
         &self.contacts[k]
+    }
+
+    /// Coulomb's law of a contact, in units.
+    pub(super) fn law(&self, k: usize, has_preload: bool) -> Law {
+        let contact = self.contact(k);
+        let holds = contact.mu_static.map(|mu| mu > 0.0);
+        Law::new(self.mechanism, (k, contact), (self.units_of(k).force, has_preload), holds)
     }
 
     /// The mechanism with the friction of the sliding speeds.
@@ -398,7 +398,7 @@ fn sliding_joints(
         Some(SlidingJoint {
             id,
             contacts,
-            couple: place.map(|place| (slider.length / 2.0, place)),
+            couple: place.map(|place| (slider.greatest_couple(1.0), place)),
             row: SlidingRow::new(mechanism, configuration, slider),
             velocity: first.unwrap_or(0.0),
             has_friction: has_friction || stop != 0.0,

@@ -43,7 +43,6 @@ mod impact;
 mod instant;
 mod jam;
 mod parts;
-mod program;
 mod scale;
 mod sieve;
 mod state;

@@ -11,6 +11,7 @@ use super::system::{Question, Subject};
 use super::{BOUNDARY, MOST_STATES};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::motion::{self, ContactPhase, JointPhase, Phase};
+use crate::pattern::Unsolved;
 use crate::report::Verdict;
 use std::cmp::Reverse;
 
@@ -102,7 +103,7 @@ impl Search<'_> {
         self.assess(previous, group).ok()?
     }
 
-    fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, super::program::Unsolved> {
+    fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, Unsolved> {
         let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
         assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
     }

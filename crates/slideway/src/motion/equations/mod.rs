@@ -22,6 +22,7 @@ mod projection;
 
 use super::linear::{Determinant, LinearSystem};
 use super::phase::Phase;
+pub(super) use super::phase::sliding_joints;
 use super::stepper::Derivative;
 use super::switching::Switching;
 use crate::configuration::{Configuration, ContactGeometry};
@@ -29,6 +30,7 @@ use crate::fault::Faults;
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
 use crate::mechanism::Mechanism;
+use crate::modes::Side;
 use nalgebra::{DMatrix, Vector2};
 
 /// Ratio of pivots from which on the equations count as singular.
@@ -46,10 +48,10 @@ pub(super) enum Failure {
 /// What the friction of a contact is within a phase.
 #[derive(Debug, Clone, Copy)]
 enum Rubbing {
-    /// F = (mu sigma N + preload) sign, at the face of `sigma`.
-    Pressed { sigma: f64, mu: f64, preload: f64, sign: f64 },
-    /// N = 0, F = (share preload[0] + (1 - share) preload[1]) sign; the share stands in this column of the unknowns.
-    Gap { preload: [f64; 2], sign: f64, share: usize },
+    /// At each face so many times |N|, and a constant.
+    Pressed { side: Side, sign: f64, faces: [[f64; 2]; 2] },
+    /// N = 0; at each face so many times the share, which stands in this column of the unknowns, and a constant.
+    Gap { faces: [[f64; 2]; 2], share: usize },
     /// The joint sticks: its tangential force stands for all its contacts.
     Sticking,
 }
@@ -259,16 +261,12 @@ impl<'m> Equations<'m> {
 
     /// Friction force of a contact whose joint slides, eq. (2).
     pub(super) fn friction_force(&self, k: usize) -> Option<f64> {
-        match self.rubbing[k] {
-            Rubbing::Pressed { sigma, mu, preload, sign } => {
-                Some((mu * sigma * self.normal_force(k) + preload) * sign)
-            }
-            Rubbing::Gap { preload: [positive, negative], sign, share } => {
-                let share = self.unknowns[share];
-                Some((share * positive + (1.0 - share) * negative) * sign)
-            }
-            Rubbing::Sticking => None,
-        }
+        let (value, faces) = match self.rubbing[k] {
+            Rubbing::Pressed { side, faces, .. } => (side.sign() * self.normal_force(k), faces),
+            Rubbing::Gap { faces, share } => (self.unknowns[share], faces),
+            Rubbing::Sticking => return None,
+        };
+        Some(faces.iter().map(|[factor, constant]| factor * value + constant).sum())
     }
 
     /// Whether the joints that stick leave no motion at all, nothing is driven, and no body is faster than this (m/s).
@@ -318,10 +316,4 @@ impl Derivative for Equations<'_> {
         self.write_rates(state, rate);
         Ok(())
     }
-}
-
-/// The sliding joints of a mechanism, in their order.
-pub(super) fn sliding_joints(mechanism: &Mechanism) -> Vec<JointId> {
-    let joints = (0..mechanism.joints.len()).map(JointId);
-    joints.filter(|joint| mechanism.slider(*joint).is_some()).collect()
 }
