@@ -1,6 +1,7 @@
 //! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the mechanism.
 
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::system::{Forces, Inequality, Question, Subject, System};
 use crate::influence::ContactFriction;
 use crate::modes::Side;

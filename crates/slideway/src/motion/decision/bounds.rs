@@ -1,15 +1,35 @@
-//! Sides that contacts take in every admissible state.
+//! What is asked at an instant, with the sides that contacts take in every admissible state.
 
 use super::BOUNDARY;
 use super::instant::Instant;
+use super::system::Question;
 use crate::ids::ContactId;
-use crate::motion::ContactPhase;
+use crate::motion::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
 
 /// Rounds of the iteration for the greatest pressures.
 const ROUNDS: usize = 30;
 /// Its result is enlarged by this factor, and counts if it then bounds itself.
 const ENLARGED: f64 = 1.01;
+
+impl Instant<'_> {
+    /// The question for accelerations, with joints whose velocity is zero: about all phases, or one, in which sides are open only if a joint
+    /// sticks.
+    pub(super) fn question<'q>(&'q self, stopped: &'q [bool], phase: Option<&Phase>) -> Question<'q> {
+        let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
+        Question {
+            outputs: &self.outputs,
+            wanted: vec![0.0; self.joints.len()],
+            has_preload: true,
+            sides: match slides {
+                Some(phase) => phase.contacts.iter().map(|contact| vec![*contact]).collect(),
+                None => possible_sides(self),
+            },
+            stopped,
+            opposes: None,
+        }
+    }
+}
 
 /// The sides that each contact can take: one alone where friction cannot turn the normal force, however joints stick or slide.
 ///
@@ -18,7 +38,7 @@ const ENLARGED: f64 = 1.01;
 /// ```
 ///
 /// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section 4).
-pub(super) fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
+fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let contacts = 0..instant.mechanism.contacts.len();
     // A stop pushes with any force.
     let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0);

@@ -2,7 +2,8 @@
 
 use super::BOUNDARY;
 use super::assessment::{MOST_SIDES, assess_system, sticking_sides, with_sides};
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::system::{Question, System};
 use crate::configuration::Configuration;
 use crate::fault::Faults;

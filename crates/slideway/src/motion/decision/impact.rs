@@ -1,8 +1,9 @@
 //! Impacts on end stops: the impulse of a stop, with friction impulses at all sliding joints.
 
 use super::assessment::{Assessment, PRESSED, assess_group};
-use super::instant::{Group, Instant, Outputs};
+use super::instant::Instant;
 use super::jam::AT_REST;
+use super::outputs::{Group, Outputs};
 use super::successors::combinations;
 use super::system::Question;
 use super::{BOUNDARY, MOST_STATES};
@@ -180,7 +181,7 @@ impl Process<'_> {
     /// How fast every sliding velocity changes; exactly not where the joint sticks.
     fn sliding_rates(&self, change: &Change) -> Vec<f64> {
         let joints = self.instant.joints.iter().zip(&change.phase.joints);
-        let rate = |(joint, phase): (&super::instant::SlidingJoint, &JointPhase)| match phase {
+        let rate = |(joint, phase): (&super::joints::SlidingJoint, &JointPhase)| match phase {
             JointPhase::Sticking => 0.0,
             JointPhase::Sliding(_) => joint.row.change(&change.jumps),
         };

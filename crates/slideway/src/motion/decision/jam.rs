@@ -1,7 +1,8 @@
 //! Dynamic jamming: the impulse that stops a mechanism which has no admissible acceleration (theory, section 8).
 
 use super::assessment::{Assessment, PRESSED, assess_group};
-use super::instant::{Group, Instant, Outputs};
+use super::instant::Instant;
+use super::outputs::{Group, Outputs};
 use super::successors::combinations;
 use super::system::Question;
 use super::{BOUNDARY, MOST_STATES};

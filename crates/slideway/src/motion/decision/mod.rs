@@ -42,6 +42,9 @@ mod holding;
 mod impact;
 mod instant;
 mod jam;
+mod joints;
+mod mobility;
+mod outputs;
 mod parts;
 mod scale;
 mod sieve;
@@ -49,16 +52,19 @@ mod state;
 mod sticking;
 mod successors;
 mod system;
+mod units;
+mod vanishing;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
 pub use impact::{Impact, impact};
-pub(super) use instant::{TOUCHES, scale_of_forces};
 pub use jam::{Impulse, Jam, jam};
+pub(super) use joints::TOUCHES;
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
 pub(super) use successors::continuations;
 pub use successors::{Successor, Successors, Tipping, successors};
+pub(super) use units::scale_of_forces;
 
 use crate::ids::{ContactId, JointId};
 

@@ -2,7 +2,8 @@
 
 use super::assessment::{Assessment, Decisive, assess_group, with_sides};
 use super::elastic::verdict;
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::sieve::Sieve;
 use super::state::{PhaseState, is_same_phase, state};
 use super::sticking::ENOUGH;

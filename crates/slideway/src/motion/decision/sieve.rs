@@ -1,6 +1,7 @@
 //! A fast test of patterns in which everything slides: most of them are far from any state.
 
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::system::Question;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use crate::pattern::Law;

@@ -1,13 +1,13 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::{Assessment, Decisive, assess};
+use super::assessment::{Assessment, Decisive};
 use super::elastic::attainability;
 use super::growth::standing;
 use super::instant::Instant;
 use super::parts::{Detail, Part, Search};
 use super::state::{PhaseState, state};
-use super::sticking::ENOUGH;
-use super::{BOUNDARY, Limit, Standing};
+use super::vanishing::vanish;
+use super::{Limit, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
@@ -107,7 +107,7 @@ pub fn successors(
 ) -> Result<Successors, Faults> {
     let instant = Instant::looking_ahead(mechanism, configuration)?;
     instant.check_joints(stopped.len())?;
-    let sign = |(joint, stopped): (&super::instant::SlidingJoint, &bool)| match joint.velocity {
+    let sign = |(joint, stopped): (&super::joints::SlidingJoint, &bool)| match joint.velocity {
         0.0 => 0.0,
         _ if *stopped => 0.0,
         velocity => velocity.signum(),
@@ -187,19 +187,6 @@ fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> 
         found.list[0].attainability = Attainability::without_eigenvalues(Verdict::NotComputed, ALONE);
     }
     Ok(found)
-}
-
-/// Makes exactly zero in the previous phase what the event has found to be zero.
-fn vanish(instant: &mut Instant<'_>, event: &motion::Instant<'_>, previous: &Phase) {
-    if event.zero.is_empty() {
-        return;
-    }
-    let stopped = vec![false; instant.joints.len()];
-    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, (BOUNDARY, ENOUGH));
-    if let Ok(Some(before)) = before {
-        let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
-        instant.vanish(&contacts, &before);
-    }
 }
 
 /// What becomes of a choice of one part for each group.

@@ -1,6 +1,8 @@
 //! One pattern of sticking and slipping joints and of sides as linear equations and inequalities.
 
-use super::instant::{Group, Instant, Outputs, SlidingJoint};
+use super::instant::Instant;
+use super::joints::SlidingJoint;
+use super::outputs::{Group, Outputs};
 use crate::influence::ContactFriction;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use crate::pattern::{Affine, AffineSet, Bound, Expression, Friction, without_tipping};
