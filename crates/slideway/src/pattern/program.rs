@@ -212,3 +212,51 @@ fn meeting(planes: &[Vector3<f64>; 3]) -> Option<[f64; 3]> {
     let (x, y) = (cross(e, b, f, d) / whole, cross(a, e, c, f) / whole);
     Some([r.x * x + r.y * y + r.z, x, y])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn affine(coefficients: &[f64], constant: f64) -> Affine {
+        Affine { coefficients: coefficients.to_vec(), constant }
+    }
+
+    /// z_i >= t and 1/2 - sum z_i >= t of n unknowns: t = 1/(2 (n + 1)), all slacks being equal.
+    #[test]
+    fn the_highest_point_is_the_same_with_and_without_the_simplex_method() {
+        for dimension in 1..5_usize {
+            let one = |index: usize| {
+                let mut coefficients = vec![0.0; dimension];
+                coefficients[index] = 1.0;
+                Affine { coefficients, constant: 0.0 }
+            };
+            let sum = affine(&vec![-1.0; dimension], 0.5);
+            let region = Region::new(dimension, (0..dimension).map(one).chain([sum]).collect());
+            let expected = 0.5 / (dimension as f64 + 1.0);
+            let (slack, point) = region.highest().expect("it has a solution");
+            assert!((slack - expected).abs() < 1e-13, "{dimension} {slack}");
+            assert!(point.iter().all(|z| (z - expected).abs() < 1e-12), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn slacks_that_depend_on_a_sum_alone_have_a_highest_point() {
+        // z_1 + z_2 >= t, 1/2 - (z_1 + z_2) >= t: t = 1/4.
+        let slacks = vec![affine(&[1.0, 1.0], 0.0), affine(&[-1.0, -1.0], 0.5)];
+        let (slack, _) = Region::new(2, slacks).highest().expect("it has a solution");
+        assert!((slack - 0.25).abs() < 1e-13, "{slack}");
+        // Without bound it is cut off at 1, without unknowns the least constant.
+        let (slack, _) = Region::new(1, vec![affine(&[2.0], 0.0)]).highest().expect("it has a solution");
+        assert_eq!(slack, 1.0);
+        let (slack, _) = Region::new(0, vec![affine(&[], -0.5)]).highest().expect("it has a solution");
+        assert_eq!(slack, -0.5);
+    }
+
+    #[test]
+    fn an_extent_ends_where_a_slack_does_or_not_at_all() {
+        let slacks = vec![affine(&[1.0, 0.0], 0.0), affine(&[-1.0, 0.0], 1.0), affine(&[0.0, 1.0], 0.0)];
+        let region = Region::new(2, slacks);
+        assert_eq!(region.extent(&affine(&[1.0, 0.0], 2.0)), Ok([Some(2.0), Some(3.0)]));
+        assert_eq!(region.extent(&affine(&[0.0, 1.0], 0.0)), Ok([Some(0.0), None]));
+    }
+}

@@ -40,13 +40,21 @@ pub(super) struct Instant<'m> {
     pub(super) groups: Vec<Group>,
 }
 
+/// Where the least units of force come from.
+enum Least<'l> {
+    /// They are found in the configuration.
+    Now(Scale),
+    /// They are those of an earlier instant.
+    Before(&'l [f64]),
+}
+
 impl<'m> Instant<'m> {
     /// A mechanism in a configuration, in units of its forces there.
     ///
     /// # Errors
     /// Whatever [`KineticEquations::new`] refuses, friction without a value.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
-        Self::of(mechanism, configuration, rounding)
+        Self::of(mechanism, configuration, Least::Now(rounding))
     }
 
     /// The same in units of what the forces come to: those of the instant may vanish, and what they do next decides.
@@ -57,15 +65,27 @@ impl<'m> Instant<'m> {
         mechanism: &'m Mechanism,
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
-        Self::of(mechanism, configuration, scale)
+        Self::of(mechanism, configuration, Least::Now(scale))
     }
 
-    fn of(mechanism: &'m Mechanism, configuration: &Configuration, least: Scale) -> Result<Self, Faults> {
+    /// The mechanism a little later, with the same least units and the same difference from the loads.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn later(&self, configuration: &Configuration) -> Result<Self, Faults> {
+        let mut later = Self::of(self.mechanism, configuration, Least::Before(&self.least_forces))?;
+        later.change_base(&self.shift);
+        Ok(later)
+    }
+
+    fn of(mechanism: &'m Mechanism, configuration: &Configuration, least: Least<'_>) -> Result<Self, Faults> {
         let equations = KineticEquations::new(mechanism, configuration)?;
         let influence = Influence::new(&equations);
         let mut joints = sliding_joints(mechanism, configuration, &equations);
-        let mut least_forces = Vec::new();
-        let now = Some((configuration, least));
+        let (now, mut least_forces) = match least {
+            Least::Now(scale) => (Some((configuration, scale)), Vec::new()),
+            Least::Before(forces) => (None, forces.to_vec()),
+        };
         let units = set_units(mechanism, (&influence, &equations), now, (&mut joints, &mut least_forces));
         let outputs = outputs(mechanism, &influence, &joints);
         let groups = groups(&joints, &outputs);

@@ -202,7 +202,7 @@ fn outcome(search: &Search<'_>, parts: &[Vec<Part>], chosen: Vec<usize>) -> Outc
     for (group, (parts, &part)) in instant.groups.iter().zip(parts.iter().zip(&chosen)) {
         whole = whole.with(group, &parts[part].assessment);
     }
-    let standing = standing(event.mechanism, event.configuration, (instant, question, &whole));
+    let standing = standing(event.configuration, (instant, question, &whole));
     Outcome { chosen, whole, standing }
 }
 
