@@ -393,9 +393,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let drift = self.attempt(length)?;
         history.drift = history.drift.max(drift);
         if !is_end {
-            match self.corrected(phase, decisions, (dense, step), (fraction, watched)) {
-                Ok(corrected) => length = corrected,
-                Err(_) => drop(self.attempt(length)?),
+            if let Ok(corrected) = self.corrected(phase, decisions, (dense, step), (fraction, watched)) {
+                length = corrected;
+            } else {
+                self.attempt(length)?;
             }
         }
         self.stepper.describe(length, &self.state, &mut history.dense);

@@ -41,6 +41,7 @@ pub(super) struct Instant<'m> {
 }
 
 /// Where the least units of force come from.
+#[derive(Clone, Copy)]
 enum Least<'l> {
     /// They are found in the configuration.
     Now(Scale),

@@ -107,7 +107,6 @@ pub(super) struct Equations<'m> {
     /// Accelerations, reactions, efforts, tangential forces.
     unknowns: Vec<f64>,
     work: Vec<f64>,
-    condition: f64,
     /// How often they were evaluated.
     pub(super) evaluations: u64,
 }
@@ -134,7 +133,6 @@ impl<'m> Equations<'m> {
             system: LinearSystem::new(0),
             unknowns: Vec::new(),
             work: Vec::new(),
-            condition: 1.0,
             evaluations: 0,
             layout,
         }
@@ -171,7 +169,7 @@ impl<'m> Equations<'m> {
         let (rows, columns) =
             equilibration(&DMatrix::from_fn(size, size, |row, column| self.system.entry(row, column)));
         self.system.set_scales(rows.as_slice(), columns.as_slice());
-        self.evaluate(time, state)
+        self.solve()
     }
 
     /// Takes over a state; cheap, and enough for whatever depends on positions and velocities alone.
@@ -204,11 +202,15 @@ impl<'m> Equations<'m> {
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
     pub(super) fn evaluate(&mut self, time: f64, state: &[f64]) -> Result<(), Failure> {
-        self.evaluations += 1;
         self.place(time, state);
         self.assemble()?;
-        self.condition = self.system.factor();
-        if self.condition > SINGULAR {
+        self.solve()
+    }
+
+    /// Solves the equations that have been assembled.
+    fn solve(&mut self) -> Result<(), Failure> {
+        self.evaluations += 1;
+        if self.system.factor() > SINGULAR {
             return Err(Failure::Singular);
         }
         self.system.solve(&mut self.unknowns);
