@@ -60,6 +60,7 @@ pub mod map;
 pub mod mechanism;
 pub mod model;
 pub mod motion;
+mod pattern;
 pub mod raw_problem;
 pub mod report;
 pub mod size;

@@ -19,6 +19,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("enclosure", &["configuration", "fault", "ids", "interval", "kinetics", "mechanism", "model", "modes"]),
     ("report", &["fault", "ids", "printable"]),
     ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
+    ("pattern", &["ids", "mechanism", "model", "modes"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
 ];
@@ -76,6 +77,14 @@ fn a_stage_imports_only_stages_to_its_left() {
             }
         }
     }
+}
+
+/// Linear programs are asked in one place alone.
+#[test]
+fn one_module_knows_the_solver_of_linear_programs() {
+    let knows: Vec<PathBuf> =
+        files(&source()).into_iter().filter(|file| code(file).join("\n").contains("microlp")).collect();
+    assert_eq!(knows, [source().join("pattern").join("program.rs")]);
 }
 
 #[test]

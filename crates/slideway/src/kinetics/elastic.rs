@@ -24,7 +24,7 @@ impl KineticEquations {
             .map(|&row| {
                 let mut unit = DVector::zeros(self.layout.len());
                 unit[row] = 1.0;
-                let unknowns = self.factorization.solve(&unit);
+                let unknowns = self.factorization.solve(&[&unit]).remove(0);
                 DVector::from_iterator(rows.len(), rows.iter().map(|&index| unknowns[index]))
             })
             .collect();

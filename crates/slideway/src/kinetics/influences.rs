@@ -245,13 +245,17 @@ fn back_substitute(work: &[f64], solution: &mut [f64], (size, sides): (usize, us
 impl super::KineticEquations {
     /// The same from factored equations, for those that need full pivoting.
     pub(crate) fn influences(&self) -> Influences {
-        let contacts = (0..self.contacts.len()).map(ContactId);
-        let frictionless = self.frictionless();
+        let sides: Vec<&DVector<f64>> =
+            std::iter::once(&self.load).chain(self.friction.iter().flatten()).collect();
+        let mut solutions = self.factorization.solve(&sides).into_iter();
+        let mut next = || solutions.next().expect("every side has a solution");
+        let frictionless = self.without_noise(&next());
+        let columns = self.contacts.iter().map(|_| [next(), next()]).collect();
         Influences {
             greatest_unknown: as_normal_force(&self.layout, &frictionless, self.factorization.column_scale()),
             layout: self.layout.clone(),
-            frictionless: self.without_noise(&frictionless),
-            columns: contacts.map(|contact| self.influence_of(contact)).collect(),
+            frictionless,
+            columns,
             condition: self.condition(),
             greatest_load: self.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
             coordinate_rows: self.coordinate_rows.clone(),

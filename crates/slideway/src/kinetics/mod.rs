@@ -150,20 +150,19 @@ impl KineticEquations {
         for wrench in &loads::of_one(mechanism, configuration, load)? {
             builder.add(wrench, |row, value| forces[row] += value);
         }
-        Ok(self.without_noise(&self.factorization.solve(&forces)))
+        Ok(self.without_noise(&self.factorization.solve(&[&forces])[0]))
     }
 
     /// The unknowns without friction.
     pub fn frictionless(&self) -> DVector<f64> {
-        self.factorization.solve(&self.load)
+        self.factorization.solve(&[&self.load]).remove(0)
     }
 
     /// What a unit friction force of a contact adds to the unknowns, for both sides of contact.
     pub fn influence_of(&self, contact: ContactId) -> [DVector<f64>; 2] {
-        let [positive, negative] = &self.friction[contact.index()];
-        let first = self.factorization.solve(positive);
-        let second = if positive == negative { first.clone() } else { self.factorization.solve(negative) };
-        [first, second]
+        let sides = self.friction[contact.index()].each_ref();
+        let mut columns = self.factorization.solve(&sides);
+        [columns.swap_remove(0), columns.remove(0)]
     }
 
     /// The unknowns with every component set to zero that is below the rounding errors of the solution.

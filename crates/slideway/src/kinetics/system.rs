@@ -2,7 +2,7 @@
 
 use crate::configuration::null_space;
 use crate::interval::Real;
-use nalgebra::{DMatrix, DVector, Dyn, FullPivLU};
+use nalgebra::{DMatrix, DVector};
 
 /// Pivots below this multiple of the greatest count as zero; the equations are then singular.
 const SINGULAR: f64 = 1e-13;
@@ -16,7 +16,7 @@ pub(super) struct Factorization {
     /// Powers of two that bring every row and column to order one.
     row_scale: DVector<f64>,
     column_scale: DVector<f64>,
-    factors: FullPivLU<f64, Dyn, Dyn>,
+    factors: Factors,
     condition: f64,
 }
 
@@ -44,9 +44,8 @@ impl Factorization {
         }
         let (row_scale, column_scale) = equilibration(&matrix);
         let scaled = scaled(&matrix, &row_scale, &column_scale);
-        let factors = scaled.clone().full_piv_lu();
-        let pivots = factors.u().diagonal().abs();
-        let condition = if pivots.is_empty() { 1.0 } else { pivots.max() / pivots.min() };
+        let factors = Factors::of(&scaled);
+        let condition = factors.condition();
         if condition.is_finite() && condition < 1.0 / SINGULAR {
             return Ok(Self { matrix, row_scale, column_scale, factors, condition });
         }
@@ -61,11 +60,22 @@ impl Factorization {
         &self.matrix
     }
 
-    /// Solution of `matrix` x = `right_hand_side`, with one step of iterative refinement.
-    pub(super) fn solve(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
-        let first = self.solve_once(right_hand_side);
-        let residual = right_hand_side - &self.matrix * &first;
-        first + self.solve_once(&residual)
+    /// Solutions of `matrix` x = `side`, each with one step of iterative refinement.
+    pub(super) fn solve(&self, sides: &[&DVector<f64>]) -> Vec<DVector<f64>> {
+        let (size, count) = (self.matrix.nrows(), sides.len());
+        let first = self.solve_once(&|row, place| sides[place][row], count);
+        let mut sums = vec![0.0; size * count];
+        for (column, entries) in self.matrix.column_iter().enumerate() {
+            for (row, entry) in entries.iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
+                let known = &first[column * count..][..count];
+                sums[row * count..][..count].iter_mut().zip(known).for_each(|(sum, x)| *sum += entry * x);
+            }
+        }
+        let more = self.solve_once(&|row, place| sides[place][row] - sums[row * count + place], count);
+        let solution = |place: usize| {
+            DVector::from_fn(size, |row, _| first[row * count + place] + more[row * count + place])
+        };
+        (0..count).map(solution).collect()
     }
 
     /// A solution with every component set to zero that is below the rounding errors of the solution itself.
@@ -84,10 +94,117 @@ impl Factorization {
         self.condition
     }
 
-    fn solve_once(&self, right_hand_side: &DVector<f64>) -> DVector<f64> {
-        let scaled = right_hand_side.component_mul(&self.row_scale);
-        let solution = self.factors.solve(&scaled).expect("the pivots were found to be regular");
-        solution.component_mul(&self.column_scale)
+    /// Solutions for all right-hand sides, which stand side by side in each row.
+    fn solve_once(&self, side: &dyn Fn(usize, usize) -> f64, count: usize) -> Vec<f64> {
+        let mut solution = self.factors.solve(&|row, place| side(row, place) * self.row_scale[row], count);
+        for (row, scale) in solution.chunks_exact_mut(count.max(1)).zip(&self.column_scale) {
+            row.iter_mut().for_each(|value| *value *= scale);
+        }
+        solution
+    }
+}
+
+/// Triangular factors of a square matrix whose rows and columns have been exchanged, by elimination with complete pivoting. A few dozen
+/// rows are mostly zeros: passing these over, with all right-hand sides side by side, takes a fraction of the time of a general library.
+#[derive(Debug, Clone)]
+struct Factors {
+    /// Column by column: the upper triangle, and below the diagonal the multipliers.
+    entries: Vec<f64>,
+    /// The row, and the column, that stands at each place.
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+}
+
+impl Factors {
+    fn of(matrix: &DMatrix<f64>) -> Self {
+        let size = matrix.nrows();
+        let mut entries = matrix.as_slice().to_vec();
+        let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..size).collect(), (0..size).collect());
+        for step in 0..size {
+            let (row, column) = greatest(&entries, size, step);
+            if entries[column * size + row] == 0.0 {
+                break;
+            }
+            rows.swap(step, row);
+            columns.swap(step, column);
+            if column != step {
+                let (left, right) = entries.split_at_mut(column * size);
+                left[step * size..][..size].swap_with_slice(&mut right[..size]);
+            }
+            if row != step {
+                entries.chunks_exact_mut(size).for_each(|entries| entries.swap(step, row));
+            }
+            let (left, right) = entries.split_at_mut((step + 1) * size);
+            let (pivot, multipliers) = left[step * size + step..].split_at_mut(1);
+            let inverse = 1.0 / pivot[0];
+            multipliers.iter_mut().for_each(|entry| *entry *= inverse);
+            for later in right.chunks_exact_mut(size).filter(|later| later[step] != 0.0) {
+                let (above, below) = later.split_at_mut(step + 1);
+                subtract(above[step], multipliers, below);
+            }
+        }
+        Self { entries, rows, columns }
+    }
+
+    /// Ratio of the greatest to the least pivot.
+    fn condition(&self) -> f64 {
+        let size = self.rows.len();
+        let pivots = (0..size).map(|step| self.entries[step * (size + 1)].abs());
+        let (greatest, least) =
+            pivots.fold((0.0_f64, f64::INFINITY), |(most, least), pivot| (most.max(pivot), least.min(pivot)));
+        if size == 0 { 1.0 } else { greatest / least }
+    }
+
+    /// Solutions for several right-hand sides, which stand side by side in each row.
+    fn solve(&self, side: &dyn Fn(usize, usize) -> f64, count: usize) -> Vec<f64> {
+        let size = self.rows.len();
+        let sides = self.rows.iter().flat_map(|row| (0..count).map(move |place| side(*row, place)));
+        let mut work: Vec<f64> = sides.collect();
+        for step in 0..size {
+            let (known, rest) = work.split_at_mut((step + 1) * count);
+            let factors = &self.entries[step * size + step + 1..(step + 1) * size];
+            subtract_rows(factors, &known[step * count..], rest);
+        }
+        for step in (0..size).rev() {
+            let (rest, known) = work.split_at_mut(step * count);
+            let factors = &self.entries[step * size..][..=step];
+            known[..count].iter_mut().for_each(|value| *value /= factors[step]);
+            subtract_rows(&factors[..step], &known[..count], rest);
+        }
+        let mut solution = vec![0.0; size * count];
+        for (place, column) in self.columns.iter().enumerate() {
+            solution[column * count..][..count].copy_from_slice(&work[place * count..][..count]);
+        }
+        solution
+    }
+}
+
+/// Row and column of the greatest entry from this place on.
+fn greatest(entries: &[f64], size: usize, from: usize) -> (usize, usize) {
+    let (mut place, mut most) = ((from, from), entries[from * (size + 1)].abs());
+    for column in from..size {
+        for row in from..size {
+            let entry = entries[column * size + row].abs();
+            if entry > most {
+                (place, most) = ((row, column), entry);
+            }
+        }
+    }
+    place
+}
+
+/// Takes so many times a row off each of the others.
+fn subtract_rows(factors: &[f64], row: &[f64], targets: &mut [f64]) {
+    for (factor, target) in factors.iter().zip(targets.chunks_exact_mut(row.len().max(1))) {
+        if *factor != 0.0 {
+            subtract(*factor, row, target);
+        }
+    }
+}
+
+fn subtract(factor: f64, from: &[f64], target: &mut [f64]) {
+    for (target, value) in target.iter_mut().zip(from) {
+        *target -= factor * value;
     }
 }
 
@@ -108,14 +225,17 @@ pub(crate) fn scaled<T: Real>(
 pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64>) {
     let mut rows = DVector::from_element(matrix.nrows(), 1.0);
     let mut columns = DVector::from_element(matrix.ncols(), 1.0);
+    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(8 * matrix.ncols());
+    for (j, column) in matrix.column_iter().enumerate() {
+        let present = column.iter().enumerate().filter(|(_, entry)| **entry != 0.0);
+        entries.extend(present.map(|(i, entry)| (i, j, *entry)));
+    }
     for _ in 0..6 {
         let mut greatest = [vec![0.0_f64; matrix.nrows()], vec![0.0_f64; matrix.ncols()]];
-        for (j, column) in matrix.column_iter().enumerate() {
-            for (i, entry) in column.iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
-                let scaled = (rows[i] * entry * columns[j]).abs();
-                greatest[0][i] = greatest[0][i].max(scaled);
-                greatest[1][j] = greatest[1][j].max(scaled);
-            }
+        for &(i, j, entry) in &entries {
+            let scaled = (rows[i] * entry * columns[j]).abs();
+            greatest[0][i] = greatest[0][i].max(scaled);
+            greatest[1][j] = greatest[1][j].max(scaled);
         }
         let [of_rows, of_columns] = greatest.map(|list| list.into_iter().map(inverse_root));
         let mut changed = false;

@@ -120,8 +120,8 @@ impl LinearSystem {
             let (upper, lower) = self.entries.split_at_mut((step + 1) * size);
             let pivot_row = &upper[step * size + step + 1..];
             for row in lower.chunks_exact_mut(size) {
-                let factor = row[step] / pivot;
-                if factor != 0.0 {
+                if row[step] != 0.0 {
+                    let factor = row[step] / pivot;
                     row[step] = factor;
                     for (entry, above) in row[step + 1..].iter_mut().zip(pivot_row) {
                         *entry -= factor * above;

@@ -32,7 +32,6 @@ mod event;
 mod history;
 mod linear;
 mod options;
-mod phase;
 mod report;
 mod resolution;
 mod root;
@@ -50,11 +49,12 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
+use crate::pattern::phase;
+pub use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
 pub use equations::Drift;
 pub use event::{Cause, Event};
 pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
-pub use phase::{ContactPhase, JointPhase, Phase};
 pub use report::{
     BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
     SampledReport, SimulateReport, StatisticsReport, report, to_json,

@@ -151,7 +151,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
     pub(super) fn enter(&mut self, phase: &Phase, decisions: &mut dyn Decisions) -> Result<(), Failure> {
         self.equations.enter(phase, self.time, &self.state)?;
         self.watch.begin(phase, &self.equations, &self.switching);
-        self.stepper.start(&mut self.equations, self.time, &self.state)?;
+        self.equations.write_rates(&self.state, self.stepper.start());
         self.notice_force();
         self.hold = None;
         self.outlook = NOTHING_KNOWN;
@@ -254,23 +254,16 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 self.values.swap(0, 3);
                 None
             }
-            Ok(Some((mut fraction, watched))) => {
+            Ok(Some((fraction, watched))) => {
                 let dense = history.dense.split_off(first);
                 self.next = step;
                 let mut causes = self.causes(&watched);
-                if fraction > 1.0 - SAME_INSTANT {
-                    // It happens where the step was to end in any case.
-                    fraction = 1.0;
-                } else if let Ok(corrected) =
-                    self.corrected(phase, decisions, (&dense, step), (fraction, watched[0]))
-                {
-                    fraction = corrected;
-                }
-                match self.stop_at(fraction * step, history) {
-                    Ok(()) if fraction > 0.0 && self.still_slides(phase, &causes) => {
-                        self.go_on(fraction * step, phase, decisions)
+                let place = (fraction, watched[0]);
+                match self.stop_at(phase, decisions, (&dense, step), place, history) {
+                    Ok(length) if length > 0.0 && self.still_slides(phase, &causes) => {
+                        self.go_on(length, phase, decisions)
                     }
-                    Ok(()) => {
+                    Ok(_) => {
                         match self.held_causes(&watched, phase, decisions) {
                             Ok(reached) => causes.extend(reached),
                             Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
@@ -441,16 +434,34 @@ impl<'o, 'm> Smooth<'o, 'm> {
         Ok(error)
     }
 
-    /// Ends the step at an event: a step of that length is more accurate than the solution within a longer one.
-    fn stop_at(&mut self, step: f64, history: &mut History) -> Result<(), Failure> {
-        if step <= 0.0 {
-            return Ok(());
+    /// Ends the step where something happens on the solution within it, by a step of that length, which is more accurate; returns
+    /// the length.
+    fn stop_at(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        (dense, step): (&[f64], f64),
+        (fraction, watched): (f64, Watched),
+        history: &mut History,
+    ) -> Result<f64, Failure> {
+        if fraction <= 0.0 {
+            return Ok(0.0);
         }
-        let drift = self.attempt(step)?;
+        // It may happen where the step was to end in any case.
+        let is_end = fraction > 1.0 - SAME_INSTANT;
+        let mut length = if is_end { step } else { fraction * step };
+        let drift = self.attempt(length)?;
         history.drift = history.drift.max(drift);
-        self.stepper.describe(step, &self.state, &mut history.dense);
-        self.advance(step);
-        Ok(())
+        if !is_end {
+            if let Ok(corrected) = self.corrected(phase, decisions, (dense, step), (fraction, watched)) {
+                length = corrected;
+            } else {
+                self.attempt(length)?;
+            }
+        }
+        self.stepper.describe(length, &self.state, &mut history.dense);
+        self.advance(length);
+        Ok(length)
     }
 
     /// A step of a given length to a state on the joints, whatever its error is.
@@ -646,15 +657,21 @@ impl<'o, 'm> Smooth<'o, 'm> {
         (dense, step): (&[f64], f64),
         falls: &[Fall],
     ) -> Result<(f64, Vec<Watched>), Failure> {
-        let mut zeros = Vec::with_capacity(falls.len());
+        let mut zeros: Vec<(f64, Watched)> = Vec::with_capacity(falls.len());
         for &Fall { index, ends, values } in falls {
             let watched = self.watch.list[index];
+            let first = zeros.iter().map(|(zero, _)| *zero).fold(f64::INFINITY, f64::min);
             let mut function =
                 |fraction: f64| match self.evaluate_within(dense, fraction, step, watched.needs()) {
                     // Where the equations have no solution forces are beyond all bounds: not before the zero.
                     Err(Failure::Singular) => Ok(0.0),
                     evaluated => evaluated.and_then(|()| self.value(watched, phase, decisions)),
                 };
+            let same = first + SAME_INSTANT;
+            if values[0] > 0.0 && same > ends[0] && same < ends[1] && function(same)? > 0.0 {
+                // It falls later.
+                continue;
+            }
             let bracket = if values[0] > 0.0 {
                 Some((ends, values))
             } else {
@@ -672,36 +689,56 @@ impl<'o, 'm> Smooth<'o, 'm> {
         Ok((first, zeros.into_iter().map(|(_, watched)| watched).collect()))
     }
 
-    /// The length, as a fraction of a step, of a step of its own at whose very end a function vanishes that does so at a given place
-    /// on the solution within the longer step: Newton's method with the slope on that solution.
+    /// Corrects the length of the step that has just been attempted, to where a function vanishes on the solution within a longer step, so
+    /// that the function does so at its very end: Newton's method, at first with the slope on that solution. The length changes by a
+    /// part `e` that is of the order of the errors of steps; going on along the step's own solution, which is smooth, costs an
+    /// error of `e^2` of them, so that the step need not be repeated unless `e^3` is seen.
     fn corrected(
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
         (dense, step): (&[f64], f64),
-        (mut fraction, watched): (f64, Watched),
+        (fraction, watched): (f64, Watched),
     ) -> Result<f64, Failure> {
         let beside = fraction * (1.0 - SLOPE);
         self.evaluate_within(dense, beside, step, watched.needs())?;
-        let slope = self.value(watched, phase, decisions)? / (beside - fraction);
-        let greatest = (self.stop - self.time) / step;
-        let mut value = f64::INFINITY;
-        let mut trial = fraction;
-        while trial > 0.0 && trial <= greatest {
-            self.attempt(trial * step)?;
-            self.stepper.end.clone_into(&mut self.inside);
-            self.equations.evaluate(self.time + trial * step, &self.inside)?;
-            let found = self.value(watched, phase, decisions)?;
-            if found.abs() >= value {
-                break;
+        let mut slope = self.value(watched, phase, decisions)? / ((beside - fraction) * step);
+        let mut length = fraction * step;
+        let mut value = self.value_at_end(phase, decisions, (length, watched))?;
+        let mut before = Vec::new();
+        loop {
+            let change = -value / slope;
+            let next = length + change;
+            let matters = change.abs() > ROOT_TOLERANCE * step;
+            if !(matters && next > 0.0 && next <= self.stop - self.time) {
+                return Ok(length);
             }
-            (fraction, value) = (trial, found.abs());
-            trial -= found / slope;
-            if (trial - fraction).abs() <= ROOT_TOLERANCE {
-                break;
+            self.stepper.end.clone_into(&mut before);
+            if (change / length).abs().powi(3) > ROOT_TOLERANCE {
+                self.attempt(next)?;
+            } else {
+                self.stepper.prolong(length, change, &self.state);
             }
+            let found = self.value_at_end(phase, decisions, (next, watched))?;
+            if found.abs() >= value.abs() {
+                self.stepper.end.copy_from_slice(&before);
+                self.value_at_end(phase, decisions, (length, watched))?;
+                return Ok(length);
+            }
+            slope = (found - value) / change;
+            (length, value) = (next, found);
         }
-        Ok(fraction)
+    }
+
+    /// The value of a watched function at the end of the step that was tried last, of this length.
+    fn value_at_end(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        (length, watched): (f64, Watched),
+    ) -> Result<f64, Failure> {
+        self.stepper.finish(&mut self.equations, self.time + length)?;
+        self.value(watched, phase, decisions)
     }
 
     /// Puts the equations at a fraction of the step.

@@ -50,6 +50,7 @@ pub(super) struct Stepper {
     trial: Vec<f64>,
     /// State at the end of the last step that was tried.
     pub(super) end: Vec<f64>,
+    dense: Vec<f64>,
 }
 
 impl Stepper {
@@ -59,17 +60,13 @@ impl Stepper {
             stages: std::array::from_fn(|_| vec![0.0; size]),
             trial: vec![0.0; size],
             end: vec![0.0; size],
+            dense: Vec::new(),
         }
     }
 
-    /// Evaluates the derivative at the start of the next step; needed after every change of state or equations.
-    pub(super) fn start<S: Derivative>(
-        &mut self,
-        system: &mut S,
-        time: f64,
-        state: &[f64],
-    ) -> Result<(), S::Failure> {
-        system.derivative(time, state, &mut self.stages[0])
+    /// The derivative at the start of the next step, to be written after every change of state or equations.
+    pub(super) fn start(&mut self) -> &mut [f64] {
+        &mut self.stages[0]
     }
 
     /// Tries a step from `state`; returns its estimated error: the root mean square of the components' errors
@@ -116,6 +113,21 @@ impl Stepper {
             dense[3 * size + index] = change - step * self.stages[STAGES - 1][index] - start;
             dense[4 * size + index] = step * last;
         }
+    }
+
+    /// Moves the end of a step from `state` that was tried by a small part of its length, along the solution within it; to be
+    /// [finished](Self::finish).
+    pub(super) fn prolong(&mut self, step: f64, change: f64, state: &[f64]) {
+        let mut dense = std::mem::take(&mut self.dense);
+        dense.clear();
+        self.describe(step, state, &mut dense);
+        within(&dense, 1.0 + change / step, &mut self.end);
+        self.dense = dense;
+    }
+
+    /// Evaluates the derivative at the end of the step where that was moved.
+    pub(super) fn finish<S: Derivative>(&mut self, system: &mut S, time: f64) -> Result<(), S::Failure> {
+        system.derivative(time, &self.end, &mut self.stages[STAGES - 1])
     }
 
     /// Makes the end of the step the start of the next one, whose first stage is known.
@@ -193,7 +205,7 @@ mod tests {
         let mut worst: f64 = 0.0;
         for index in 0..steps {
             let time = index as f64 * step;
-            let Ok(()) = stepper.start(&mut Oscillator, time, &state);
+            let Ok(()) = Oscillator.derivative(time, &state, stepper.start());
             let Ok(_) = stepper.attempt(&mut Oscillator, [time, step], &state, &[1.0; 3]);
             let mut dense = Vec::new();
             stepper.describe(step, &state, &mut dense);
@@ -233,7 +245,7 @@ mod tests {
         let estimate = |step: f64| {
             let mut stepper = Stepper::new(3);
             let state = [1.0, 0.0, 0.0];
-            let Ok(()) = stepper.start(&mut Oscillator, 0.0, &state);
+            let Ok(()) = Oscillator.derivative(0.0, &state, stepper.start());
             let Ok(error) = stepper.attempt(&mut Oscillator, [0.0, step], &state, &[1.0, 1.0, 1e9]);
             error
         };

@@ -230,8 +230,8 @@ impl<'o> Watch<'o> {
             }
             Watched::Couple(joint) => {
                 let slider = slider(joint);
-                let normal_force = equations.normal_force(slider.contacts[0].index()).abs();
-                normal_force * slider.length / 2.0 - equations.reaction(Reaction::Couple(joint)).abs()
+                let normal_force = equations.normal_force(slider.contacts[0].index());
+                slider.greatest_couple(normal_force) - equations.reaction(Reaction::Couple(joint)).abs()
             }
             Watched::Sticking | Watched::HeldReactions | Watched::Relation(_) => 0.0,
             Watched::Overlap(joint) => {

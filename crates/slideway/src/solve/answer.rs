@@ -13,7 +13,7 @@ use crate::fault::Faults;
 use crate::ids::{BodyId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, Reaction};
-use crate::mechanism::{Effort, JointKind, Mechanism, Slider};
+use crate::mechanism::{COUPLE_TOLERANCE, Effort, JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
 use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
@@ -21,9 +21,6 @@ use crate::modes::{
 };
 use crate::report::{self, Report, Status};
 use nalgebra::DVector;
-
-/// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping.
-const COUPLE_TOLERANCE: f64 = 1e-9;
 
 /// Solutions of the equations in which a guided slider would tip.
 #[derive(Default)]
@@ -200,7 +197,7 @@ impl<'a> Answer<'a> {
         self.guided_sliders().find_map(|(joint, slider)| {
             let couple = self.couple(joint, unknowns)?;
             let normal_force = state.normal_force[slider.contacts[0].index()].abs();
-            let limit = normal_force * slider.length / 2.0;
+            let limit = slider.greatest_couple(normal_force);
             let tolerance = COUPLE_TOLERANCE * greatest.max(normal_force) * slider.length;
             (couple.abs() > limit + tolerance).then(|| report::Rejection {
                 pattern: pattern(state.pattern),

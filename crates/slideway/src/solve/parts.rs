@@ -7,7 +7,7 @@ use crate::fault::Faults;
 use crate::ids::{DriveId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, Influences, KineticEquations, Reaction};
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::{Model, PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
@@ -16,8 +16,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// A load that changes by less than this share of it does not change: each of its numbers has rounding errors of its own.
 const SAME: f64 = 1e-13;
-/// A couple may exceed |N| L / 2 by this multiple of its terms before the slider counts as tipping.
-const COUPLE_TOLERANCE: f64 = 1e-9;
 
 /// Columns, jumps and right-hand side of eq. (6); below them those of the couples of guided sliders.
 #[derive(Debug, Clone, PartialEq)]
@@ -342,8 +340,11 @@ fn couples(mechanism: &Mechanism, influence: &Influence) -> Vec<(OutputBound, us
         let JointKind::Slider(slider) = &joint.kind else { continue };
         let row = influence.layout().reaction(Reaction::Couple(JointId(index)));
         if let (SliderKind::Guided, Some(row), Some(contact)) = (slider.kind, row, slider.contacts.first()) {
-            let bound =
-                OutputBound { output: couples.len(), contact: contact.index(), factor: slider.length / 2.0 };
+            let bound = OutputBound {
+                output: couples.len(),
+                contact: contact.index(),
+                factor: slider.greatest_couple(1.0),
+            };
             couples.push((bound, row));
         }
     }

@@ -29,9 +29,7 @@
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 
-pub(crate) mod affine;
 mod reactions;
-mod region;
 mod release;
 mod report;
 mod rest;

@@ -1,12 +1,12 @@
 //! Ranges of the reactions in a state, each end from a linear program.
 
-use super::region::{Region, Undecided};
 use super::report::{ContactRange, DriveRange, HingeRange, Range, Reactions};
 use super::setup::Setup;
-use super::state::{Expression, State};
+use super::state::State;
 use crate::ids::{DriveId, JointId};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Effort, Joint, JointKind};
+use crate::pattern::{Expression, Region, Unsolved};
 
 /// The range of an expression in a region of a state, in this unit.
 pub(super) fn range(
@@ -14,13 +14,13 @@ pub(super) fn range(
     region: &Region,
     expression: &Expression,
     unit: f64,
-) -> Result<Range, Undecided> {
+) -> Result<Range, Unsolved> {
     let [least, greatest] = region.extent(&state.function(expression))?;
     Ok(Range { least, greatest }.times(unit))
 }
 
 /// The ranges of all reactions in a region of a state.
-pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Reactions, Undecided> {
+pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Reactions, Unsolved> {
     let contacts = (0..setup.mechanism.contacts.len()).map(|k| contact(setup, state, region, k));
     let joints = setup.mechanism.joints.iter().enumerate();
     let hinges = joints.filter_map(|(index, joint)| hinge(setup, (JointId(index), joint), state, region));
@@ -32,7 +32,7 @@ pub(super) fn reactions(setup: &Setup, state: &State<'_>, region: &Region) -> Re
     })
 }
 
-fn contact(setup: &Setup, state: &State<'_>, region: &Region, k: usize) -> Result<ContactRange, Undecided> {
+fn contact(setup: &Setup, state: &State<'_>, region: &Region, k: usize) -> Result<ContactRange, Unsolved> {
     let unit = setup.units.force;
     let slider = setup.sliders.iter().find(|slider| slider.contacts.contains(&k));
     let couple = match slider.and_then(|slider| slider.couple) {
@@ -53,7 +53,7 @@ fn hinge(
     (id, joint): (JointId, &Joint),
     state: &State<'_>,
     region: &Region,
-) -> Option<Result<HingeRange, Undecided>> {
+) -> Option<Result<HingeRange, Unsolved>> {
     let JointKind::Hinge(ends) = &joint.kind else { return None };
     let on_first = ends[0].frame.body().is_some();
     let component = |axis| {
@@ -71,7 +71,7 @@ fn hinge(
     }))
 }
 
-fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region) -> Result<DriveRange, Undecided> {
+fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region) -> Result<DriveRange, Unsolved> {
     let drive = &setup.mechanism.drives[id.index()];
     let unit = state.force_unit(setup.assembled.layout.effort(id));
     Ok(DriveRange {

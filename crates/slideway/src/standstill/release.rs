@@ -2,13 +2,13 @@
 
 use super::TOLERANCE;
 use super::reactions::{range, reactions};
-use super::region::{Region, Undecided};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
 use super::rest::{Over, possible, static_coefficients, until_over};
 use super::setup::{Setup, SlidingJoint};
-use super::state::{Expression, Pattern, Question, Side, Sliding, State, sides};
+use super::state::{Question, State, sides};
 use super::words::slip_in_words;
 use crate::configuration::unit;
+use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
 use crate::progress::Work;
 
 /// Two states are the same if no number differs by more than this, relative to the units of the programs.
@@ -22,15 +22,15 @@ pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool, work: Work<'_>
     let states = sliding_states(setup.sliders.len());
     let all = states.len();
     for (index, sliding) in states.into_iter().enumerate() {
-        if at_rest && sliding.iter().all(|sliding| *sliding == Sliding::Stick) {
+        if at_rest && sliding.iter().all(|joint| *joint == JointPhase::Sticking) {
             continue;
         }
         for sides in until_over(sides(setup), work.part(index, all)) {
-            let pattern = Pattern { sliding: sliding.clone(), sides };
+            let pattern = Phase { joints: sliding.clone(), contacts: sides };
             match release(setup, &pattern, factor) {
                 Ok(Some(release)) => add(&mut over.found, release, setup),
                 Ok(None) => {}
-                Err(Undecided) => over.undecided += 1,
+                Err(Unsolved) => over.undecided += 1,
             }
         }
     }
@@ -38,11 +38,11 @@ pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool, work: Work<'_>
 }
 
 /// Every combination of sticking and slipping either way.
-fn sliding_states(joints: usize) -> Vec<Vec<Sliding>> {
+fn sliding_states(joints: usize) -> Vec<Vec<JointPhase>> {
     let mut all = vec![Vec::new()];
     for _ in 0..joints {
-        let extended = |states: Vec<Sliding>| {
-            let options = [Sliding::Stick, Sliding::Slip(1), Sliding::Slip(-1)];
+        let extended = |states: Vec<JointPhase>| {
+            let options = [JointPhase::Sticking, JointPhase::Sliding(1.0), JointPhase::Sliding(-1.0)];
             options.into_iter().map(move |option| states.iter().copied().chain([option]).collect())
         };
         all = all.into_iter().flat_map(extended).collect();
@@ -50,20 +50,19 @@ fn sliding_states(joints: usize) -> Vec<Vec<Sliding>> {
     all
 }
 
-fn release(setup: &Setup, pattern: &Pattern, factor: f64) -> Result<Option<Release>, Undecided> {
+fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release>, Unsolved> {
     let question = Question { moving: true, factor: Some(factor) };
     let Some(state) = State::new(setup, pattern, question) else { return Ok(None) };
     let Some(region) = possible(state.region(&static_coefficients(setup)))? else { return Ok(None) };
     let Some(region) = really_slipping(setup, pattern, &state, region)? else { return Ok(None) };
     let of_joint = |(index, slider): (usize, &SlidingJoint)| {
         let expression = state.sliding_acceleration(index);
-        let acceleration = match pattern.sliding[index] {
-            Sliding::Stick => Range { least: Some(0.0), greatest: Some(0.0) },
-            Sliding::Slip(_) => range(&state, &region, &expression, setup.units.acceleration)?,
-        };
-        let slip = match pattern.sliding[index] {
-            Sliding::Stick => 0,
-            Sliding::Slip(sign) => sign,
+        let (slip, acceleration) = match pattern.joints[index] {
+            JointPhase::Sticking => (0, Range { least: Some(0.0), greatest: Some(0.0) }),
+            JointPhase::Sliding(sign) => {
+                let range = range(&state, &region, &expression, setup.units.acceleration)?;
+                (if sign < 0.0 { -1 } else { 1 }, range)
+            }
         };
         Ok(JointRelease {
             name: setup.mechanism.joints[slider.joint.index()].name.to_string(),
@@ -75,7 +74,7 @@ fn release(setup: &Setup, pattern: &Pattern, factor: f64) -> Result<Option<Relea
     let joints = setup.sliders.iter().enumerate().map(of_joint).collect::<Result<_, _>>()?;
     Ok(Some(Release {
         joints,
-        patterns: vec![pattern.sides.iter().map(|side: &Side| side.symbol()).collect()],
+        patterns: vec![pattern.contacts.iter().map(|contact: &ContactPhase| contact.symbol()).collect()],
         coordinates: coordinates(setup, &state, &region)?,
         reactions: reactions(setup, &state, &region)?,
     }))
@@ -85,15 +84,15 @@ fn release(setup: &Setup, pattern: &Pattern, factor: f64) -> Result<Option<Relea
 /// coordinate must accelerate.
 fn really_slipping(
     setup: &Setup,
-    pattern: &Pattern,
+    pattern: &Phase,
     state: &State<'_>,
     region: Region,
-) -> Result<Option<Region>, Undecided> {
+) -> Result<Option<Region>, Unsolved> {
     let mut some = false;
-    for (index, sliding) in pattern.sliding.iter().enumerate() {
-        let Sliding::Slip(sign) = sliding else { continue };
+    for (index, joint) in pattern.joints.iter().enumerate() {
+        let JointPhase::Sliding(sign) = joint else { continue };
         some = true;
-        let acceleration = Expression::default().plus(f64::from(*sign), &state.sliding_acceleration(index));
+        let acceleration = state.sliding_acceleration(index).times(*sign);
         let [_, greatest] = region.extent(&state.function(&acceleration))?;
         if greatest.is_some_and(|greatest| greatest <= TOLERANCE) {
             return Ok(None);
@@ -117,7 +116,7 @@ fn acceleration_unit(setup: &Setup, unit: &str) -> f64 {
     if unit == "rad/s^2" { units.acceleration / units.length } else { units.acceleration }
 }
 
-fn coordinates(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Vec<CoordinateRange>, Undecided> {
+fn coordinates(setup: &Setup, state: &State<'_>, region: &Region) -> Result<Vec<CoordinateRange>, Unsolved> {
     let pairs = setup.mechanism.coordinates.iter().zip(setup.assembled.coordinate_rows());
     let one = |(coordinate, row): (&crate::mechanism::Coordinate, &[(usize, f64)])| {
         let in_words = if unit(&coordinate.kind) == "rad" { "rad/s^2" } else { "m/s^2" };

@@ -2,10 +2,10 @@
 
 use super::TOLERANCE;
 use super::reactions::{range, reactions};
-use super::region::{Region, Undecided};
 use super::report::{AtRest, Range};
 use super::setup::Setup;
-use super::state::{Pattern, Question, Side, Sliding, State, sides};
+use super::state::{Question, State, sides};
+use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
 use crate::progress::Work;
 
 /// Ends of intervals that differ by less than this, relative to the greater, are the same.
@@ -20,8 +20,8 @@ pub(super) struct Over<T> {
 }
 
 /// Every joint sticks, with these sides.
-pub(super) fn resting(setup: &Setup, sides: Vec<Side>) -> Pattern {
-    Pattern { sliding: vec![Sliding::Stick; setup.sliders.len()], sides }
+pub(super) fn resting(setup: &Setup, sides: Vec<ContactPhase>) -> Phase {
+    Phase { joints: vec![JointPhase::Sticking; setup.sliders.len()], contacts: sides }
 }
 
 /// The static coefficients of the contacts.
@@ -30,9 +30,9 @@ pub(super) fn static_coefficients(setup: &Setup) -> Vec<[f64; 2]> {
 }
 
 /// The region of a state if it is not empty, relaxed by as little as rounding asks for.
-pub(super) fn possible(region: Region) -> Result<Option<Region>, Undecided> {
-    let margin = region.margin()?;
-    Ok((margin <= TOLERANCE).then(|| region.relaxed(margin.max(0.0))))
+pub(super) fn possible(region: Region) -> Result<Option<Region>, Unsolved> {
+    let (slack, _) = region.highest()?;
+    Ok((slack >= -TOLERANCE).then(|| region.relaxed(-slack.min(0.0))))
 }
 
 /// States one after another, until the work is to end.
@@ -62,7 +62,7 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
                 rest.patterns.push(symbols);
                 rest.reactions = rest.reactions.clone().hull(&reactions);
             }
-            Err(Undecided) => over.undecided += 1,
+            Err(Unsolved) => over.undecided += 1,
         }
     }
     over
@@ -79,7 +79,7 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
         let extent = |region: Region| range(&state, &region, &state.factor(), state.factor_unit());
         match possible(region).and_then(|region| region.map(extent).transpose()) {
             Ok(found) => over.found.extend(found),
-            Err(Undecided) => over.undecided += 1,
+            Err(Unsolved) => over.undecided += 1,
         }
     }
     over.found = merged(over.found);

@@ -8,6 +8,7 @@ use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
+use crate::pattern::Law;
 use nalgebra::{DVector, Vector2};
 
 /// Units of the linear programs.
@@ -94,6 +95,12 @@ impl Setup {
         Ok(Self { mechanism, configuration, assembled, given, load, sliders, units })
     }
 
+    /// Coulomb's law of a contact in the units of the programs; its static coefficients may be varied.
+    pub(super) fn law(&self, k: usize) -> Law {
+        let contact = &self.mechanism.contacts[k];
+        Law::new(&self.mechanism, (k, contact), (self.units.force, true), [true; 2])
+    }
+
     /// Number of equations of motion: three for each body.
     pub(super) fn equations_of_motion(&self) -> usize {
         3 * self.mechanism.bodies.len()
@@ -158,7 +165,7 @@ fn sliders(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Vec<SlidingJoin
         Some(SlidingJoint {
             joint,
             contacts: slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect(),
-            couple: couple.map(|place| (place, slider.length / 2.0)),
+            couple: couple.map(|place| (place, slider.greatest_couple(1.0))),
         })
     };
     mechanism.joints.iter().enumerate().filter_map(one).collect()

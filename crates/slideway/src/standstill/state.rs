@@ -1,52 +1,13 @@
-//! One state of the sliding joints and contacts as linear equations and inequalities.
+//! One state of the sliding joints and contacts as linear equations and inequalities: those of statics, or of the first instant of a motion.
 
-use super::affine::AffineSet;
-use super::region::{Affine, Region};
-use super::setup::Setup;
+use super::setup::{Setup, SlidingJoint};
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
-use crate::mechanism::{Contact, Effort};
-use crate::model::PreloadLine;
+use crate::mechanism::Effort;
+use crate::pattern::{
+    Affine, AffineSet, ContactPhase, Expression, Friction, JointPhase, Phase, Region, without_tipping,
+};
 use nalgebra::{DMatrix, DVector};
-
-/// Which face of a contact is pressed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Side {
-    /// The normal force is positive or zero.
-    Positive,
-    /// The normal force is negative or zero.
-    Negative,
-    /// There is no normal force, and the preload is shared between both faces.
-    Gap,
-}
-
-impl Side {
-    /// The sign as it is printed.
-    pub(super) fn symbol(self) -> char {
-        match self {
-            Self::Positive => '+',
-            Self::Negative => '-',
-            Self::Gap => '0',
-        }
-    }
-
-    fn sign(self) -> f64 {
-        if self == Self::Negative { -1.0 } else { 1.0 }
-    }
-
-    fn index(self) -> usize {
-        usize::from(self == Self::Negative)
-    }
-}
-
-/// What a sliding joint does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Sliding {
-    /// It does not begin to slide.
-    Stick,
-    /// The block begins to slide along u (1) or against it (-1).
-    Slip(i8),
-}
 
 /// What is asked of a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,94 +18,52 @@ pub(super) struct Question {
     pub(super) factor: Option<f64>,
 }
 
-/// A state of every sliding joint and contact.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Pattern {
-    /// Of each sliding joint.
-    pub(super) sliding: Vec<Sliding>,
-    /// Of each contact.
-    pub(super) sides: Vec<Side>,
-}
-
-/// A linear expression of the unknowns in the units of the programs.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Expression {
-    terms: Vec<(usize, f64)>,
-    constant: f64,
-}
-
-impl Expression {
-    fn unknown(column: usize, factor: f64) -> Self {
-        Self { terms: vec![(column, factor)], constant: 0.0 }
-    }
-
-    pub(super) fn plus(mut self, factor: f64, other: &Self) -> Self {
-        self.terms.extend(other.terms.iter().map(|(column, value)| (*column, factor * value)));
-        self.constant += factor * other.constant;
-        self
-    }
-
-    pub(super) fn shifted(mut self, constant: f64) -> Self {
-        self.constant += constant;
-        self
-    }
-}
-
-/// Friction of a contact that is an unknown: where it acts, and its column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
-    Face(usize),
-    Centre,
-    /// Share of the positive face in the preload of a contact that slips in its gap.
-    Share,
-}
-
 /// A pattern with its equations solved as far as they go.
 pub(super) struct State<'s> {
     setup: &'s Setup,
-    pattern: &'s Pattern,
+    pattern: &'s Phase,
     question: Question,
-    /// Columns of the unknown frictions of each contact.
-    friction: Vec<Vec<(Place, usize)>>,
+    friction: Vec<Friction>,
     columns: usize,
     solutions: AffineSet,
 }
 
 impl<'s> State<'s> {
     /// The state with its equations; nothing where they contradict each other.
-    pub(super) fn new(setup: &'s Setup, pattern: &'s Pattern, question: Question) -> Option<Self> {
+    pub(super) fn new(setup: &'s Setup, pattern: &'s Phase, question: Question) -> Option<Self> {
         let mut state = Self {
             setup,
             pattern,
             question,
             friction: Vec::new(),
             columns: 0,
-            solutions: AffineSet { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) },
+            solutions: AffineSet::empty(),
         };
         state.columns = state.first_force() + setup.assembled.layout.len() - setup.equations_of_motion();
-        state.friction = (0..setup.mechanism.contacts.len()).map(|k| state.unknown_friction(k)).collect();
+        state.friction = (0..setup.mechanism.contacts.len()).map(|k| state.new_friction(k)).collect();
         state.columns += usize::from(question.factor.is_none());
         let (matrix, right_hand_side) = state.equations();
         state.solutions = AffineSet::of(matrix, right_hand_side)?;
         Some(state)
     }
 
-    /// Dimension of what the equations leave open.
-    pub(super) fn dimension(&self) -> usize {
-        self.solutions.directions.ncols()
-    }
-
     /// An expression as a function of what the equations leave open.
     pub(super) fn function(&self, expression: &Expression) -> Affine {
-        let mut coefficients = vec![0.0; self.dimension()];
-        let mut constant = expression.constant;
-        for &(column, factor) in &expression.terms {
-            constant += factor * self.solutions.particular[column];
-            for (index, coefficient) in coefficients.iter_mut().enumerate() {
-                *coefficient += factor * self.solutions.directions[(column, index)];
-            }
-        }
-        Affine { coefficients, constant }
+        self.solutions.function(expression)
+    }
+
+    fn new_friction(&mut self, k: usize) -> Friction {
+        let slider = self.setup.sliders.iter().position(|slider| slider.contacts.contains(&k));
+        let joint = slider.map_or(JointPhase::Sticking, |index| self.pattern.joints[index]);
+        let contact = self.pattern.contacts[k];
+        let pressure = match contact {
+            ContactPhase::Pressed(side) => self.normal_force(k).times(side.sign()),
+            ContactPhase::PreloadGap => Expression::default(),
+        };
+        Friction::new(self.setup.law(k), (joint, contact), pressure, || {
+            self.columns += 1;
+            self.columns - 1
+        })
     }
 
     fn first_force(&self) -> usize {
@@ -154,67 +73,6 @@ impl<'s> State<'s> {
     /// Column of a reaction or effort from its place in the layout of the kinetic equations.
     fn force(&self, place: usize) -> usize {
         self.first_force() + place - self.setup.equations_of_motion()
-    }
-
-    fn sliding(&self, contact: usize) -> Sliding {
-        let found = self.setup.sliders.iter().position(|slider| slider.contacts.contains(&contact));
-        found.map_or(Sliding::Stick, |index| self.pattern.sliding[index])
-    }
-
-    fn contact(&self, k: usize) -> &'s Contact {
-        &self.setup.mechanism.contacts[k]
-    }
-
-    fn unknown_friction(&mut self, k: usize) -> Vec<(Place, usize)> {
-        let contact = self.contact(k);
-        let side = self.pattern.sides[k];
-        let places = match (self.sliding(k), side) {
-            (Sliding::Stick, Side::Gap) if self.setup.mechanism.preload_changes_face(ContactId(k)) => {
-                vec![Place::Face(0), Place::Face(1)]
-            }
-            (Sliding::Stick, Side::Gap) => vec![Place::Centre],
-            (Sliding::Slip(_), Side::Gap) => vec![Place::Share],
-            (Sliding::Stick, _) if contact.preload_line == PreloadLine::Centre => {
-                vec![Place::Face(side.index()), Place::Centre]
-            }
-            (Sliding::Stick, _) => vec![Place::Face(side.index())],
-            (Sliding::Slip(_), _) => Vec::new(),
-        };
-        let first = self.columns;
-        self.columns += places.len();
-        places.into_iter().zip(first..).collect()
-    }
-
-    /// Unit friction of a contact in the equations of motion.
-    fn friction_column(&self, k: usize, place: Place) -> DVector<f64> {
-        let columns = &self.setup.assembled.friction[k];
-        let rows = self.setup.equations_of_motion();
-        let face = |side: usize| columns[side].rows(0, rows).into_owned();
-        match place {
-            Place::Face(side) => face(side),
-            Place::Centre => (face(0) + face(1)) / 2.0,
-            Place::Share => {
-                let [plus, minus] = [0, 1].map(|side| self.preload_friction(k, side));
-                (plus - minus) * (self.slip_sign(k) / self.setup.units.force)
-            }
-        }
-    }
-
-    /// F_k0^side W_k^side, the friction of a preload in the equations of motion.
-    fn preload_friction(&self, k: usize, side: usize) -> DVector<f64> {
-        let contact = self.contact(k);
-        let place = match contact.preload_line {
-            PreloadLine::Pressed => Place::Face(side),
-            PreloadLine::Centre => Place::Centre,
-        };
-        self.friction_column(k, place) * contact.preload[side]
-    }
-
-    fn slip_sign(&self, k: usize) -> f64 {
-        match self.sliding(k) {
-            Sliding::Slip(sign) => f64::from(sign),
-            Sliding::Stick => 0.0,
-        }
     }
 
     /// Equations of motion (or of statics), of the joints' accelerations, and of the joints that stick:
@@ -233,8 +91,8 @@ impl<'s> State<'s> {
         if self.question.moving {
             further.extend(self.kinematics());
         }
-        let sides = self.pattern.sides.iter().enumerate();
-        let in_gap = sides.filter(|(_, side)| **side == Side::Gap);
+        let contacts = self.pattern.contacts.iter().enumerate();
+        let in_gap = contacts.filter(|(_, contact)| **contact == ContactPhase::PreloadGap);
         further.extend(in_gap.map(|(k, _)| self.dense(&self.normal_force(k))));
         let first = matrix.nrows();
         let mut matrix = matrix.resize_vertically(first + further.len(), 0.0);
@@ -265,11 +123,14 @@ impl<'s> State<'s> {
             let column = source.view((0, place), (rows, 1)).column(0) * factor;
             matrix.column_mut(self.force(place)).copy_from(&column);
         }
-        for (k, unknown) in self.friction.iter().enumerate() {
-            for &(place, column) in unknown {
-                matrix.column_mut(column).copy_from(&(self.friction_column(k, place) * -unit));
+        for (friction, columns) in self.friction.iter().zip(&setup.assembled.friction) {
+            for (force, column) in friction.faces.iter().zip(columns) {
+                let face = column.rows(0, rows);
+                for &(unknown, factor) in &force.terms {
+                    matrix.column_mut(unknown).axpy(-factor * unit, &face, 1.0);
+                }
+                right_hand_side.axpy(force.constant * unit, &face, 1.0);
             }
-            self.slip(k, &mut matrix, &mut right_hand_side);
         }
         if let Some(load) = &setup.load {
             if let Some(factor) = self.question.factor {
@@ -280,21 +141,6 @@ impl<'s> State<'s> {
             }
         }
         (matrix, right_hand_side)
-    }
-
-    /// Kinetic friction F_k = (mu_k |N_k| + F_k0) s_k of a contact that slips, eq. (2), put into the equations.
-    fn slip(&self, k: usize, matrix: &mut DMatrix<f64>, right_hand_side: &mut DVector<f64>) {
-        let Sliding::Slip(sign) = self.sliding(k) else { return };
-        let (contact, side, sign) = (self.contact(k), self.pattern.sides[k], f64::from(sign));
-        if side == Side::Gap {
-            // (share F_k0^+ W^+ + (1 - share) F_k0^- W^-) s_k: the part without the share.
-            *right_hand_side += self.preload_friction(k, 1) * sign;
-            return;
-        }
-        let face = self.friction_column(k, Place::Face(side.index()));
-        let pressure = contact.mu[side.index()] * side.sign() * sign * self.setup.units.force;
-        matrix.column_mut(self.normal_column(k)).axpy(-pressure, &face, 1.0);
-        *right_hand_side += self.preload_friction(k, side.index()) * sign;
     }
 
     /// G a = 0, C a = 0 and, for joints that stick, S_j a = 0.
@@ -308,8 +154,8 @@ impl<'s> State<'s> {
             let size = row.amax();
             found.push(if size > 0.0 { row / size } else { row });
         }
-        for (index, sliding) in self.pattern.sliding.iter().enumerate() {
-            if *sliding == Sliding::Stick {
+        for (index, joint) in self.pattern.joints.iter().enumerate() {
+            if *joint == JointPhase::Sticking {
                 found.push(self.dense(&self.sliding_acceleration(index)));
             }
         }
@@ -366,7 +212,7 @@ impl State<'_> {
     /// The load factor.
     pub(super) fn factor(&self) -> Expression {
         match self.question.factor {
-            Some(factor) => Expression::default().shifted(factor / self.factor_unit()),
+            Some(factor) => Expression::constant(factor / self.factor_unit()),
             None => Expression::unknown(self.columns - 1, 1.0),
         }
     }
@@ -386,35 +232,20 @@ impl State<'_> {
         self.reaction(self.setup.assembled.layout.effort(drive))
     }
 
-    /// |N_k|, given the side.
-    fn pressure(&self, k: usize) -> Expression {
-        Expression::default().plus(self.pattern.sides[k].sign(), &self.normal_force(k))
-    }
-
-    /// The friction force of a contact, at all its faces together.
+    /// The friction force of a contact, at both faces together.
     pub(super) fn friction_force(&self, k: usize) -> Expression {
-        let (contact, side, sign) = (self.contact(k), self.pattern.sides[k], self.slip_sign(k));
-        let unit = self.setup.units.force;
-        let mut force = Expression::default();
-        for &(place, column) in &self.friction[k] {
-            let factor = if place == Place::Share {
-                (contact.preload[0] - contact.preload[1]) * sign / unit
-            } else {
-                1.0
-            };
-            force = force.plus(factor, &Expression::unknown(column, 1.0));
-        }
-        let pressure = if side == Side::Gap { 0.0 } else { sign * contact.mu[side.index()] };
-        let preload = contact.preload[if side == Side::Gap { 1 } else { side.index() }];
-        force.plus(pressure, &self.pressure(k)).shifted(sign * preload / unit)
+        let [positive, negative] = &self.friction[k].faces;
+        positive.clone().plus(1.0, negative)
     }
 
     /// Acceleration of sliding of the block of a joint against its guide: along u in the middle between the faces,
     /// which is -(W^+ + W^-)/2 . a.
     pub(super) fn sliding_acceleration(&self, slider: usize) -> Expression {
         let Some(&k) = self.setup.sliders[slider].contacts.first() else { return Expression::default() };
-        let column = self.friction_column(k, Place::Centre);
-        self.of_accelerations(column.iter().map(|entry| -entry).enumerate(), self.setup.units.acceleration)
+        let [positive, negative] = &self.setup.assembled.friction[k];
+        let along = (0..self.setup.equations_of_motion())
+            .map(|column| (column, -f64::midpoint(positive[column], negative[column])));
+        self.of_accelerations(along, self.setup.units.acceleration)
     }
 
     /// A linear form of the accelerations, in this unit.
@@ -439,95 +270,33 @@ impl State<'_> {
     /// What the equations leave open within every inequality of the state, with these coefficients of static
     /// friction.
     pub(super) fn region(&self, mu_static: &[[f64; 2]]) -> Region {
-        let mut constraints = Vec::new();
-        for (k, mu) in mu_static.iter().enumerate() {
-            constraints.extend(self.contact_constraints(k, *mu));
+        let mut slacks = Vec::new();
+        for (friction, mu_static) in self.friction.iter().zip(mu_static) {
+            slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
         }
         for slider in &self.setup.sliders {
-            constraints.extend(self.couple_constraints(slider));
-        }
-        for (index, sliding) in self.pattern.sliding.iter().enumerate() {
-            if let Sliding::Slip(sign) = sliding {
-                constraints
-                    .push(Expression::default().plus(-f64::from(*sign), &self.sliding_acceleration(index)));
+            if let SlidingJoint { couple: Some((place, half)), contacts, .. } = slider
+                && let [k] = contacts[..]
+            {
+                let half = half / self.setup.units.length;
+                slacks.extend(without_tipping(&self.friction[k].pressure, &self.reaction(*place), half));
             }
         }
-        let functions = constraints.iter().map(|expression| self.function(expression)).collect();
-        Region::new(self.dimension(), functions)
-    }
-
-    /// |N_k| >= 0, and for a contact that sticks |F_k| <= mu_static |N_k| + F_k0.
-    fn contact_constraints(&self, k: usize, mu_static: [f64; 2]) -> Vec<Expression> {
-        let side = self.pattern.sides[k];
-        if side == Side::Gap {
-            return self.gap_constraints(k);
-        }
-        let mut constraints = vec![Expression::default().plus(-1.0, &self.pressure(k))];
-        let preload = self.contact(k).preload[side.index()] / self.setup.units.force;
-        let at_centre = self.contact(k).preload_line == PreloadLine::Centre;
-        for &(place, column) in &self.friction[k] {
-            let (mu, preload) = match place {
-                Place::Face(_) => (mu_static[side.index()], if at_centre { 0.0 } else { preload }),
-                Place::Centre | Place::Share => (0.0, preload),
-            };
-            for sign in [1.0, -1.0] {
-                let excess = Expression::unknown(column, sign).plus(-mu, &self.pressure(k));
-                constraints.push(excess.shifted(-preload));
+        for (index, joint) in self.pattern.joints.iter().enumerate() {
+            if let JointPhase::Sliding(sign) = joint {
+                slacks.push(self.sliding_acceleration(index).times(*sign));
             }
         }
-        constraints
-    }
-
-    /// |F_k^+| <= share F_k0^+ and |F_k^-| <= (1 - share) F_k0^- for some share from 0 to 1; where both act in the middle
-    /// between the faces |F_k| is at most the greater preload.
-    fn gap_constraints(&self, k: usize) -> Vec<Expression> {
-        let preload = self.contact(k).preload.map(|preload| preload / self.setup.units.force);
-        match self.friction[k][..] {
-            [(Place::Share, column)] => {
-                vec![Expression::unknown(column, -1.0), Expression::unknown(column, 1.0).shifted(-1.0)]
-            }
-            [(Place::Centre, column)] => {
-                let most = preload[0].max(preload[1]);
-                [1.0, -1.0].map(|sign| Expression::unknown(column, sign).shifted(-most)).to_vec()
-            }
-            [(_, plus), (_, minus)] => {
-                let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
-                // F^+/F_0^+ + F^-/F_0^- <= 1, multiplied by both preloads.
-                let corner = |(first, second): (f64, f64)| {
-                    let sum = Expression::unknown(plus, first * preload[1])
-                        .plus(second * preload[0], &Expression::unknown(minus, 1.0));
-                    sum.shifted(-preload[0] * preload[1])
-                };
-                signs.into_iter().map(corner).chain(self.within_preloads(k, preload)).collect()
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    /// No face carries more than its preload.
-    fn within_preloads(&self, k: usize, preload: [f64; 2]) -> Vec<Expression> {
-        let one = |(&(_, column), preload): (&(Place, usize), f64)| {
-            [1.0, -1.0].map(|sign| Expression::unknown(column, sign).shifted(-preload))
-        };
-        self.friction[k].iter().zip(preload).flat_map(one).collect()
-    }
-
-    /// |C| <= |N| L/2 of a guided slider.
-    fn couple_constraints(&self, slider: &super::setup::SlidingJoint) -> Vec<Expression> {
-        let (Some((place, half)), [k]) = (slider.couple, &slider.contacts[..]) else { return Vec::new() };
-        let half = half / self.setup.units.length;
-        let one = |sign: f64| {
-            Expression::default().plus(sign, &self.reaction(place)).plus(-half, &self.pressure(*k))
-        };
-        vec![one(1.0), one(-1.0)]
+        let functions = slacks.iter().map(|slack| self.function(slack)).collect();
+        Region::new(self.solutions.dimension(), functions)
     }
 }
 
-/// All combinations of sides of the contacts; a gap only where the friction of the preload jumps.
-pub(super) fn sides(setup: &Setup) -> Vec<Vec<Side>> {
+/// All combinations of sides of the contacts.
+pub(super) fn sides(setup: &Setup) -> Vec<Vec<ContactPhase>> {
     let mut all = vec![Vec::new()];
     for options in side_options(setup) {
-        let extended = |sides: Vec<Side>| {
+        let extended = |sides: Vec<ContactPhase>| {
             options.iter().map(move |side| sides.iter().copied().chain([*side]).collect::<Vec<_>>())
         };
         all = all.into_iter().flat_map(extended).collect();
@@ -536,10 +305,7 @@ pub(super) fn sides(setup: &Setup) -> Vec<Vec<Side>> {
 }
 
 /// The sides that each contact may take.
-pub(super) fn side_options(setup: &Setup) -> Vec<&'static [Side]> {
-    let one = |k: usize| -> &'static [Side] {
-        let jumps = setup.mechanism.preload_jumps(ContactId(k));
-        if jumps { &[Side::Positive, Side::Negative, Side::Gap] } else { &[Side::Positive, Side::Negative] }
-    };
-    (0..setup.mechanism.contacts.len()).map(one).collect()
+pub(super) fn side_options(setup: &Setup) -> Vec<&'static [ContactPhase]> {
+    let contacts = (0..setup.mechanism.contacts.len()).map(ContactId);
+    contacts.map(|contact| ContactPhase::options(&setup.mechanism, contact)).collect()
 }

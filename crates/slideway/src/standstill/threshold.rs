@@ -12,7 +12,6 @@
 //! where a block wedges in its guide, as the reactions grow without bound there.
 
 use super::HoldOptions;
-use super::region::Undecided;
 use super::report::{Coefficients, Threshold};
 use super::rest::{Over, resting, static_coefficients, until_over};
 use super::setup::Setup;
@@ -20,6 +19,7 @@ use super::state::{Question, State, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::model::Model;
+use crate::pattern::Unsolved;
 use crate::progress::Work;
 
 /// Feasible within rounding: what the programs leave over at the exact threshold.
@@ -97,9 +97,10 @@ fn least_value(alone: &Setup, law: &Law, work: Work<'_>) -> Over<Option<f64>> {
         let question = Question { moving: false, factor: Some(0.0) };
         let Some(state) = State::new(alone, &pattern, question) else { continue };
         let best = over.found.unwrap_or(GREATEST);
-        match least_of(best, |value| state.region(&law.coefficients(value)).margin()) {
+        let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);
+        match least_of(best, missing) {
             Ok(least) => over.found = least.or(over.found),
-            Err(Undecided) => over.undecided += 1,
+            Err(Unsolved) => over.undecided += 1,
         }
     }
     over
@@ -108,8 +109,8 @@ fn least_value(alone: &Setup, law: &Law, work: Work<'_>) -> Over<Option<f64>> {
 /// The least value from 0 to `best` where a falling function is no more than zero.
 fn least_of(
     best: f64,
-    mut margin: impl FnMut(f64) -> Result<f64, Undecided>,
-) -> Result<Option<f64>, Undecided> {
+    mut margin: impl FnMut(f64) -> Result<f64, Unsolved>,
+) -> Result<Option<f64>, Unsolved> {
     if margin(0.0)? <= ROUNDING {
         return Ok(Some(0.0));
     }
@@ -133,7 +134,7 @@ fn least_of(
 
 /// The root near `value` from the secant through two points below it, where the margin is well above rounding. The
 /// bisection ends where the margin falls below [`ROUNDING`], not at its root.
-fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Undecided>) -> Result<f64, Undecided> {
+fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Unsolved>) -> Result<f64, Unsolved> {
     let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
     let (at_first, at_second) = (margin(first)?, margin(second)?);
     let root = second + at_second * (second - first) / (at_first - at_second);

@@ -4,14 +4,11 @@ use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
 use super::stages::Stages;
 use crate::attainability::ElasticGuides;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::PreloadLine;
 use crate::modes::screen::SmallState;
 use crate::modes::{ContactState, Side};
 use crate::report::Verdict;
-
-/// A couple may exceed |N| L / 2 by this multiple of the greatest one before the slider counts as tipping, as in `solve`.
-const COUPLE_TOLERANCE: f64 = 1e-9;
 
 /// What the rows of a point are made of.
 pub(super) struct Writer<'w> {
@@ -150,7 +147,7 @@ impl Writer<'_> {
         let mut keeps = true;
         for &(joint, contact, output) in &columns.couples {
             let JointKind::Slider(slider) = &self.mechanism.joints[joint.index()].kind else { continue };
-            let limit = state.normal_force(contact).abs() * slider.length / 2.0;
+            let limit = slider.greatest_couple(state.normal_force(contact));
             let excess = outputs[output].abs() - limit;
             let tolerance = COUPLE_TOLERANCE * greatest * slider.length;
             if excess.abs() <= 4.0 * tolerance {

@@ -1,12 +1,12 @@
 //! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the mechanism.
 
-use super::instant::{Group, Instant};
-use super::program::{Affine, Unsolved, highest};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::system::{Forces, Inequality, Question, Subject, System};
-use crate::ids::ContactId;
 use crate::influence::ContactFriction;
 use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::pattern::{Affine, Region, Unsolved};
 
 /// Slacks below this are rounding.
 const ROUNDING: f64 = 1e-11;
@@ -166,7 +166,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
     let System { instant, phase, group, .. } = *system;
     let mut found = Assessment::nothing(phase);
     let inequalities = system.inequalities();
-    let depends = |inequality: &&Inequality| inequality.slack.coefficients.iter().any(|a| *a != 0.0);
+    let depends = |inequality: &&Inequality| inequality.slack.varies();
     let together: Vec<Affine> =
         inequalities.iter().filter(depends).map(|inequality| inequality.slack.clone()).collect();
     found.indeterminate = system.dimension();
@@ -174,7 +174,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
     let open = if together.is_empty() {
         vec![0.0; found.indeterminate]
     } else {
-        let (value, open) = highest(&together, found.indeterminate)?;
+        let (value, open) = Region::new(found.indeterminate, together).highest()?;
         found.slacks.push(Slack { subject: Decisive::Open(group.joints[0]), value: without_rounding(value) });
         open
     };
@@ -209,12 +209,6 @@ fn without_rounding(slack: f64) -> f64 {
 /// The sides of a contact during an impulse: preloads do not count there.
 pub(super) const PRESSED: [ContactPhase; 2] =
     [ContactPhase::Pressed(Side::Positive), ContactPhase::Pressed(Side::Negative)];
-
-/// The sides that a contact may take: a gap only where the friction of its preload jumps.
-pub(super) fn side_options(instant: &Instant<'_>, k: usize) -> &'static [ContactPhase] {
-    const ALL: [ContactPhase; 3] = [PRESSED[0], PRESSED[1], ContactPhase::PreloadGap];
-    if instant.mechanism.preload_jumps(ContactId(k)) { &ALL } else { &PRESSED }
-}
 
 /// The contacts of a group that stick, with their possible sides, the phase's own one first.
 pub(super) fn sticking_sides(

@@ -1,14 +1,36 @@
-//! Sides that contacts take in every admissible state.
+//! What is asked at an instant, with the sides that contacts take in every admissible state.
 
 use super::BOUNDARY;
-use super::assessment::side_options;
 use super::instant::Instant;
-use crate::motion::ContactPhase;
+use super::system::Question;
+use crate::ids::ContactId;
+use crate::motion::{ContactPhase, JointPhase, Phase};
+use nalgebra::{DMatrix, DVector};
 
 /// Rounds of the iteration for the greatest pressures.
 const ROUNDS: usize = 30;
 /// Its result is enlarged by this factor, and counts if it then bounds itself.
 const ENLARGED: f64 = 1.01;
+
+impl Instant<'_> {
+    /// The question for accelerations, with joints whose velocity is zero: about all phases, or one, in which sides are open only if a joint
+    /// sticks.
+    pub(super) fn question<'q>(&'q self, stopped: &'q [bool], phase: Option<&Phase>) -> Question<'q> {
+        let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
+        Question {
+            outputs: &self.outputs,
+            wanted: vec![0.0; self.joints.len()],
+            has_preload: true,
+            sides: match slides {
+                Some(phase) => phase.contacts.iter().map(|contact| vec![*contact]).collect(),
+                None => possible_sides(self),
+            },
+            stopped,
+            opposes: None,
+            pushed: Vec::new(),
+        }
+    }
+}
 
 /// The sides that each contact can take: one alone where friction cannot turn the normal force, however joints stick or slide.
 ///
@@ -17,14 +39,14 @@ const ENLARGED: f64 = 1.01;
 /// ```
 ///
 /// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section 4).
-pub(super) fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
+fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let contacts = 0..instant.mechanism.contacts.len();
     // A stop pushes with any force.
     let is_free = instant.joints.iter().all(|joint| joint.stop == 0.0);
     let change = if is_free { greatest_changes(instant) } else { None };
     contacts
         .map(|j| {
-            let all = side_options(instant, j);
+            let all = ContactPhase::options(instant.mechanism, ContactId(j));
             let normal = instant.outputs.base[j];
             match &change {
                 Some(change) if normal.abs() > change[j] + BOUNDARY => vec![all[usize::from(normal < 0.0)]],
@@ -35,31 +57,30 @@ pub(super) fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
 }
 
 /// By how much friction changes each normal force at most, in units; nothing where no bound was found.
-fn greatest_changes(instant: &Instant<'_>) -> Option<Vec<f64>> {
+fn greatest_changes(instant: &Instant<'_>) -> Option<DVector<f64>> {
     let [plus, minus] = &instant.outputs.columns;
     let contacts = plus.ncols();
-    let change = |pressures: &[f64]| -> Vec<f64> {
-        let friction = |k: usize| {
-            let contact = instant.contact(k);
-            let greatest = |list: [f64; 2]| list[0].max(list[1]);
-            let mu = greatest(contact.mu).max(greatest(contact.mu_static));
-            mu * pressures[k] + greatest(contact.preload) / instant.units_of(k).force
-        };
-        let frictions: Vec<f64> = (0..contacts).map(friction).collect();
-        let one = |j: usize| -> f64 {
-            (0..contacts).map(|k| plus[(j, k)].abs().max(minus[(j, k)].abs()) * frictions[k]).sum()
-        };
-        (0..contacts).map(one).collect()
+    let greatest = |list: [f64; 2]| list[0].max(list[1]);
+    let friction = |k: usize| greatest(instant.contact(k).mu).max(greatest(instant.contact(k).mu_static));
+    let influence = |j: usize, k: usize| plus[(j, k)].abs().max(minus[(j, k)].abs());
+    let by_pressures = DMatrix::from_fn(contacts, contacts, |j, k| influence(j, k) * friction(k));
+    let preload = |k: usize| greatest(instant.contact(k).preload) / instant.units_of(k).force;
+    let by_preloads =
+        DVector::from_fn(contacts, |j, _| (0..contacts).map(|k| influence(j, k) * preload(k)).sum());
+    let normal = instant.outputs.base.rows(0, contacts).abs();
+    let mut pressures = DVector::zeros(contacts);
+    let mut changes = by_preloads.clone();
+    let bound = |pressures: &DVector<f64>, changes: &mut DVector<f64>| {
+        changes.copy_from(&by_preloads);
+        changes.gemv(1.0, &by_pressures, pressures, 1.0);
     };
-    let bound = |pressures: &[f64]| -> Vec<f64> {
-        let changes = change(pressures).into_iter().zip(instant.outputs.base.iter());
-        changes.map(|(change, normal)| change + normal.abs()).collect()
-    };
-    let mut pressures = vec![0.0; contacts];
     for _ in 0..ROUNDS {
-        pressures = bound(&pressures);
+        pressures.copy_from(&normal);
+        pressures += &changes;
+        bound(&pressures, &mut changes);
     }
-    pressures.iter_mut().for_each(|pressure| *pressure *= ENLARGED);
-    let holds = bound(&pressures).iter().zip(&pressures).all(|(again, pressure)| again <= pressure);
-    holds.then(|| change(&pressures))
+    pressures *= ENLARGED;
+    bound(&pressures, &mut changes);
+    let holds = (0..contacts).all(|k| normal[k] + changes[k] <= pressures[k]);
+    holds.then_some(changes)
 }

@@ -2,7 +2,8 @@
 
 use super::BOUNDARY;
 use super::assessment::{MOST_SIDES, assess_system, sticking_sides, with_sides};
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::system::{Question, System};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -23,7 +24,7 @@ pub(in crate::motion) fn determined_normal_forces(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let question = instant.question(&stopped);
+    let question = instant.question(&stopped, Some(phase));
     let mut normal = vec![None; phase.contacts.len()];
     for group in &instant.groups {
         let found = of_group(&instant, &question, (phase, group)).unwrap_or_default();

@@ -8,7 +8,6 @@ use super::{BOUNDARY, Limit, Standing};
 use crate::configuration::{Configuration, Pose, Velocity};
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
-use crate::mechanism::Mechanism;
 use crate::motion::Phase;
 use crate::motion::resolution::Resolution;
 use nalgebra::{DVector, Vector2};
@@ -36,7 +35,6 @@ struct Accelerations {
 /// differences over two steps: with constant accelerations, which tells rates as well as any, and by Heun's method where a rate
 /// is zero and the curvature is asked for.
 pub(super) fn standing(
-    mechanism: &Mechanism,
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
 ) -> Result<Standing, Vec<Decisive>> {
@@ -48,9 +46,10 @@ pub(super) fn standing(
     let limits = |indices: &[usize]| -> Vec<Limit> {
         indices.iter().map(|&index| limit(instant, assessment.slacks[index].subject)).collect()
     };
-    let flow = Flow { mechanism, phase: &assessment.phase, stopped: question.stopped, shift: &instant.shift };
+    let flow = Flow { instant, phase: &assessment.phase, stopped: question.stopped };
     let scale = time_scale(instant, configuration);
-    let scale = Resolution::new(mechanism).step(configuration, [0.0; 2], [scale, least_step(configuration)]);
+    let scale =
+        Resolution::new(instant.mechanism).step(configuration, [0.0; 2], [scale, least_step(configuration)]);
     let start = (configuration, accelerations(instant, assessment));
     let (mut constant, mut violated) = (Vec::new(), Vec::new());
     for method in [Method::ConstantAccelerations, Method::Heun] {
@@ -120,10 +119,9 @@ fn time_scale(instant: &Instant<'_>, configuration: &Configuration) -> f64 {
 
 /// The motion of a phase.
 struct Flow<'f> {
-    mechanism: &'f Mechanism,
+    instant: &'f Instant<'f>,
     phase: &'f Phase,
     stopped: &'f [bool],
-    shift: &'f DVector<f64>,
 }
 
 type Slacks = Vec<super::assessment::Slack>;
@@ -192,9 +190,8 @@ impl Flow<'_> {
     }
 
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
-        let mut instant = Instant::looking_ahead(self.mechanism, configuration)?;
-        instant.change_base(self.shift);
-        let question = instant.question(self.stopped);
+        let instant = self.instant.later(configuration)?;
+        let question = instant.question(self.stopped, Some(self.phase));
         let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
             Ok(Some(assessment)) => assessment,
             Ok(None) => return Ok(Later::Ends),

@@ -2,7 +2,8 @@
 
 use super::BOUNDARY;
 use super::assessment::{Assessment, assess_group};
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::plan::{Fall, Plan, System};
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
@@ -164,7 +165,7 @@ impl<'m> Holding<'m> {
         for ((amount, first), response) in amounts.iter().zip(&self.first).zip(&self.responses) {
             self.instant.outputs.base.axpy(amount - first, response, 1.0);
         }
-        let question = self.instant.question(&self.stopped);
+        let question = self.instant.question(&self.stopped, Some(&self.phase));
         let found = assess_group(&self.instant, &question, (&self.phase, group), (BOUNDARY, ENOUGH));
         let found = found.ok().flatten()?;
         for &k in &group.contacts {

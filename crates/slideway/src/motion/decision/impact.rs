@@ -3,7 +3,8 @@
 use super::MOST_STATES;
 use super::assessment::Assessment;
 use super::impulse::{AT_REST, Impulses};
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;

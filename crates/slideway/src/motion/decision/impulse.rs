@@ -1,7 +1,8 @@
 //! Impulses: what jams and impacts have in common. Positions, loads and preloads do not count while velocities jump.
 
 use super::assessment::{Assessment, PRESSED, assess_group};
-use super::instant::{Group, Instant, Outputs};
+use super::instant::Instant;
+use super::outputs::{Group, Outputs};
 use super::successors::combinations;
 use super::system::Question;
 use super::{BOUNDARY, MOST_STATES};

@@ -43,26 +43,31 @@ mod impact;
 mod impulse;
 mod instant;
 mod jam;
+mod joints;
+mod mobility;
+mod outputs;
 mod parts;
 mod plan;
-mod program;
 mod scale;
 mod sieve;
 mod state;
 mod sticking;
 mod successors;
 mod system;
+mod units;
+mod vanishing;
 
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
 pub use holding::Outlook;
 pub use impact::{Blow, Impact, impact};
-pub(super) use instant::{TOUCHES, connected, scale_of_forces};
 pub use jam::{Impulse, Jam, jam};
+pub(super) use joints::TOUCHES;
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
 pub(super) use successors::continuations;
 pub use successors::{Successor, Successors, Tipping, successors};
+pub(super) use units::{connected, scale_of_forces};
 
 use crate::ids::{ContactId, JointId};
 

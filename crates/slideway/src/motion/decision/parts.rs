@@ -2,7 +2,8 @@
 
 use super::assessment::{Assessment, Decisive, assess_group, with_sides};
 use super::elastic::verdict;
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::sieve::Sieve;
 use super::state::{PhaseState, is_same_phase, state};
 use super::sticking::ENOUGH;
@@ -11,6 +12,7 @@ use super::system::{Question, Subject};
 use super::{BOUNDARY, MOST_STATES};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::motion::{self, ContactPhase, JointPhase, Phase};
+use crate::pattern::Unsolved;
 use crate::report::Verdict;
 use std::cmp::Reverse;
 
@@ -41,7 +43,7 @@ pub(super) struct Part {
     pub(super) is_present: bool,
     /// Whether accelerations and normal forces are what they were.
     pub(super) continues: bool,
-    /// Whether it is attainable if all other groups are locked.
+    /// Whether it is attainable if all other groups are locked; not computed before its place in the order is asked for.
     pub(super) verdict: Verdict,
 }
 
@@ -54,7 +56,7 @@ pub(super) struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// For each group of joints what it can do, the preferred first.
+    /// For each group of joints what it can do, not yet in order.
     ///
     /// # Errors
     /// More states than are tried.
@@ -80,7 +82,7 @@ impl Search<'_> {
         let groups = self.instant.groups.iter().zip(&before);
         Ok(groups
             .zip(parts)
-            .map(|((group, before), parts)| self.in_order(group, parts, (before.as_ref(), alone)))
+            .map(|((group, before), parts)| self.compared(group, parts, (before.as_ref(), alone)))
             .collect())
     }
 
@@ -102,7 +104,7 @@ impl Search<'_> {
         self.assess(previous, group).ok()?
     }
 
-    fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, super::program::Unsolved> {
+    fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, Unsolved> {
         let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
         assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
     }
@@ -224,8 +226,8 @@ impl Search<'_> {
         (!joints.is_empty()).then(|| Tipping { phase: phase.clone(), joints })
     }
 
-    /// What a group can do, in the order of preference; verdicts and what is continued are left out where a single phase can follow.
-    fn in_order(
+    /// What a group can do beside what it did before; what is continued is left out where a single phase can follow.
+    fn compared(
         &self,
         group: &Group,
         list: Vec<Assessment>,
@@ -238,10 +240,21 @@ impl Search<'_> {
             let is_present = before.is_some_and(same);
             let continued = |before: &PhaseState| self.is_continued(group, before, &assessment);
             let continues = is_present || state_before.as_ref().is_some_and(continued);
-            let verdict = if alone { Verdict::NotComputed } else { self.verdict(group, &assessment.phase) };
-            Part { assessment, is_present, continues, verdict }
+            Part { assessment, is_present, continues, verdict: Verdict::NotComputed }
         };
-        let mut parts: Vec<Part> = list.into_iter().map(part).collect();
+        list.into_iter().map(part).collect()
+    }
+
+    /// Passes verdicts on what each group can do; for each group the places of its parts in the order of preference.
+    pub(super) fn order(&self, parts: &mut [Vec<Part>]) -> Vec<Vec<usize>> {
+        let groups = self.instant.groups.iter().zip(parts);
+        groups.map(|(group, parts)| self.order_of(group, parts)).collect()
+    }
+
+    fn order_of(&self, group: &Group, parts: &mut [Part]) -> Vec<usize> {
+        for part in &mut *parts {
+            part.verdict = self.verdict(group, &part.assessment.phase);
+        }
         let continues_unattainable =
             |part: &Part| part.continues && !part.is_present && part.verdict == Verdict::Unattainable;
         let follows_unattainable = parts.iter().any(continues_unattainable)
@@ -249,8 +262,11 @@ impl Search<'_> {
                 .event
                 .previous
                 .is_some_and(|previous| self.verdict(group, previous) == Verdict::Unattainable);
-        parts.sort_by_key(|part| self.rank(group, part, follows_unattainable));
-        parts
+        let mut numbers: Vec<usize> = (0..parts.len()).collect();
+        numbers.sort_by_key(|&number| self.rank(group, &parts[number], follows_unattainable));
+        let mut places = vec![0; parts.len()];
+        numbers.into_iter().enumerate().for_each(|(place, number)| places[number] = place);
+        places
     }
 
     /// The verdict about what a group does, all others being locked.

@@ -9,15 +9,15 @@
 
 use super::BOUNDARY;
 use super::assessment::concerns_sticking;
-use super::instant::{Group, Instant};
-use super::program::{Affine, highest};
+use super::instant::Instant;
+use super::outputs::Group;
 use super::system::{Inequality, Question, System as Equations};
 use crate::fault::Fault;
 use crate::interval::{Interval, Sloped};
 use crate::motion::Phase;
 use crate::motion::amounts::Amounts;
 use crate::motion::root::falling_root;
-use crate::standstill::affine::AffineSet;
+use crate::pattern::{Affine, AffineSet, Region};
 use nalgebra::{DMatrix, DVector};
 
 /// A plan ends where a slack falls to this below zero: so what is admissible at the boundary where it begins lasts.
@@ -102,7 +102,7 @@ impl Plan {
         let (best, z) = if together.is_empty() {
             (f64::INFINITY, vec![0.0; dimension])
         } else {
-            highest(&together, dimension).ok()?
+            Region::new(dimension, together).highest().ok()?
         };
         let least: Vec<usize> =
             (0..now.len()).filter(|&i| open(&now[i]) && now[i].at(&z) <= best + EQUAL).collect();
@@ -268,7 +268,7 @@ fn direction(now: &[Affine], slopes: &[Vec<f64>], (least, amount): (&[usize], us
         let scale = if unit > 0.0 { unit } else { 1.0 };
         let right_hand_side = DVector::from_fn(count, |row, _| -slopes[rows[row]][amount] / scale);
         if let Some(solutions) = AffineSet::of(matrix, right_hand_side) {
-            return solutions.particular * scale;
+            return solutions.particular() * scale;
         }
     }
     DVector::zeros(dimension + 1)

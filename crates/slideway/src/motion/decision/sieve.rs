@@ -1,9 +1,10 @@
 //! A fast test of patterns in which everything slides: most of them are far from any state.
 
-use super::instant::{Group, Instant};
-use super::system::{Question, face};
-use crate::model::PreloadLine;
+use super::instant::Instant;
+use super::outputs::Group;
+use super::system::Question;
 use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::pattern::Law;
 
 /// Patterns are excluded only by slacks below this part of the greatest normal force, far beyond rounding ...
 const CLEAR: f64 = 1e-6;
@@ -17,6 +18,7 @@ pub(super) struct Sieve<'s> {
     instant: &'s Instant<'s>,
     group: &'s Group,
     joint: Vec<Option<usize>>,
+    laws: Vec<Law>,
     /// Row by row, the right-hand side last.
     matrix: Vec<f64>,
     pressure: Vec<f64>,
@@ -31,6 +33,7 @@ impl<'s> Sieve<'s> {
             instant,
             group,
             joint: group.contacts.iter().map(|&k| instant.joint_of(k)).collect(),
+            laws: group.contacts.iter().map(|&k| instant.law(k, true)).collect(),
             matrix: vec![0.0; contacts * (contacts + 1)],
             pressure: vec![0.0; contacts],
         }
@@ -42,29 +45,22 @@ impl<'s> Sieve<'s> {
         self.fill(phase).is_some() && self.solve() && (self.is_lifted() || self.is_pushed_back(phase))
     }
 
-    /// mu_k s_k and F_k0 s_k of a contact that slides and is pressed, in units, and the face.
-    fn friction(&self, phase: &Phase, index: usize) -> Option<(f64, f64, usize)> {
+    /// Friction of a contact that slides and is pressed: at both faces the factor of |N_k| and the constant.
+    fn friction(&self, phase: &Phase, index: usize) -> Option<[[f64; 2]; 2]> {
         let k = self.group.contacts[index];
         let (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) =
             (phase.joints[self.joint[index]?], phase.contacts[k])
         else {
             return None;
         };
-        let (contact, face) = (self.instant.contact(k), face(side));
-        let preload = contact.preload[face] / self.instant.units_of(k).force;
-        Some((contact.mu[face] * sign, preload * sign, face))
+        Some(self.laws[index].kinetic(side, sign))
     }
 
     /// What a friction adds to an output, by its own force and by the preload, for a unit of pressure.
-    fn effect(&self, row: usize, index: usize, (mu, preload, face): (f64, f64, usize)) -> (f64, f64) {
+    fn effect(&self, row: usize, index: usize, [plus, minus]: [[f64; 2]; 2]) -> [f64; 2] {
         let k = self.group.contacts[index];
-        let [plus, minus] = [0, 1].map(|side| self.question.outputs.columns[side][(row, k)]);
-        let own = if face == 0 { plus } else { minus };
-        let at_preload = match self.instant.contact(k).preload_line {
-            PreloadLine::Pressed => own,
-            PreloadLine::Centre => f64::midpoint(plus, minus),
-        };
-        (own * mu, at_preload * preload)
+        let [at_plus, at_minus] = [0, 1].map(|side| self.question.outputs.columns[side][(row, k)]);
+        [0, 1].map(|part| at_plus * plus[part] + at_minus * minus[part])
     }
 
     fn fill(&mut self, phase: &Phase) -> Option<()> {
@@ -76,11 +72,12 @@ impl<'s> Sieve<'s> {
         for k in 0..contacts {
             let friction = self.friction(phase, k)?;
             for row in 0..contacts {
-                let (own, preload) = self.effect(self.group.contacts[row], k, friction);
+                let [own, preload] = self.effect(self.group.contacts[row], k, friction);
                 self.matrix[row * width + k] = -own;
                 self.matrix[row * width + contacts] += preload;
             }
-            self.matrix[k * width + k] += if friction.2 == 0 { 1.0 } else { -1.0 };
+            let ContactPhase::Pressed(side) = phase.contacts[self.group.contacts[k]] else { return None };
+            self.matrix[k * width + k] += side.sign();
         }
         Some(())
     }
@@ -137,7 +134,7 @@ impl<'s> Sieve<'s> {
             let mut greatest = acceleration.abs();
             for (k, pressure) in self.pressure.iter().enumerate() {
                 let Some(friction) = self.friction(phase, k) else { return false };
-                let (own, preload) = self.effect(row, k, friction);
+                let [own, preload] = self.effect(row, k, friction);
                 acceleration += own * pressure + preload;
                 greatest = greatest.max((own * pressure).abs()).max(preload.abs());
             }

@@ -1,7 +1,8 @@
 //! Accelerations and reactions of a phase.
 
 use super::assessment::Assessment;
-use super::instant::{Group, Instant};
+use super::instant::Instant;
+use super::outputs::Group;
 use crate::influence::ContactFriction;
 use crate::kinetics::Layout;
 use crate::motion::{JointPhase, Phase};
@@ -43,7 +44,7 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
     let frictions: Vec<ContactFriction> = forces.frictions.iter().enumerate().map(scaled).collect();
     let unknowns = instant.influence.unknowns(&frictions);
     let sliding = instant.joints.iter().zip(&assessment.phase.joints);
-    let acceleration = |(joint, phase): (&super::instant::SlidingJoint, &JointPhase)| match phase {
+    let acceleration = |(joint, phase): (&super::joints::SlidingJoint, &JointPhase)| match phase {
         JointPhase::Sticking => 0.0,
         JointPhase::Sliding(_) => joint.row.acceleration(&unknowns),
     };

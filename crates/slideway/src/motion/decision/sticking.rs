@@ -52,7 +52,7 @@ pub fn sticking_margin(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let found = assess(&instant, &instant.question(&stopped), phase, (BOUNDARY, ENOUGH));
+    let found = assess(&instant, &instant.question(&stopped, Some(phase)), phase, (BOUNDARY, ENOUGH));
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
 
@@ -69,7 +69,7 @@ pub fn sticking(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let question = instant.question(&stopped);
+    let question = instant.question(&stopped, Some(phase));
     let Ok(Some(assessment)) = assess(&instant, &question, phase, (BOUNDARY, f64::INFINITY)) else {
         return Ok(None);
     };

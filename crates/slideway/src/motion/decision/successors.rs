@@ -1,13 +1,13 @@
 //! The phases that can follow at an instant.
 
-use super::assessment::{Assessment, assess};
+use super::assessment::{Assessment, Decisive};
 use super::elastic::attainability;
 use super::growth::standing;
 use super::instant::Instant;
 use super::parts::{Detail, Part, Search};
 use super::state::{PhaseState, state};
-use super::sticking::ENOUGH;
-use super::{BOUNDARY, Limit, Standing};
+use super::vanishing::vanish;
+use super::{Limit, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
@@ -107,7 +107,7 @@ pub fn successors(
 ) -> Result<Successors, Faults> {
     let instant = Instant::looking_ahead(mechanism, configuration)?;
     instant.check_joints(stopped.len())?;
-    let sign = |(joint, stopped): (&super::instant::SlidingJoint, &bool)| match joint.velocity {
+    let sign = |(joint, stopped): (&super::joints::SlidingJoint, &bool)| match joint.velocity {
         0.0 => 0.0,
         _ if *stopped => 0.0,
         velocity => velocity.signum(),
@@ -143,17 +143,31 @@ fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> 
     let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
     let event = &motion::Instant { signs: &signs, ..*event };
     let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
-    let question = instant.question(&stopped);
+    let question = instant.question(&stopped, None);
     let search = Search { instant, event, question: &question, detail };
     let mut found = Successors { complete: true, ..Successors::default() };
-    let parts = search.parts(&mut found)?;
-    let start = Assessment::nothing(&search.any_phase());
-    for chosen in choices(&parts, &mut found.complete) {
-        let whole = instant.groups.iter().zip(&chosen);
-        let whole = whole.fold(start.clone(), |whole, (group, part)| whole.with(group, &part.assessment));
-        let at = (instant, &question, &whole);
-        match standing(event.mechanism, event.configuration, at) {
-            Ok(standing) => found.list.push(successor(&search, &whole, (&chosen, standing))),
+    let mut parts = search.parts(&mut found)?;
+    let is_few =
+        parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len())) <= MOST_COMBINATIONS;
+    found.complete &= is_few;
+    let order = if is_few { None } else { Some(search.order(&mut parts)) };
+    let mut outcomes: Vec<Outcome> = choices(&parts, order.as_deref())
+        .into_iter()
+        .map(|chosen| outcome(&search, &parts, chosen))
+        .collect();
+    // Verdicts take time, and so the order is asked for only where several phases can follow, or none.
+    let following = outcomes.iter().filter(|outcome| outcome.standing.is_ok()).count();
+    if is_few && outcomes.len() > 1 && following != 1 {
+        let order = search.order(&mut parts);
+        let place = |outcome: &Outcome| -> Vec<usize> {
+            order.iter().zip(&outcome.chosen).map(|(places, part)| places[*part]).collect()
+        };
+        outcomes.sort_by_cached_key(place);
+    }
+    for Outcome { chosen, whole, standing } in outcomes {
+        let parts: Vec<&Part> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
+        match standing {
+            Ok(standing) => found.list.push(successor(&search, &whole, (&parts, standing))),
             Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
         }
     }
@@ -175,35 +189,38 @@ fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> 
     Ok(found)
 }
 
-/// Makes exactly zero in the previous phase what the event has found to be zero.
-fn vanish(instant: &mut Instant<'_>, event: &motion::Instant<'_>, previous: &Phase) {
-    if event.zero.is_empty() {
-        return;
-    }
-    let stopped = vec![false; instant.joints.len()];
-    let before = assess(instant, &instant.question(&stopped), previous, (BOUNDARY, ENOUGH));
-    if let Ok(Some(before)) = before {
-        let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
-        instant.vanish(&contacts, &before);
-    }
+/// What becomes of a choice of one part for each group.
+struct Outcome {
+    chosen: Vec<usize>,
+    whole: Assessment,
+    standing: Result<Standing, Vec<Decisive>>,
 }
 
-/// Every way to choose one part for each group, the preferred ones first; if there are too many, those in which all groups
-/// but one take the preferred one.
-fn choices<'p>(parts: &'p [Vec<Part>], complete: &mut bool) -> Vec<Vec<&'p Part>> {
-    let references: Vec<Vec<&Part>> = parts.iter().map(|parts| parts.iter().collect()).collect();
-    let count = parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len()));
-    if count <= MOST_COMBINATIONS {
-        return combinations(&references);
+fn outcome(search: &Search<'_>, parts: &[Vec<Part>], chosen: Vec<usize>) -> Outcome {
+    let Search { instant, event, question, .. } = *search;
+    let mut whole = Assessment::nothing(&search.any_phase());
+    for (group, (parts, &part)) in instant.groups.iter().zip(parts.iter().zip(&chosen)) {
+        whole = whole.with(group, &parts[part].assessment);
     }
-    *complete = false;
-    let first: Vec<&Part> = references.iter().map(|parts| parts[0]).collect();
-    let others = references.iter().enumerate().flat_map(|(group, parts)| {
+    let standing = standing(event.configuration, (instant, question, &whole));
+    Outcome { chosen, whole, standing }
+}
+
+/// Every way to choose one part for each group; if there are so many that their places in the order of preference are given, those
+/// in which all groups but one take the preferred one.
+fn choices(parts: &[Vec<Part>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
+    let Some(order) = order else {
+        let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
+        return combinations(&numbers);
+    };
+    let at_place = |group: usize, place: usize| order[group].iter().position(|other| *other == place);
+    let first: Vec<usize> = (0..parts.len()).filter_map(|group| at_place(group, 0)).collect();
+    let others = (0..parts.len()).flat_map(|group| {
         let first = &first;
-        parts[1..].iter().map(move |part| {
+        (1..parts[group].len()).filter_map(move |place| {
             let mut chosen = first.clone();
-            chosen[group] = part;
-            chosen
+            chosen[group] = at_place(group, place)?;
+            Some(chosen)
         })
     });
     std::iter::once(first.clone()).chain(others).collect()

@@ -1,41 +1,12 @@
 //! One pattern of sticking and slipping joints and of sides as linear equations and inequalities.
 
-use super::instant::{Group, Instant, Outputs, SlidingJoint};
-use super::program::Affine;
-use crate::ids::ContactId;
+use super::instant::Instant;
+use super::joints::SlidingJoint;
+use super::outputs::{Group, Outputs};
 use crate::influence::ContactFriction;
-use crate::model::PreloadLine;
-use crate::modes::Side;
 use crate::motion::{ContactPhase, JointPhase, Phase};
-use crate::standstill::affine::AffineSet;
+use crate::pattern::{Affine, AffineSet, Bound, Expression, Friction, without_tipping};
 use nalgebra::{DMatrix, DVector};
-
-/// Coefficients below this are rounding errors of terms of order one.
-const NO_COEFFICIENT: f64 = 1e-12;
-
-/// An affine expression of the unknowns of a pattern.
-#[derive(Debug, Clone, Default)]
-struct Expression {
-    terms: Vec<(usize, f64)>,
-    constant: f64,
-}
-
-impl Expression {
-    fn unknown(index: usize, factor: f64) -> Self {
-        Self { terms: vec![(index, factor)], constant: 0.0 }
-    }
-
-    fn plus(mut self, factor: f64, other: &Self) -> Self {
-        self.terms.extend(other.terms.iter().map(|(index, value)| (*index, factor * value)));
-        self.constant += factor * other.constant;
-        self
-    }
-
-    fn shifted(mut self, constant: f64) -> Self {
-        self.constant += constant;
-        self
-    }
-}
 
 /// What an inequality of a pattern is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,14 +57,8 @@ pub(super) struct System<'s> {
     question: &'s Question<'s>,
     pub(super) phase: &'s Phase,
     pub(super) group: &'s Group,
-    /// Friction of each contact at both faces.
-    friction: Vec<[Expression; 2]>,
-    /// |N_k|, nothing in a preload gap.
-    pressure: Vec<Option<usize>>,
-    /// Unknown frictions of contacts that stick: at the faces, and in the middle between them.
-    sticking: Vec<[Option<usize>; 3]>,
-    /// Share of the positive face in a preload gap that slips.
-    share: Vec<Option<usize>>,
+    /// Friction of each contact of the group.
+    friction: Vec<Option<Friction>>,
     /// Forces of the end stops at which joints rest: the joint, and the unknown.
     stops: Vec<(usize, usize)>,
     unknowns: usize,
@@ -108,22 +73,18 @@ impl<'s> System<'s> {
         phase: &'s Phase,
         group: &'s Group,
     ) -> Option<Self> {
-        let contacts = phase.contacts.len();
         let mut system = Self {
             instant,
             question,
             phase,
             group,
-            friction: vec![Default::default(); contacts],
-            pressure: vec![None; contacts],
-            sticking: vec![[None; 3]; contacts],
-            share: vec![None; contacts],
+            friction: vec![None; phase.contacts.len()],
             stops: Vec::new(),
             unknowns: 0,
-            solutions: AffineSet { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) },
+            solutions: AffineSet::empty(),
         };
         for &k in &group.contacts {
-            system.friction[k] = system.friction_of(k);
+            system.friction[k] = Some(system.new_friction(k));
         }
         for joint in system.bound_joints().into_iter().filter(|&joint| instant.joints[joint].stop != 0.0) {
             let unknown = system.new_unknown();
@@ -136,7 +97,7 @@ impl<'s> System<'s> {
 
     /// Dimension of what the equations leave open.
     pub(super) fn dimension(&self) -> usize {
-        self.solutions.directions.ncols()
+        self.solutions.dimension()
     }
 
     /// Whether some equations follow from others by chance, so that they could contradict each other at another instant:
@@ -151,111 +112,32 @@ impl<'s> System<'s> {
         self.instant.joint_of(k).map_or(JointPhase::Sticking, |joint| self.phase.joints[joint])
     }
 
-    fn preload(&self, k: usize) -> [f64; 2] {
-        if !self.question.has_preload {
-            return [0.0; 2];
-        }
-        self.instant.contact(k).preload.map(|preload| preload / self.instant.units_of(k).force)
-    }
-
     fn new_unknown(&mut self) -> usize {
         self.unknowns += 1;
         self.unknowns - 1
     }
 
-    fn friction_of(&mut self, k: usize) -> [Expression; 2] {
-        match (self.joint(k), self.phase.contacts[k]) {
-            (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) => self.sliding(k, sign, side),
-            (JointPhase::Sliding(sign), ContactPhase::PreloadGap) => {
-                let share = self.new_unknown();
-                self.share[k] = Some(share);
-                // (share F_0^+ W^+ + (1 - share) F_0^- W^-) s
-                let [plus, minus] = self.preload(k).map(|preload| preload * sign);
-                let faces =
-                    [Expression::unknown(share, plus), Expression::unknown(share, -minus).shifted(minus)];
-                match self.instant.contact(k).preload_line {
-                    PreloadLine::Pressed => faces,
-                    PreloadLine::Centre => {
-                        let [plus, minus] = &faces;
-                        let half = Expression::default().plus(0.5, plus).plus(0.5, minus);
-                        [half.clone(), half]
-                    }
-                }
-            }
-            (JointPhase::Sticking, ContactPhase::Pressed(side)) => self.held(k, side),
-            (JointPhase::Sticking, ContactPhase::PreloadGap) => self.held_in_gap(k),
-        }
+    fn new_friction(&mut self, k: usize) -> Friction {
+        let (joint, contact) = (self.joint(k), self.phase.contacts[k]);
+        let pressure = match contact {
+            ContactPhase::Pressed(_) => Expression::unknown(self.new_unknown(), 1.0),
+            ContactPhase::PreloadGap => Expression::default(),
+        };
+        let law = self.instant.law(k, self.question.has_preload);
+        Friction::new(law, (joint, contact), pressure, || self.new_unknown())
     }
 
-    /// The unknown friction of a contact that sticks in its preload gap: at both faces, or in the middle between them where
-    /// it is the same there.
-    fn held_in_gap(&mut self, k: usize) -> [Expression; 2] {
-        let mut faces = [Expression::default(), Expression::default()];
-        if !self.instant.mechanism.preload_changes_face(ContactId(k)) {
-            let unknown = self.new_unknown();
-            self.sticking[k][2] = Some(unknown);
-            return faces.map(|both| both.plus(0.5, &Expression::unknown(unknown, 1.0)));
-        }
-        let preload = self.preload(k);
-        for face in [0, 1] {
-            if preload[face] > 0.0 {
-                let unknown = self.new_unknown();
-                self.sticking[k][face] = Some(unknown);
-                faces[face] = Expression::unknown(unknown, 1.0);
-            }
-        }
-        faces
-    }
-
-    /// F_k = (mu_k |N_k| + F_k0) s_k, eq. (2).
-    fn sliding(&mut self, k: usize, sign: f64, side: Side) -> [Expression; 2] {
-        let face = face(side);
-        let pressure = self.new_unknown();
-        self.pressure[k] = Some(pressure);
-        let contact = self.instant.contact(k);
-        let preload = self.preload(k)[face] * sign;
-        let mut faces = [Expression::default(), Expression::default()];
-        if contact.mu[face] != 0.0 {
-            faces[face] = Expression::unknown(pressure, contact.mu[face] * sign);
-        }
-        match contact.preload_line {
-            PreloadLine::Pressed => faces[face].constant += preload,
-            PreloadLine::Centre => {
-                for both in &mut faces {
-                    both.constant += preload / 2.0;
-                }
-            }
-        }
-        faces
-    }
-
-    /// The unknown friction of a contact that sticks.
-    fn held(&mut self, k: usize, side: Side) -> [Expression; 2] {
-        let face = face(side);
-        self.pressure[k] = Some(self.new_unknown());
-        let contact = self.instant.contact(k);
-        let preload = self.preload(k)[face];
-        let centred = contact.preload_line == PreloadLine::Centre;
-        let mut faces = [Expression::default(), Expression::default()];
-        if contact.mu_static[face] > 0.0 || (preload > 0.0 && !centred) {
-            let unknown = self.new_unknown();
-            self.sticking[k][face] = Some(unknown);
-            faces[face] = Expression::unknown(unknown, 1.0);
-        }
-        if preload > 0.0 && centred {
-            let unknown = self.new_unknown();
-            self.sticking[k][2] = Some(unknown);
-            faces = faces.map(|both| both.plus(0.5, &Expression::unknown(unknown, 1.0)));
-        }
-        faces
+    /// The contacts of the group, with their friction.
+    fn contacts(&self) -> impl Iterator<Item = (usize, &Friction)> {
+        self.group.contacts.iter().filter_map(|&k| Some((k, self.friction[k].as_ref()?)))
     }
 
     /// An output as an expression of the unknowns.
     fn output(&self, row: usize) -> Expression {
         let outputs = self.question.outputs;
-        let mut expression = Expression::default().shifted(outputs.base[row]);
-        for &k in &self.group.contacts {
-            for (face, friction) in self.friction[k].iter().enumerate() {
+        let mut expression = Expression::constant(outputs.base[row]);
+        for (k, friction) in self.contacts() {
+            for (face, friction) in friction.faces.iter().enumerate() {
                 let factor = outputs.columns[face][(row, k)];
                 if factor != 0.0 {
                     expression = expression.plus(factor, friction);
@@ -277,9 +159,9 @@ impl<'s> System<'s> {
         let contacts = self.group.contacts.len();
         let mut matrix = DMatrix::zeros(contacts + bound.len(), self.unknowns);
         let mut right_hand_side = DVector::zeros(contacts + bound.len());
-        for (row, &k) in self.group.contacts.iter().enumerate() {
-            let normal = self.normal_force(k);
-            write(row, &self.output(k).plus(-1.0, &normal), &mut matrix, &mut right_hand_side);
+        for (row, (k, friction)) in self.contacts().enumerate() {
+            let equation = self.output(k).plus(-1.0, &friction.normal_force());
+            write(row, &equation, &mut matrix, &mut right_hand_side);
         }
         for (index, &joint) in bound.iter().enumerate() {
             let acceleration = self.output(self.instant.sliding_output(joint));
@@ -297,53 +179,28 @@ impl<'s> System<'s> {
         self.group.joints.iter().copied().filter(is_bound).collect()
     }
 
-    fn normal_force(&self, k: usize) -> Expression {
-        match (self.phase.contacts[k], self.pressure[k]) {
-            (ContactPhase::Pressed(side), Some(pressure)) => Expression::unknown(pressure, side.sign()),
-            _ => Expression::default(),
-        }
-    }
-
-    /// An expression as a function of what the equations leave open.
-    fn function(&self, expression: &Expression) -> Affine {
-        let mut coefficients = vec![0.0; self.dimension()];
-        let mut constant = expression.constant;
-        for &(column, factor) in &expression.terms {
-            constant += factor * self.solutions.particular[column];
-            for (index, coefficient) in coefficients.iter_mut().enumerate() {
-                *coefficient += factor * self.solutions.directions[(column, index)];
-            }
-        }
-        for coefficient in &mut coefficients {
-            if coefficient.abs() <= NO_COEFFICIENT {
-                *coefficient = 0.0;
-            }
-        }
-        Affine { coefficients, constant }
-    }
-
     /// The normal force of a contact, in units; nothing where the equations leave it open.
     pub(super) fn determined_normal_force(&self, k: usize) -> Option<f64> {
-        let normal = self.function(&self.normal_force(k));
-        normal.coefficients.iter().all(|coefficient| *coefficient == 0.0).then_some(normal.constant)
+        let normal = self.solutions.function(&self.friction[k].as_ref()?.normal_force());
+        (!normal.varies()).then_some(normal.constant)
     }
 
     /// Every inequality of the pattern.
     pub(super) fn inequalities(&self) -> Vec<Inequality> {
         let mut all = Vec::new();
         let mut add = |subject: Subject, slack: Expression| {
-            all.push(Inequality { subject, slack: self.function(&slack) });
+            all.push(Inequality { subject, slack: self.solutions.function(&slack) });
         };
-        for &k in &self.group.contacts {
-            if let Some(pressure) = self.pressure[k] {
-                add(Subject::Pressure(k), Expression::unknown(pressure, 1.0));
-            }
-            if let Some(share) = self.share[k] {
-                add(Subject::Share(k), Expression::unknown(share, 1.0));
-                add(Subject::Share(k), Expression::unknown(share, -1.0).shifted(1.0));
-            }
-            for slack in self.cone(k) {
-                add(Subject::Friction(k), slack);
+        for (k, friction) in self.contacts() {
+            let of_joint = |(joint, _): &(usize, f64)| self.instant.joint_of(k) == Some(*joint);
+            let opposes = self.question.opposes.filter(of_joint).map(|(_, sign)| sign);
+            for (bound, slack) in friction.bounds(self.instant.contact(k).mu_static, opposes) {
+                let subject = match bound {
+                    Bound::Pressure => Subject::Pressure(k),
+                    Bound::Share => Subject::Share(k),
+                    Bound::Friction => Subject::Friction(k),
+                };
+                add(subject, slack);
             }
         }
         for &(joint, force) in &self.stops {
@@ -351,14 +208,10 @@ impl<'s> System<'s> {
         }
         for (row, joint) in self.instant.couple_outputs() {
             let (Some((half, _)), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
-            if !self.group.contacts.contains(k) {
-                continue;
-            }
+            let Some(friction) = &self.friction[*k] else { continue };
             let half = half / self.instant.units.length;
-            let pressure =
-                self.pressure[*k].map_or_else(Expression::default, |p| Expression::unknown(p, half));
-            for sign in [1.0, -1.0] {
-                add(Subject::Couple(*k), pressure.clone().plus(sign, &self.output(row)));
+            for slack in without_tipping(&friction.pressure, &self.output(row), half) {
+                add(Subject::Couple(*k), slack);
             }
         }
         for &joint in &self.group.joints {
@@ -367,77 +220,27 @@ impl<'s> System<'s> {
                 && self.instant.joints[joint].has_friction
             {
                 let acceleration = self.output(self.instant.sliding_output(joint));
-                add(Subject::Slip(joint), Expression::default().plus(sign, &acceleration));
+                add(Subject::Slip(joint), acceleration.times(sign));
                 if sign == self.instant.joints[joint].stop {
                     // Nothing slides into its stop.
-                    add(Subject::Slip(joint), Expression::default().shifted(-1.0));
+                    add(Subject::Slip(joint), Expression::constant(-1.0));
                 }
             }
         }
         all
     }
 
-    /// |F_k| <= mu_static |N_k| + F_k0 of a contact that sticks.
-    fn cone(&self, k: usize) -> Vec<Expression> {
-        let preload = self.preload(k);
-        let opposes = self.question.opposes;
-        let opposed =
-            opposes.filter(|(joint, _)| self.instant.joint_of(k) == Some(*joint)).map(|(_, sign)| sign);
-        let both = |unknown: usize, limit: &Expression| match opposed {
-            None => [1.0, -1.0].map(|sign| limit.clone().plus(sign, &Expression::unknown(unknown, 1.0))),
-            Some(sign) => [
-                Expression::unknown(unknown, sign),
-                limit.clone().plus(-sign, &Expression::unknown(unknown, 1.0)),
-            ],
-        };
-        match (self.phase.contacts[k], self.sticking[k]) {
-            (ContactPhase::PreloadGap, [Some(plus), Some(minus), _]) => {
-                // F^+/F_0^+ + F^-/F_0^- <= 1 for all signs, in units of the lesser preload.
-                let least = preload[0].min(preload[1]);
-                let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
-                let corner = |(first, second): (f64, f64)| {
-                    Expression::unknown(plus, first * least / preload[0])
-                        .plus(second * least / preload[1], &Expression::unknown(minus, 1.0))
-                        .shifted(least)
-                };
-                signs.into_iter().map(corner).collect()
-            }
-            (ContactPhase::PreloadGap, faces) => {
-                // In the middle between the faces share F_0^+ + (1 - share) F_0^- is at most the greater of both.
-                let limits = [preload[0], preload[1], preload[0].max(preload[1])];
-                let found = faces.into_iter().zip(limits);
-                found
-                    .filter_map(|(unknown, limit)| Some((unknown?, limit)))
-                    .flat_map(|(unknown, limit)| both(unknown, &Expression::default().shifted(limit)))
-                    .collect()
-            }
-            (ContactPhase::Pressed(side), faces) => {
-                let contact = self.instant.contact(k);
-                let centred = contact.preload_line == PreloadLine::Centre;
-                let mu = contact.mu_static[face(side)];
-                let preload = preload[face(side)];
-                let pressure =
-                    self.pressure[k].map_or_else(Expression::default, |p| Expression::unknown(p, mu));
-                let at_face = pressure.shifted(if centred { 0.0 } else { preload });
-                let at_centre = Expression::default().shifted(preload);
-                let face = faces[face(side)].map(|unknown| both(unknown, &at_face));
-                let centre = faces[2].map(|unknown| both(unknown, &at_centre));
-                face.into_iter().chain(centre).flatten().collect()
-            }
-        }
-    }
-
     fn value(&self, expression: &Expression, z: &[f64]) -> f64 {
-        self.function(expression).at(z)
+        self.solutions.function(expression).at(z)
     }
 
     /// Adds the forces of this group to those of all contacts.
     pub(super) fn write_forces(&self, z: &[f64], forces: &mut Forces) {
-        for &k in &self.group.contacts {
-            let [positive_face, negative_face] = [0, 1].map(|face| self.value(&self.friction[k][face], z));
+        for (k, friction) in self.contacts() {
+            let [positive_face, negative_face] = friction.faces.each_ref().map(|face| self.value(face, z));
             forces.frictions[k] = ContactFriction { positive_face, negative_face };
-            forces.normal[k] = self.value(&self.normal_force(k), z);
-            forces.shares[k] = self.share[k].map(|share| self.value(&Expression::unknown(share, 1.0), z));
+            forces.normal[k] = self.value(&friction.normal_force(), z);
+            forces.shares[k] = friction.share.map(|share| self.value(&Expression::unknown(share, 1.0), z));
         }
         for &(joint, force) in &self.stops {
             let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
@@ -468,9 +271,4 @@ fn write(row: usize, expression: &Expression, matrix: &mut DMatrix<f64>, right_h
     let factor = if greatest > 0.0 { 1.0 / greatest } else { 1.0 };
     matrix.row_mut(row).scale_mut(factor);
     right_hand_side[row] = -expression.constant * factor;
-}
-
-/// Which of two versions belongs to a side.
-pub(super) fn face(side: Side) -> usize {
-    usize::from(side == Side::Negative)
 }

@@ -5,8 +5,9 @@ use crate::configuration::Configuration;
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::{ConstraintRow, Wrench, effort_forces, friction_forces};
 use crate::mechanism::{CoordinateKind, rot90};
-use crate::model::PreloadLine;
+use crate::modes::Side;
 use crate::motion::linear::LinearSystem;
+use crate::pattern::face;
 
 impl Equations<'_> {
     /// Writes the matrix, and the right-hand side in place of the unknowns.
@@ -53,7 +54,7 @@ impl Equations<'_> {
     /// where a step may look before it is cut, the formula goes on smoothly with a negative number if it has a value there.
     fn update_friction(&mut self) -> Result<(), Failure> {
         for (k, rubbing) in self.rubbing.iter_mut().enumerate() {
-            if let Rubbing::Pressed { sigma, mu, sign, .. } = rubbing
+            if let Rubbing::Pressed { side, sign, faces } = rubbing
                 && self.mechanism.contacts[k].depends_on_speed()
             {
                 let forwards = *sign * self.contacts[k].sliding_velocity;
@@ -64,8 +65,8 @@ impl Equations<'_> {
                 if forwards < 0.0 && found.is_err() {
                     found = at(-forwards);
                 }
-                let [positive, negative] = found.map_err(|fault| Failure::Loads(fault.into()))?;
-                *mu = if *sigma < 0.0 { negative } else { positive };
+                let mu = found.map_err(|fault| Failure::Loads(fault.into()))?;
+                faces[face(*side)][0] = mu[face(*side)] * *sign;
             }
         }
         Ok(())
@@ -73,41 +74,24 @@ impl Equations<'_> {
 
     fn assemble_friction(&mut self) {
         for (k, rubbing) in self.rubbing.iter().enumerate() {
-            let column = self.normal[k];
-            let preload_face = |sigma: f64| match self.mechanism.contacts[k].preload_line {
-                PreloadLine::Pressed => sigma,
-                PreloadLine::Centre => 0.0,
-            };
-            let forces = |sigma: f64, friction: f64| {
-                friction_forces(self.mechanism, ContactId(k), &self.contacts[k], sigma, friction)
-            };
-            match *rubbing {
-                Rubbing::Sticking => {}
-                Rubbing::Pressed { sigma, mu, preload, sign } => {
-                    if mu != 0.0 {
-                        for wrench in forces(sigma, mu * sigma * sign) {
-                            add(&self.configuration, &wrench, |row, value| {
-                                self.system.add(row, column, -value);
-                            });
-                        }
-                    }
-                    if preload != 0.0 {
-                        for wrench in forces(preload_face(sigma), preload * sign) {
-                            add(&self.configuration, &wrench, |row, value| self.unknowns[row] += value);
-                        }
-                    }
+            let (column, sigma, faces) = match rubbing {
+                Rubbing::Sticking => continue,
+                Rubbing::Pressed { side, faces, .. } => (self.normal[k], side.sign(), faces),
+                Rubbing::Gap { faces, share } => {
+                    self.system.clear_column(*share);
+                    (*share, 1.0, faces)
                 }
-                // d = share d^+ + (1 - share) d^-
-                Rubbing::Gap { preload: [positive, negative], sign, share: column } => {
-                    self.system.clear_column(column);
-                    let at_negative = forces(preload_face(-1.0), negative * sign);
-                    for wrench in &at_negative {
-                        add(&self.configuration, wrench, |row, value| self.unknowns[row] += value);
-                        add(&self.configuration, wrench, |row, value| self.system.add(row, column, value));
-                    }
-                    for wrench in &forces(preload_face(1.0), positive * sign) {
-                        add(&self.configuration, wrench, |row, value| self.system.add(row, column, -value));
-                    }
+            };
+            for (side, [factor, constant]) in Side::BOTH.into_iter().zip(*faces) {
+                if [factor, constant] == [0.0; 2] {
+                    continue;
+                }
+                let contact = &self.contacts[k];
+                for wrench in friction_forces(self.mechanism, ContactId(k), contact, side.sign(), 1.0) {
+                    add(&self.configuration, &wrench, |row, value| {
+                        self.system.add(row, column, -value * factor * sigma);
+                        self.unknowns[row] += value * constant;
+                    });
                 }
             }
         }

@@ -25,6 +25,7 @@ pub(super) use rest::joint_rests;
 
 use super::linear::{Determinant, LinearSystem};
 use super::phase::Phase;
+pub(super) use super::phase::sliding_joints;
 use super::stepper::Derivative;
 use super::switching::Switching;
 use crate::configuration::{Configuration, ContactGeometry};
@@ -32,6 +33,7 @@ use crate::fault::Faults;
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
 use crate::mechanism::Mechanism;
+use crate::modes::Side;
 use nalgebra::{DMatrix, Vector2};
 
 /// Ratio of pivots from which on the equations count as singular.
@@ -49,10 +51,10 @@ pub(super) enum Failure {
 /// What the friction of a contact is within a phase.
 #[derive(Debug, Clone, Copy)]
 enum Rubbing {
-    /// F = (mu sigma N + preload) sign, at the face of `sigma`.
-    Pressed { sigma: f64, mu: f64, preload: f64, sign: f64 },
-    /// N = 0, F = (share preload[0] + (1 - share) preload[1]) sign; the share stands in this column of the unknowns.
-    Gap { preload: [f64; 2], sign: f64, share: usize },
+    /// At each face so many times |N|, and a constant.
+    Pressed { side: Side, sign: f64, faces: [[f64; 2]; 2] },
+    /// N = 0; at each face so many times the share, which stands in this column of the unknowns, and a constant.
+    Gap { faces: [[f64; 2]; 2], share: usize },
     /// The joint sticks: its tangential force stands for all its contacts.
     Sticking,
 }
@@ -108,7 +110,6 @@ pub(super) struct Equations<'m> {
     /// Accelerations, reactions, efforts, tangential forces.
     unknowns: Vec<f64>,
     work: Vec<f64>,
-    condition: f64,
     /// How often they were evaluated.
     pub(super) evaluations: u64,
 }
@@ -135,7 +136,6 @@ impl<'m> Equations<'m> {
             system: LinearSystem::new(0),
             unknowns: Vec::new(),
             work: Vec::new(),
-            condition: 1.0,
             evaluations: 0,
             layout,
         }
@@ -156,7 +156,7 @@ impl<'m> Equations<'m> {
         state
     }
 
-    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations.
+    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations, and solves them there.
     ///
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
@@ -172,7 +172,7 @@ impl<'m> Equations<'m> {
         let (rows, columns) =
             equilibration(&DMatrix::from_fn(size, size, |row, column| self.system.entry(row, column)));
         self.system.set_scales(rows.as_slice(), columns.as_slice());
-        self.evaluate(time, state)
+        self.solve()
     }
 
     /// Takes over a state; cheap, and enough for whatever depends on positions and velocities alone.
@@ -205,15 +205,27 @@ impl<'m> Equations<'m> {
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
     pub(super) fn evaluate(&mut self, time: f64, state: &[f64]) -> Result<(), Failure> {
-        self.evaluations += 1;
         self.place(time, state);
         self.assemble()?;
-        self.condition = self.system.factor();
-        if self.condition > SINGULAR {
+        self.solve()
+    }
+
+    /// Solves the equations that have been assembled.
+    fn solve(&mut self) -> Result<(), Failure> {
+        self.evaluations += 1;
+        if self.system.factor() > SINGULAR {
             return Err(Failure::Singular);
         }
         self.system.solve(&mut self.unknowns);
         if self.unknowns.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(Failure::Singular) }
+    }
+
+    /// The rates of the components of a state at which the equations have just been solved.
+    pub(super) fn write_rates(&self, state: &[f64], rates: &mut [f64]) {
+        let bodies = 3 * self.mechanism.bodies.len();
+        rates[..bodies].copy_from_slice(&state[bodies..2 * bodies]);
+        rates[bodies..2 * bodies].copy_from_slice(self.accelerations());
+        super::energy::powers(self, &mut rates[2 * bodies..]);
     }
 
     /// Accelerations of the bodies at the last evaluation: (x, y, angle) of each.
@@ -254,16 +266,12 @@ impl<'m> Equations<'m> {
 
     /// Friction force of a contact whose joint slides, eq. (2).
     pub(super) fn friction_force(&self, k: usize) -> Option<f64> {
-        match self.rubbing[k] {
-            Rubbing::Pressed { sigma, mu, preload, sign } => {
-                Some((mu * sigma * self.normal_force(k) + preload) * sign)
-            }
-            Rubbing::Gap { preload: [positive, negative], sign, share } => {
-                let share = self.unknowns[share];
-                Some((share * positive + (1.0 - share) * negative) * sign)
-            }
-            Rubbing::Sticking => None,
-        }
+        let (value, faces) = match self.rubbing[k] {
+            Rubbing::Pressed { side, faces, .. } => (side.sign() * self.normal_force(k), faces),
+            Rubbing::Gap { faces, share } => (self.unknowns[share], faces),
+            Rubbing::Sticking => return None,
+        };
+        Some(faces.iter().map(|[factor, constant]| factor * value + constant).sum())
     }
 
     /// Effort of a drive.
@@ -297,16 +305,7 @@ impl Derivative for Equations<'_> {
 
     fn derivative(&mut self, time: f64, state: &[f64], rate: &mut [f64]) -> Result<(), Failure> {
         self.evaluate(time, state)?;
-        let bodies = 3 * self.mechanism.bodies.len();
-        rate[..bodies].copy_from_slice(&state[bodies..2 * bodies]);
-        rate[bodies..2 * bodies].copy_from_slice(self.accelerations());
-        super::energy::powers(self, &mut rate[2 * bodies..]);
+        self.write_rates(state, rate);
         Ok(())
     }
-}
-
-/// The sliding joints of a mechanism, in their order.
-pub(super) fn sliding_joints(mechanism: &Mechanism) -> Vec<JointId> {
-    let joints = (0..mechanism.joints.len()).map(JointId);
-    joints.filter(|joint| mechanism.slider(*joint).is_some()).collect()
 }

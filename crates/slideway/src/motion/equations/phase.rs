@@ -4,8 +4,7 @@ use super::{Equations, Rubbing, Stuck};
 use crate::ids::JointId;
 use crate::kinetics::{ConstraintRow, Reaction};
 use crate::mechanism::CoordinateKind;
-use crate::modes::Side;
-use crate::motion::phase::{ContactPhase, JointPhase, Phase};
+use crate::pattern::{ContactPhase, JointPhase, Law, Phase};
 
 /// A sticking joint whose row is, but for this part of it, a combination of the others is held by them already.
 const DEPENDENT: f64 = 1e-7;
@@ -16,19 +15,17 @@ impl Equations<'_> {
             let slider = self.mechanism.slider(*joint).expect("sliding joints slide");
             for contact in &slider.contacts {
                 let k = contact.index();
-                let law = &self.mechanism.contacts[k];
+                let law = Law::new(self.mechanism, (k, &self.mechanism.contacts[k]), (1.0, true), [false; 2]);
                 self.rubbing[k] = match (phase.joints[index], phase.contacts[k]) {
                     (JointPhase::Sticking, _) => Rubbing::Sticking,
                     (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) => {
-                        let face = usize::from(side == Side::Negative);
-                        let (mu, preload) = (law.mu[face], law.preload[face]);
-                        Rubbing::Pressed { sigma: side.sign(), mu, preload, sign }
+                        Rubbing::Pressed { side, sign, faces: law.kinetic(side, sign) }
                     }
                     (JointPhase::Sliding(sign), ContactPhase::PreloadGap) => {
                         let couple = self.layout.reaction(Reaction::Couple(*joint));
                         let couple = couple.filter(|_| self.mechanism.preload_changes_face(*contact));
                         let share = couple.unwrap_or(self.normal[k]);
-                        Rubbing::Gap { preload: law.preload, sign, share }
+                        Rubbing::Gap { faces: law.in_gap(sign), share }
                     }
                 };
             }

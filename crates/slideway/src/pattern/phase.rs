@@ -1,5 +1,6 @@
 //! What every sliding joint and contact does while the motion is smooth.
 
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
 
@@ -16,15 +17,14 @@ impl Phase {
     /// One character for each contact: `+` or `-` for the sign of its normal force, `0` in its preload gap, `=` where its
     /// joint sticks.
     pub fn pattern(&self, mechanism: &Mechanism) -> String {
-        let sliders = super::equations::sliding_joints(mechanism);
+        let sliders = sliding_joints(mechanism);
         let contacts = mechanism.contacts.iter().zip(&self.contacts);
         let sign = |(contact, phase): (&crate::mechanism::Contact, &ContactPhase)| {
             let joint = sliders.iter().position(|joint| *joint == contact.joint);
-            match phase {
-                _ if joint.is_some_and(|joint| self.joints[joint] == JointPhase::Sticking) => '=',
-                ContactPhase::Pressed(Side::Positive) => '+',
-                ContactPhase::Pressed(Side::Negative) => '-',
-                ContactPhase::PreloadGap => '0',
+            if joint.is_some_and(|joint| self.joints[joint] == JointPhase::Sticking) {
+                '='
+            } else {
+                phase.symbol()
             }
         };
         contacts.map(sign).collect()
@@ -47,4 +47,28 @@ pub enum ContactPhase {
     Pressed(Side),
     /// N = 0, and the friction of the preload acts between the faces (theory, section 3: preload gap).
     PreloadGap,
+}
+
+impl ContactPhase {
+    /// `+` or `-` for the sign of the normal force, `0` in a preload gap.
+    pub(crate) fn symbol(self) -> char {
+        match self {
+            Self::Pressed(Side::Positive) => '+',
+            Self::Pressed(Side::Negative) => '-',
+            Self::PreloadGap => '0',
+        }
+    }
+
+    /// What a contact may do: it is in a gap only where the friction of its preload jumps.
+    pub(crate) fn options(mechanism: &Mechanism, contact: ContactId) -> &'static [Self] {
+        if mechanism.preload_jumps(contact) { &Self::ALL } else { &Self::ALL[..2] }
+    }
+
+    const ALL: [Self; 3] = [Self::Pressed(Side::Positive), Self::Pressed(Side::Negative), Self::PreloadGap];
+}
+
+/// The sliding joints of a mechanism, in their order.
+pub(crate) fn sliding_joints(mechanism: &Mechanism) -> Vec<JointId> {
+    let joints = (0..mechanism.joints.len()).map(JointId);
+    joints.filter(|joint| mechanism.slider(*joint).is_some()).collect()
 }

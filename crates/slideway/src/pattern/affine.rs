@@ -1,4 +1,4 @@
-//! All solutions of linear equations of any rank, as an affine set.
+//! All solutions of linear equations of any rank, as an affine set, and functions on it.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,16 +7,84 @@ const ZERO_PIVOT: f64 = 1e-11;
 /// An equation without unknowns is satisfied if no more than this is left over.
 const CONSISTENT: f64 = 1e-10;
 
+/// Coefficients below this are rounding errors of terms of order one.
+const NO_COEFFICIENT: f64 = 1e-12;
+
+/// An affine expression of the unknowns of equations.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Expression {
+    /// Unknowns and their coefficients; those of one unknown are added.
+    pub(crate) terms: Vec<(usize, f64)>,
+    /// The constant.
+    pub(crate) constant: f64,
+}
+
+impl Expression {
+    /// So many times an unknown.
+    pub(crate) fn unknown(index: usize, factor: f64) -> Self {
+        Self { terms: vec![(index, factor)], constant: 0.0 }
+    }
+
+    /// A constant.
+    pub(crate) fn constant(constant: f64) -> Self {
+        Self { terms: Vec::new(), constant }
+    }
+
+    /// With so many times another one added.
+    pub(crate) fn plus(mut self, factor: f64, other: &Self) -> Self {
+        self.terms.extend(other.terms.iter().map(|(index, value)| (*index, factor * value)));
+        self.constant += factor * other.constant;
+        self
+    }
+
+    /// So many times the expression.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self::default().plus(factor, self)
+    }
+
+    /// With a constant added.
+    pub(crate) fn shifted(mut self, constant: f64) -> Self {
+        self.constant += constant;
+        self
+    }
+}
+
+/// A function `coefficients . z + constant`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Affine {
+    /// Coefficients of the unknowns.
+    pub(crate) coefficients: Vec<f64>,
+    /// The constant.
+    pub(crate) constant: f64,
+}
+
+impl Affine {
+    /// Its value.
+    pub(crate) fn at(&self, z: &[f64]) -> f64 {
+        self.coefficients.iter().zip(z).map(|(a, z)| a * z).sum::<f64>() + self.constant
+    }
+
+    /// Whether it is no constant.
+    pub(crate) fn varies(&self) -> bool {
+        self.coefficients.iter().any(|coefficient| *coefficient != 0.0)
+    }
+}
+
 /// The solutions `x = particular + directions z` for every `z`.
 #[derive(Debug, Clone)]
 pub(crate) struct AffineSet {
     /// One solution.
-    pub(crate) particular: DVector<f64>,
+    particular: DVector<f64>,
     /// What may be added, one direction in each column.
-    pub(crate) directions: DMatrix<f64>,
+    directions: DMatrix<f64>,
 }
 
 impl AffineSet {
+    /// No unknowns.
+    pub(crate) fn empty() -> Self {
+        Self { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) }
+    }
+
     /// The solutions of `matrix` x = `right_hand_side`, by Gauss-Jordan elimination with complete pivoting; nothing
     /// where the equations contradict each other.
     pub(crate) fn of(mut matrix: DMatrix<f64>, mut right_hand_side: DVector<f64>) -> Option<Self> {
@@ -38,6 +106,34 @@ impl AffineSet {
             directions[(column, index)] = 1.0;
         }
         Some(Self { particular, directions })
+    }
+
+    /// One of the solutions.
+    pub(crate) fn particular(&self) -> &DVector<f64> {
+        &self.particular
+    }
+
+    /// Dimension of what the equations leave open.
+    pub(crate) fn dimension(&self) -> usize {
+        self.directions.ncols()
+    }
+
+    /// An expression of the unknowns as a function of what the equations leave open.
+    pub(crate) fn function(&self, expression: &Expression) -> Affine {
+        let mut coefficients = vec![0.0; self.dimension()];
+        let mut constant = expression.constant;
+        for &(column, factor) in &expression.terms {
+            constant += factor * self.particular[column];
+            for (index, coefficient) in coefficients.iter_mut().enumerate() {
+                *coefficient += factor * self.directions[(column, index)];
+            }
+        }
+        for coefficient in &mut coefficients {
+            if coefficient.abs() <= NO_COEFFICIENT {
+                *coefficient = 0.0;
+            }
+        }
+        Affine { coefficients, constant }
     }
 }
 

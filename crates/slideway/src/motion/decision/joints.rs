@@ -1,0 +1,110 @@
+//! The sliding joints of a mechanism at an instant.
+
+use super::scale::{Scale, Share};
+use super::units::{Units, connected, greatest, units};
+use crate::configuration::Configuration;
+use crate::ids::{BodyId, ContactId, JointId};
+use crate::influence::Influence;
+use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
+use crate::mechanism::{JointKind, Mechanism, Slider};
+use crate::model::Stop;
+
+/// A joint nearer to its end stop than this, in sizes of the mechanism, touches it: rounding of places.
+pub(in crate::motion) const TOUCHES: f64 = 1e-11;
+/// A sliding joint at the instant.
+#[derive(Debug, Clone)]
+pub(super) struct SlidingJoint {
+    /// Which joint it is.
+    pub(super) id: JointId,
+    /// Its contacts.
+    pub(super) contacts: Vec<usize>,
+    /// Half the length of the pressed face of a guided slider, and the place of its couple among the unknowns.
+    pub(super) couple: Option<(f64, usize)>,
+    /// Its acceleration of sliding.
+    pub(super) row: SlidingRow,
+    /// Its sliding velocity (m/s).
+    pub(super) velocity: f64,
+    /// Whether any friction, or an end stop, could hold it.
+    pub(super) has_friction: bool,
+    /// The end stop that it touches: 1 at its greatest displacement, -1 at its least one, else 0.
+    pub(super) stop: f64,
+    /// Units of the bodies that joints connect with it.
+    pub(super) units: Units,
+}
+
+/// The sliding joints of a mechanism, in the order of its joints.
+pub(super) fn sliding_joints(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    equations: &KineticEquations,
+) -> Vec<SlidingJoint> {
+    let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
+        let JointKind::Slider(slider) = &joint.kind else { return None };
+        let id = JointId(index);
+        let contacts: Vec<usize> =
+            slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect();
+        let place = equations.layout.reaction(Reaction::Couple(id));
+        let first = contacts.first().map(|&k| equations.contacts[k].sliding_velocity);
+        let has_friction = contacts.iter().any(|&k| {
+            let contact = &mechanism.contacts[k];
+            !contact.is_frictionless() || contact.mu_static != [0.0; 2]
+        });
+        let stop = touched_stop(mechanism, configuration, slider);
+        Some(SlidingJoint {
+            id,
+            contacts,
+            couple: place.map(|place| (slider.greatest_couple(1.0), place)),
+            row: SlidingRow::new(mechanism, configuration, slider),
+            velocity: first.unwrap_or(0.0),
+            has_friction: has_friction || stop != 0.0,
+            stop,
+            units: Units { force: 1.0, length: mechanism.size, acceleration: 1.0 },
+        })
+    };
+    mechanism.joints.iter().enumerate().filter_map(one).collect()
+}
+
+/// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least one, else 0.
+fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> f64 {
+    let Some([least, greatest]) = slider.travel.filter(|_| slider.stops != [None; 2]) else {
+        return 0.0;
+    };
+    let displacement = configuration.slide(mechanism, slider).displacement;
+    let touches = |end: usize, limit: f64| {
+        slider.stops[end].and_then(Stop::restitution).is_some()
+            && (displacement - limit).abs() <= TOUCHES * mechanism.size
+    };
+    if touches(1, greatest) {
+        1.0
+    } else if touches(0, least) {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+/// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is
+/// small; the units of the whole. Their least forces are found anew or remain.
+pub(super) fn set_units(
+    mechanism: &Mechanism,
+    (influence, equations): (&Influence, &KineticEquations),
+    least: Option<(&Configuration, Scale)>,
+    (joints, least_forces): (&mut [SlidingJoint], &mut Vec<f64>),
+) -> Units {
+    let connected = connected(mechanism);
+    let mut one = |counts: &dyn Fn(BodyId) -> bool, place: usize, otherwise: f64| {
+        let (force, mass) = greatest(mechanism, (influence, equations), counts);
+        if let Some((configuration, least)) = least {
+            least_forces.push(least(mechanism, configuration, Share { counts, mass, force }));
+        }
+        units(mechanism.size, (force.max(least_forces[place]), mass), otherwise)
+    };
+    let whole = one(&|_| true, 0, 1.0);
+    for (index, joint) in joints.iter_mut().enumerate() {
+        let slider = mechanism.slider(joint.id);
+        let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
+        let part = body.map(|body| connected[body.index()]);
+        joint.units = one(&|other| Some(connected[other.index()]) == part, index + 1, whole.force);
+    }
+    whole
+}

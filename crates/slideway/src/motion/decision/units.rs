@@ -1,0 +1,80 @@
+//! Units in which the numbers of a decision are of order one: of the whole mechanism, and of what joints connect.
+
+use super::scale::{Share, scale};
+use crate::configuration::Configuration;
+use crate::ids::{BodyId, Frame};
+use crate::influence::Influence;
+use crate::kinetics::KineticEquations;
+use crate::mechanism::{JointKind, Mechanism};
+
+/// Units in which the numbers of a decision are of order one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Units {
+    /// N, or N s for impulses.
+    pub(super) force: f64,
+    /// m
+    pub(super) length: f64,
+    /// m/s^2, or m/s for impulses.
+    pub(super) acceleration: f64,
+}
+
+/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N where there never is any.
+pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+    let length = mechanism.size;
+    let masses = mechanism.bodies.iter();
+    let masses = masses.map(|body| body.mass.max(body.moment_of_inertia / length.powi(2)));
+    let mass = masses.fold(0.0, f64::max);
+    let force = scale(mechanism, configuration, Share { counts: &|_| true, mass, force: 0.0 });
+    units(length, (force, mass), 1.0).force
+}
+
+/// For each body a number that it shares with the bodies that are connected with it by joints.
+pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
+    let mut parts: Vec<usize> = (0..mechanism.bodies.len()).collect();
+    for joint in &mechanism.joints {
+        let [one, other] = match &joint.kind {
+            JointKind::Hinge([first, second]) => [first.frame, second.frame],
+            JointKind::Slider(slider) => [slider.block, slider.guide],
+        };
+        if let (Some(one), Some(other)) = (one.body(), other.body()) {
+            join(&mut parts, one.index(), other.index());
+        }
+    }
+    parts
+}
+
+/// Puts what two members belong to together.
+pub(super) fn join(parts: &mut [usize], one: usize, other: usize) {
+    let (kept, dissolved) = (parts[one], parts[other]);
+    parts.iter_mut().filter(|part| **part == dissolved).for_each(|part| *part = kept);
+}
+
+/// The greatest of the loads, preloads and forces of inertia of some bodies (N), and the greatest of their masses (kg).
+pub(super) fn greatest(
+    mechanism: &Mechanism,
+    (influence, equations): (&Influence, &KineticEquations),
+    counts: &dyn Fn(BodyId) -> bool,
+) -> (f64, f64) {
+    let length = mechanism.size;
+    let bodies = || mechanism.bodies.iter().enumerate().filter(|(index, _)| counts(BodyId(*index)));
+    let masses = bodies().map(|(_, body)| body.mass.max(body.moment_of_inertia / length.powi(2)));
+    let mass = masses.fold(0.0, f64::max);
+    let belongs = |frame: Frame| frame.body().is_some_and(counts);
+    let loads = equations.applied.iter().filter(|wrench| belongs(wrench.frame));
+    let loads = loads.map(|wrench| wrench.force.norm().max(wrench.couple.abs() / length));
+    let preloads = mechanism.contacts.iter().filter(|contact| {
+        mechanism.slider(contact.joint).is_some_and(|slider| belongs(slider.block) || belongs(slider.guide))
+    });
+    let preloads = preloads.flat_map(|contact| contact.preload);
+    let inertia = bodies().flat_map(|(index, body)| {
+        let [x, y, turn] = [0, 1, 2].map(|part| influence.frictionless[3 * index + part]);
+        [body.mass * x, body.mass * y, body.moment_of_inertia * turn / length]
+    });
+    (loads.chain(preloads).chain(inertia).map(f64::abs).fold(0.0, f64::max), mass)
+}
+
+/// Units in which the given force is one; where there is none, the other one.
+pub(super) fn units(length: f64, (force, mass): (f64, f64), otherwise: f64) -> Units {
+    let force = if force > 0.0 && force.is_finite() { force } else { otherwise };
+    Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }
+}

@@ -1,0 +1,21 @@
+//! What every sliding joint and contact does, as linear equations and inequalities: the description that standstill and the decisions of
+//! motions share.
+//!
+//! ```text
+//! slides   F_k = (mu_k |N_k| + F_k0) s_k
+//! sticks   |F_k| <= mu_static_k |N_k| + F_k0
+//! in both  |N_k| >= 0,  |C| <= |N| L/2 of guided sliders, 0 <= share <= 1 in a preload gap
+//! ```
+//!
+//! [`Friction`] has the friction of one contact as expressions of unknowns, and what bounds it; whoever asks adds the equations, of
+//! statics or of motion. [`AffineSet`] solves these, [`Region`] asks the linear programs of what they leave open.
+
+mod affine;
+mod friction;
+pub(crate) mod phase;
+mod program;
+
+pub(crate) use affine::{Affine, AffineSet, Expression};
+pub(crate) use friction::{Bound, Friction, Law, face, without_tipping};
+pub(crate) use phase::{ContactPhase, JointPhase, Phase};
+pub(crate) use program::{Region, Unsolved};

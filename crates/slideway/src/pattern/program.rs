@@ -1,0 +1,262 @@
+//! A region of points within linear inequalities, and the linear programs that ask for its extent.
+
+use super::Affine;
+use microlp::{ComparisonOp, Error, OptimizationDirection, Problem, SolveOptions, Variable};
+use nalgebra::Vector3;
+
+/// Greater slacks are not sought: the reactions of a wedged block may grow without bound.
+const GREATEST: f64 = 1.0;
+/// Determinants below this are zero; the functions have coefficients of order one.
+const SINGULAR: f64 = 1e-12;
+/// More functions of two unknowns are left to the simplex method.
+const MOST_OF_TWO: usize = 20;
+/// A finite extent beyond this is one that rounding has cut off: the region is unbounded.
+const UNBOUNDED: f64 = 1e9;
+/// A direction counts as one of recession if it misses no constraint by more than this.
+const RECESSION: f64 = 1e-10;
+/// The solver may miss a constraint by this, the least that it takes.
+const FEASIBILITY: f64 = 1e-10;
+/// Constraints are multiplied by this power of two, so that the solver misses them by no more than about 1e-14.
+const MAGNIFIED: f64 = 8192.0;
+/// Optima below this are rounding errors of terms of order one.
+const NOTHING: f64 = 1e-12;
+
+/// The points at which every one of some functions, the slacks, is at least zero.
+#[derive(Debug, Clone)]
+pub(crate) struct Region {
+    dimension: usize,
+    slacks: Vec<Affine>,
+}
+
+/// The solver gave up, or its answer contradicts what is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Unsolved;
+
+impl Region {
+    /// The points of so many coordinates at which every function is at least zero.
+    pub(crate) fn new(dimension: usize, slacks: Vec<Affine>) -> Self {
+        Self { dimension, slacks }
+    }
+
+    /// The point at which the least slack is greatest, but no more than 1, and that slack; negative if the region is empty.
+    ///
+    /// # Errors
+    /// If the linear program, which has a solution, was not solved.
+    pub(crate) fn highest(&self) -> Result<(f64, Vec<f64>), Unsolved> {
+        let found = match self.dimension {
+            0 => Some(Vec::new()),
+            1 => of_one(&self.slacks).map(|z| vec![z]),
+            2 if self.slacks.len() <= MOST_OF_TWO => of_two(&self.slacks).map(|z| z.to_vec()),
+            _ => None,
+        };
+        let point = found.map_or_else(|| self.highest_by_simplex(), Ok)?;
+        let slacks = self.slacks.iter().map(|slack| slack.at(&point));
+        Ok((slacks.fold(GREATEST, f64::min), point))
+    }
+
+    fn highest_by_simplex(&self) -> Result<Vec<f64>, Unsolved> {
+        let mut problem = Problem::new(OptimizationDirection::Maximize);
+        let unknowns = free_unknowns(&mut problem, &vec![0.0; self.dimension]);
+        let least = problem.add_var(1.0, (f64::NEG_INFINITY, GREATEST));
+        for slack in &self.slacks {
+            let mut row = terms(&unknowns, slack);
+            row.push((least, -MAGNIFIED));
+            problem.add_constraint(&row[..], ComparisonOp::Ge, -MAGNIFIED * slack.constant);
+        }
+        let (_, point) = optimum(&problem, &unknowns)?.ok_or(Unsolved)?;
+        if point.iter().all(|value| value.is_finite()) { Ok(point) } else { Err(Unsolved) }
+    }
+
+    /// The region with every slack greater by the same amount.
+    pub(crate) fn relaxed(mut self, amount: f64) -> Self {
+        for slack in &mut self.slacks {
+            slack.constant += amount;
+        }
+        self
+    }
+
+    /// Least and greatest value of a function in the region, which must not be empty; nothing where it is unbounded.
+    ///
+    /// It is unbounded where the cone of recession reaches in the direction of the function, which is judged with
+    /// [`RECESSION`], so that a cone which rounding has closed counts as open.
+    ///
+    /// # Errors
+    /// If a linear program was not solved.
+    pub(crate) fn extent(&self, function: &Affine) -> Result<[Option<f64>; 2], Unsolved> {
+        let least = self.least(function, 1.0)?;
+        let greatest = self.least(function, -1.0)?;
+        Ok([least, greatest.map(|value| -value)])
+    }
+
+    /// Least value of `sign` times a function.
+    fn least(&self, function: &Affine, sign: f64) -> Result<Option<f64>, Unsolved> {
+        let constant = sign * function.constant;
+        if !function.varies() {
+            return Ok(Some(constant));
+        }
+        if self.recedes(function, sign)? {
+            return Ok(None);
+        }
+        let mut problem = Problem::new(OptimizationDirection::Minimize);
+        let costs: Vec<f64> = function.coefficients.iter().map(|coefficient| sign * coefficient).collect();
+        let unknowns = free_unknowns(&mut problem, &costs);
+        for slack in self.slacks.iter().filter(|slack| slack.varies()) {
+            let row = terms(&unknowns, slack);
+            problem.add_constraint(&row[..], ComparisonOp::Ge, -MAGNIFIED * slack.constant);
+        }
+        let without_noise = |value: f64| if value.abs() <= NOTHING { 0.0 } else { value };
+        let least = optimum(&problem, &unknowns)?.map(|(least, _)| without_noise(least + constant));
+        Ok(least.filter(|least| least.abs() < UNBOUNDED))
+    }
+
+    /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function falls:
+    /// the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d = -1` is not positive.
+    fn recedes(&self, function: &Affine, sign: f64) -> Result<bool, Unsolved> {
+        let mut problem = Problem::new(OptimizationDirection::Minimize);
+        let unknowns = free_unknowns(&mut problem, &vec![0.0; self.dimension]);
+        let margin = problem.add_var(1.0, (-1.0, f64::INFINITY));
+        for slack in self.slacks.iter().filter(|slack| slack.varies()) {
+            let mut row = terms(&unknowns, slack);
+            row.push((margin, MAGNIFIED));
+            problem.add_constraint(&row[..], ComparisonOp::Ge, 0.0);
+        }
+        problem.add_constraint(&terms(&unknowns, function)[..], ComparisonOp::Eq, -MAGNIFIED * sign);
+        let (margin, _) = optimum(&problem, &unknowns)?.ok_or(Unsolved)?;
+        Ok(margin <= RECESSION)
+    }
+}
+
+fn free_unknowns(problem: &mut Problem, costs: &[f64]) -> Vec<Variable> {
+    costs.iter().map(|cost| problem.add_var(*cost, (f64::NEG_INFINITY, f64::INFINITY))).collect()
+}
+
+/// The terms of a function, magnified.
+fn terms(unknowns: &[Variable], function: &Affine) -> Vec<(Variable, f64)> {
+    let pairs = unknowns.iter().copied().zip(function.coefficients.iter().copied());
+    let terms = pairs.filter(|(_, coefficient)| *coefficient != 0.0);
+    terms.map(|(unknown, coefficient)| (unknown, MAGNIFIED * coefficient)).collect()
+}
+
+/// The optimum of a problem that has feasible points, and these unknowns there; nothing where it is unbounded.
+fn optimum(problem: &Problem, unknowns: &[Variable]) -> Result<Option<(f64, Vec<f64>)>, Unsolved> {
+    let mut options = SolveOptions::default();
+    options.tolerances.feasibility = FEASIBILITY;
+    match problem.solve_with(options) {
+        Ok(outcome) => {
+            let solution = outcome.into_solution().map_err(|_| Unsolved)?;
+            let point = unknowns.iter().map(|unknown| solution[*unknown]).collect();
+            Ok(Some((solution.objective(), point)).filter(|(objective, _)| objective.is_finite()))
+        }
+        Err(Error::Unbounded) => Ok(None),
+        Err(_) => Err(Unsolved),
+    }
+}
+
+/// One unknown: the optimum is where a rising and a falling function meet, or a rising one reaches the greatest value.
+fn of_one(functions: &[Affine]) -> Option<f64> {
+    let line = |f: &Affine| (f.coefficients[0], f.constant);
+    let cap = std::iter::once((0.0, GREATEST));
+    let lines: Vec<(f64, f64)> = functions.iter().map(line).chain(cap).collect();
+    let least = |z: f64| lines.iter().map(|(a, b)| a * z + b).fold(f64::INFINITY, f64::min);
+    let mut best: Option<(f64, f64)> = None;
+    for (index, (a, b)) in lines.iter().enumerate() {
+        for (c, d) in &lines[index + 1..] {
+            if (a - c).abs() <= SINGULAR || a * c > 0.0 {
+                continue;
+            }
+            let z = (d - b) / (a - c);
+            let value = least(z);
+            if best.is_none_or(|(other, _)| value > other) {
+                best = Some((value, z));
+            }
+        }
+    }
+    best.map(|(_, z)| z)
+}
+
+/// Two unknowns: the best of the points where three functions are equal.
+fn of_two(functions: &[Affine]) -> Option<[f64; 2]> {
+    let plane = |f: &Affine| Vector3::new(f.coefficients[0], f.coefficients[1], f.constant);
+    let cap = std::iter::once(Vector3::new(0.0, 0.0, GREATEST));
+    let planes: Vec<Vector3<f64>> = functions.iter().map(plane).chain(cap).collect();
+    let mut best: Option<(f64, [f64; 2])> = None;
+    for first in 0..planes.len() {
+        for second in first + 1..planes.len() {
+            for third in second + 1..planes.len() {
+                let rows = [first, second, third].map(|index| planes[index]);
+                let Some([height, x, y]) = meeting(&rows) else { continue };
+                if best.is_some_and(|(other, _)| height <= other) {
+                    continue;
+                }
+                let least = planes.iter().map(|p| p.x * x + p.y * y + p.z).fold(f64::INFINITY, f64::min);
+                if best.is_none_or(|(other, _)| least > other) {
+                    best = Some((least, [x, y]));
+                }
+            }
+        }
+    }
+    best.map(|(_, z)| z)
+}
+
+/// Where three planes have the same height: t - x a - y b = c.
+fn meeting(planes: &[Vector3<f64>; 3]) -> Option<[f64; 3]> {
+    let [p, q, r] = planes;
+    let cross = |a: f64, b: f64, c: f64, d: f64| a * d - b * c;
+    // The third plane less each of the others: (r - p) . z = p0 - r0.
+    let (a, b, e) = (r.x - p.x, r.y - p.y, p.z - r.z);
+    let (c, d, f) = (r.x - q.x, r.y - q.y, q.z - r.z);
+    let whole = cross(a, b, c, d);
+    if whole.abs() <= SINGULAR {
+        return None;
+    }
+    let (x, y) = (cross(e, b, f, d) / whole, cross(a, e, c, f) / whole);
+    Some([r.x * x + r.y * y + r.z, x, y])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn affine(coefficients: &[f64], constant: f64) -> Affine {
+        Affine { coefficients: coefficients.to_vec(), constant }
+    }
+
+    /// z_i >= t and 1/2 - sum z_i >= t of n unknowns: t = 1/(2 (n + 1)), all slacks being equal.
+    #[test]
+    fn the_highest_point_is_the_same_with_and_without_the_simplex_method() {
+        for dimension in 1..5_usize {
+            let one = |index: usize| {
+                let mut coefficients = vec![0.0; dimension];
+                coefficients[index] = 1.0;
+                Affine { coefficients, constant: 0.0 }
+            };
+            let sum = affine(&vec![-1.0; dimension], 0.5);
+            let region = Region::new(dimension, (0..dimension).map(one).chain([sum]).collect());
+            let expected = 0.5 / (dimension as f64 + 1.0);
+            let (slack, point) = region.highest().expect("it has a solution");
+            assert!((slack - expected).abs() < 1e-13, "{dimension} {slack}");
+            assert!(point.iter().all(|z| (z - expected).abs() < 1e-12), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn slacks_that_depend_on_a_sum_alone_have_a_highest_point() {
+        // z_1 + z_2 >= t, 1/2 - (z_1 + z_2) >= t: t = 1/4.
+        let slacks = vec![affine(&[1.0, 1.0], 0.0), affine(&[-1.0, -1.0], 0.5)];
+        let (slack, _) = Region::new(2, slacks).highest().expect("it has a solution");
+        assert!((slack - 0.25).abs() < 1e-13, "{slack}");
+        // Without bound it is cut off at 1, without unknowns the least constant.
+        let (slack, _) = Region::new(1, vec![affine(&[2.0], 0.0)]).highest().expect("it has a solution");
+        assert_eq!(slack, 1.0);
+        let (slack, _) = Region::new(0, vec![affine(&[], -0.5)]).highest().expect("it has a solution");
+        assert_eq!(slack, -0.5);
+    }
+
+    #[test]
+    fn an_extent_ends_where_a_slack_does_or_not_at_all() {
+        let slacks = vec![affine(&[1.0, 0.0], 0.0), affine(&[-1.0, 0.0], 1.0), affine(&[0.0, 1.0], 0.0)];
+        let region = Region::new(2, slacks);
+        assert_eq!(region.extent(&affine(&[1.0, 0.0], 2.0)), Ok([Some(2.0), Some(3.0)]));
+        assert_eq!(region.extent(&affine(&[0.0, 1.0], 0.0)), Ok([Some(0.0), None]));
+    }
+}
