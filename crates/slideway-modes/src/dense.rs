@@ -254,11 +254,14 @@ mod tests {
         }
     }
 
+    /// Whether it was done.
+    type Computation<'c> = dyn Fn(&mut dyn FnMut() -> bool) -> bool + 'c;
+
     #[test]
     fn long_work_ends_when_it_is_told_to() {
         let matrix = random_matrix(300, 300);
         let positive = DMatrix::identity(420, 420);
-        let computations: [&dyn Fn(&mut dyn FnMut() -> bool) -> bool; 4] = [
+        let computations: [&Computation<'_>; 4] = [
             &|proceed| product(&matrix, &matrix, proceed).is_some(),
             &|proceed| inverse(matrix.clone(), proceed).is_some(),
             &|proceed| Lu::new(matrix.clone(), proceed).is_some(),
