@@ -241,9 +241,8 @@ fn the_gallery_drawer_closes_softly() {
     let wave = -rest * angle.cos() + (speed - decay * rest) / frequency * angle.sin();
     let deepest = rest + (-decay * angle / frequency).exp() * wave;
     assert!((contacts(&history)[0][0] - met).abs() < 1e-9, "{met} {:#?}", words(&history));
-    let events = history.events.iter();
-    let found =
-        events.filter(|event| event.causes.iter().any(|cause| matches!(cause, Cause::Stops(_)))).last();
+    let stop = |cause: &Cause| matches!(cause, Cause::Stops(_));
+    let found = history.events.iter().rfind(|event| event.causes.iter().any(stop));
     let (time, place) = (found.unwrap().time, history.reader().at(1.0).unwrap().configuration.coordinates[0]);
     assert!(
         (time - stops).abs() < 1e-7 && (place + deepest).abs() < 1e-9,
