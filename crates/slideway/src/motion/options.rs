@@ -15,7 +15,7 @@ pub struct SimulateOptions {
     pub tolerance: f64,
     /// The longest step (s); a thousandth of the duration if nothing is given. What passes zero and returns within a third
     /// of a step is found where the cubic through four values in the step shows it. Steps are shorter where loads or drives change faster
-    /// than that by themselves, and rest of the whole mechanism is proven whatever the steps are.
+    /// than that by themselves, and the rest of bodies that stand still is proven whatever the steps are.
     pub longest_step: Option<f64>,
     /// Steps after which the simulation ends.
     pub most_steps: usize,

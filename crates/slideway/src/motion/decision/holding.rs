@@ -81,7 +81,8 @@ impl<'m> Holding<'m> {
     pub(crate) fn margin(&mut self, time: f64) -> Result<f64, Faults> {
         let amounts = self.amounts.at(time)?;
         let mut margin = f64::INFINITY;
-        for (group, _) in self.plans.clone() {
+        let groups: Vec<Group> = self.plans.iter().map(|(group, _)| group.clone()).collect();
+        for group in groups {
             margin = margin.min(self.assess(&group, &amounts).map_or(NONE, |found| found.margin));
         }
         Ok(margin)
