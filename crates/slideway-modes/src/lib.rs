@@ -64,6 +64,23 @@
 //! once, provided that the right-hand side does not jump at these contacts. Singular patterns are
 //! reported with the set of normal forces that they admit. Contacts at which the right-hand side
 //! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
+//!
+//! # Files
+//! `problem.rs` is the input, `scaling.rs` its units, `enumeration.rs` the tree, `candidate.rs` the careful
+//! solution of one pattern, `degenerate.rs` singular patterns, `findings.rs` gathers (`found.rs` is one
+//! state, `decided.rs` files what is proven), `solutions.rs` is the output; `support.rs` decides which set of
+//! solutions is part of which, `admitted.rs` is what a singular pattern admits, `dense.rs` has factorizations
+//! and products that can be ended. `search/` finds all solutions of exact problems and of problems within
+//! bounds, and proves them: groups of contacts, every pattern of small groups (`every.rs`, with the fast test
+//! of `sieve.rs`), cheap proofs of uniqueness, cells of a low-rank coupling, else branch and bound with
+//! interval propagation and a linear relaxation. `certificate/` decides single patterns by proof and verifies
+//! exclusions. `solve` searches; `enumerate` remains as the simple oracle of the tests. `existence/` finds
+//! the intervals of a parameter in which modes exist, without scanning. `exhaustive/` screens every pattern
+//! with a rigorous error bound and proves what is left: `layout.rs` orders contacts and scales the equations,
+//! `upper.rs` is the tree near its root, `kernel.rs` its last levels, `leaf.rs` the last contacts,
+//! `instructions.rs` what the processor can do, `run.rs` shares subtrees among threads. `uniqueness/` decides
+//! whether there is one solution for every load. `batch/` solves very many points of one structure:
+//! `friction.rs` and `coefficients.rs` compute determinants, `kernel.rs` judges their signs.
 
 mod admitted;
 pub mod batch;

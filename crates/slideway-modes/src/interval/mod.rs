@@ -8,6 +8,13 @@
 //! libraries of glibc, musl, macOS and Windows stay within one for the functions used here, `sinh`, `cosh` and `tanh`
 //! within two (Gladman et al., Accuracy of Mathematical Functions in Single, Double, Extended Double and Quadruple
 //! Precision, 2024).
+//!
+//! # Files
+//! `interval` has closed intervals, their elementary functions, and the trait `Real` of the arithmetic that
+//! they share with `f64`; `Sloped` adds bounds of a slope. Formulas, mechanisms, configurations and the rows
+//! of the kinetic equations are generic over it (`f64` by default), so that `enclosure` evaluates and
+//! assembles with the code of the other stages. Its own are the interval Newton operator for the positions
+//! and the verified linear systems (`modes::certificate::enclose_solution`).
 
 mod functions;
 mod real;

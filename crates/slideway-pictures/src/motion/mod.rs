@@ -1,4 +1,9 @@
 //! Motions in time: plots of a history, and the mechanism moving.
+//!
+//! # Files
+//! In `slideway-pictures` `motion/` makes figures (`figure.rs`) and moving pictures (`animation.rs` collects
+//! the shapes of all frames, `page.rs` writes HTML and SVG, `gif.rs` a GIF with the colours of `palette.rs`)
+//! of a history.
 
 mod animation;
 mod figure;

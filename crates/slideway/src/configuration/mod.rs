@@ -3,6 +3,12 @@
 //! Third stage of the pipeline: [`Mechanism`] in, [`Configuration`] out. The chosen coordinates and their rates
 //! are given; everything else follows from the joints. The mechanism is led from the reference drawing to the wanted state in
 //! steps that are shown to stay on the assembly branch of the drawing.
+//!
+//! # Files
+//! `joint_equations.rs` has the equations and `curvature.rs` how they bend, `anchor.rs` proves how far the
+//! branch of a state can be followed in one step, `following.rs` goes from place to place, `follower.rs`
+//! finds one state after another and remembers what the last step has shown, `assembly.rs` closes the drawing
+//! and says why a state cannot be had, `mobility.rs` counts freedoms.
 
 mod anchor;
 mod assembly;

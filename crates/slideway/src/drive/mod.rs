@@ -26,6 +26,10 @@
 //! assert!((solution.efficiency.value.unwrap_or_default() - 0.55).abs() < 1e-12);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
+//!
+//! # Files
+//! `drive` adds the efforts of drives to the mode problem as outputs (`solve::Parts`), so that each branch,
+//! and its growth without bound, comes from the modes that `limits` finds.
 
 mod course;
 mod efforts;

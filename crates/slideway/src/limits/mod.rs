@@ -14,6 +14,17 @@
 //! assert!((last.to.unwrap_or_default() - 0.452_653_96).abs() < 1e-8);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
+//!
+//! # Files
+//! `limits` varies a parameter: `varied.rs` is what is varied (with a `Follower` for the positions from value
+//! to value), `solve::Parts` the mode problem at one value, with the couples of guided sliders.
+//! `model/dependence.rs` decides from the formulas whether that is affine in it; `closed_form.rs` has
+//! `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs` asks the certified
+//! search for the numbers of solutions over whole intervals, and `find.rs` scans anew where these contradict;
+//! `between_faces.rs` counts the states of guided sliders between their faces, which
+//! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `guarantee.rs`
+//! and `conclusion.rs` put it into words. `limits/curves.rs` samples quantities along the modes that were
+//! found, for plots.
 
 mod between_faces;
 mod closed_form;

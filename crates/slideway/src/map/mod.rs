@@ -14,6 +14,10 @@
 //! assert_eq!(report.class_at(0, 0), 0);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
+//!
+//! # Files
+//! `map` colours a plane: `evaluate.rs` has the mode problem at a point and its states between faces,
+//! `class.rs` what its solutions come to, `refine.rs` solves pixels only where neighbours differ.
 
 mod class;
 mod evaluate;

@@ -29,6 +29,11 @@
 //! let heavier = model.with(&Settings::default().parameter("m", "3 kg")).expect("m is a mass");
 //! assert!(model.with(&Settings::default().parameter("m", "3 m")).is_err());
 //! ```
+//!
+//! # Files
+//! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `structure.rs` checks
+//! a parsed file against the schema, `sections.rs` deserializes entry by entry, `read/` resolves names,
+//! `check.rs` judges the whole, `settings.rs` applies changes.
 
 mod check;
 mod dependence;

@@ -23,6 +23,16 @@
 //! assert!(history.events.iter().any(|event| event.words.contains("cylinder reverses")));
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
+//!
+//! # Files
+//! `motion` follows a mechanism in time, phase by phase: `equations/` are the equations within a phase
+//! (`linear.rs` factors them, `rest.rs` says which bodies stand still), `stepper.rs` one step, `watch.rs`
+//! what can end a phase, `root.rs` where it does and where it might between samples, `smooth.rs` a phase step
+//! by step (`smooth/reactions.rs` the limit of normal forces), `amounts.rs` the loads as functions of time at
+//! rest, `resolution.rs` whether a step sees what they do, `run.rs` the loop of phases, events and decisions,
+//! `stop.rs` what happens at end stops, `rules.rs` what it asks of `decision/`, `energy.rs` the balance,
+//! `history.rs` the result, `event.rs` its words. On top of a history stand `series.rs` (a table),
+//! `report.rs` and `text.rs` (what is told), and `tree.rs`, which follows every branch.
 
 mod amounts;
 pub mod decision;

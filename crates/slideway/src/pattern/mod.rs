@@ -9,6 +9,12 @@
 //!
 //! [`Friction`] has the friction of one contact as expressions of unknowns, and what bounds it; whoever asks adds the equations, of
 //! statics or of motion. [`AffineSet`] solves these, [`Region`] asks the linear programs of what they leave open.
+//!
+//! # Files
+//! `pattern` is what `standstill` and `motion` share: what joints and contacts do (`phase.rs`), as linear
+//! equations and inequalities. `friction.rs` is Coulomb's law of a contact, with preloads, and when a guided
+//! slider tips; `affine.rs` solves the equations, of statics or of motion, that are added; `program.rs` asks
+//! the linear programs of what they leave open, the only place that knows the solver.
 
 mod affine;
 mod friction;

@@ -16,6 +16,10 @@
 //! assert!((report.met[0].from - 2.0 * 0.3 * 0.3 * 2.0).abs() < 1e-14);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
+//!
+//! # Files
+//! `size` asks for the margin at one value (`margin.rs`: `modes::existence` in motion, the threshold of
+//! `standstill` at rest) and brackets it over what `limits::Varied` varies (`search.rs`).
 
 mod margin;
 mod report;

@@ -28,6 +28,12 @@
 //! assert!(!load(Settings::default().parameter("x", "304 mm"))?.self_locking);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
+//!
+//! # Files
+//! `standstill` stands beside `solve` and takes `kinetics::Assembled`, the equations without factorization:
+//! at rest they need no inertia. `setup.rs` is the mechanism at rest with its varied load, `state.rs` the
+//! equations of one state of joints and contacts; `rest.rs`, `threshold.rs` and `release.rs` are the
+//! questions.
 
 mod reactions;
 mod release;

@@ -28,6 +28,15 @@
 //! # Order
 //! Points are numbered with the last quantity varying fastest. They are computed in chunks whose size hangs on the model and on
 //! what is varied alone, so that nothing depends on the number of threads.
+//!
+//! # Files
+//! `sweep` evaluates points one after another: `axis.rs`, `quantity.rs` and `distribution.rs` are what is
+//! varied, `friction.rs` the formulas that only change friction, `stages.rs` all else about a point,
+//! `evaluator.rs` solves it, `together.rs` many points that differ in friction alone (`modes::batch`),
+//! `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`, `branches.rs`
+//! numbers what continues what, `breakpoints.rs` asks `limits`, `line.rs` is what plots need to know of an
+//! axis. `modes::screen` is its enumeration, `configuration::Follower` and `kinetics::influences` are the
+//! stages for neighbouring states. Files are the command line's (`table/`).
 
 mod axis;
 mod branches;

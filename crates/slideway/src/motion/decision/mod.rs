@@ -32,6 +32,20 @@
 //! none, of what the loads come to within the time in which they take them through the size of the mechanism), or of
 //! the acceleration that it gives the greatest of their masses. A slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6
 //! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
+//!
+//! # Files
+//! `motion::decision` decides at events. `instant.rs` is a mechanism at one instant, made of its sliding
+//! joints (`joints.rs`), how normal forces, sliding accelerations and couples answer to friction with the
+//! groups of joints that are decided separately (`outputs.rs`), and their units (`units.rs`); `mobility.rs`
+//! says which joints hold one another; `bounds.rs` is what is asked, with the sides that contacts take
+//! whatever friction does; `system.rs` the equations of one pattern of sticking and sliding joints of a
+//! group, `assessment.rs` the slacks of a phase, `growth.rs` whether they grow along its motion. `parts.rs`
+//! has what each group can do, in order of preference, and `successors.rs` puts the parts together;
+//! `sticking.rs`, `determined.rs` (normal forces that statics determines), `jam.rs` and `impact.rs` (end
+//! stops), both on `impulse.rs`, are the other questions; `vanishing.rs` makes zero what an event has found
+//! to be zero, `scale.rs` has the units where forces vanish, `sieve.rs` excludes patterns of sliding fast,
+//! `holding.rs` looks ahead in time for what stands still while loads change, with forces that go affinely
+//! with the loads (`plan.rs`).
 
 mod assessment;
 mod bounds;
