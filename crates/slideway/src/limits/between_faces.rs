@@ -73,10 +73,10 @@ fn single_values(varied: &Varied, greatest: Option<f64>, found: &Found, work: Wo
     if !found.counts.iter().any(has_free) {
         return SingleValues::Impossible;
     }
-    let Some(mut values) = zeros(varied, found) else { return SingleValues::LeftOut };
+    let Some(mut values) = zeros(varied, found, work) else { return SingleValues::LeftOut };
     let has_states = |at: f64| {
-        let around = found.counts.iter().filter(|count| (count.from..=count.to).contains(&at));
-        around.clone().all(|count| count.gap_states == 0)
+        let mut around = found.counts.iter().filter(|count| (count.from..=count.to).contains(&at));
+        around.all(|count| count.gap_states == 0)
             && !varied.states_between_faces((at, 1.0), greatest, work).is_empty()
     };
     values.retain(|&at| has_states(at));
@@ -85,7 +85,7 @@ fn single_values(varied: &Varied, greatest: Option<f64>, found: &Found, work: Wo
 
 /// Where the normal forces of contacts with free faces vanish or may vanish in a mode, whether or not a guided slider tips in it;
 /// none if the modes of the range are not known from zeros of determinants.
-fn zeros(varied: &Varied, found: &Found) -> Option<Vec<f64>> {
+fn zeros(varied: &Varied, found: &Found, work: Work<'_>) -> Option<Vec<f64>> {
     if found.method == Method::Bracketing {
         return None;
     }
@@ -96,8 +96,14 @@ fn zeros(varied: &Varied, found: &Found) -> Option<Vec<f64>> {
         let mut line = start.line_to(&end);
         line.bounds.clear();
         let options = ExistenceOptions { range: [0.0, 1.0], greatest_normal_force: None, patterns: PATTERNS };
-        let existence = line.existence(&options).ok().filter(|found| found.not_computed.is_empty())?;
-        let vanishes = |end: &&ModeEnd| matches!(&end.cause, EndCause::SideChange(contacts) if contacts.iter().any(|k| free.contains(k)));
+        let existence = line.existence_with(&options, &mut |progress| work.tell(progress)).ok().flatten()?;
+        if !existence.not_computed.is_empty() {
+            return None;
+        }
+        let vanishes = |end: &&ModeEnd| match &end.cause {
+            EndCause::SideChange(contacts) => contacts.iter().any(|contact| free.contains(contact)),
+            _ => false,
+        };
         let ends = existence.modes.iter().flat_map(|mode| [&mode.from, &mode.to]);
         // At its own ends a piece does not tell what vanishes.
         let mut shares: Vec<f64> = ends.filter(vanishes).map(|end| end.at).chain([0.0, 1.0]).collect();
