@@ -26,8 +26,9 @@ pub(crate) fn guarantee(found: &Found) -> String {
     match found.between_faces {
         SingleValues::Impossible => {}
         SingleValues::At(_) => {
-            sentences
-                .push(format!("{single} told where `solve` finds them at these zeros, in rounded numbers."));
+            sentences.push(format!(
+                "{single} told where `solve` finds them at these zeros, in rounded numbers; beside other preload-gap states they are left out."
+            ));
         }
         SingleValues::LeftOut => sentences.push(format!("{single} left out.")),
     }
