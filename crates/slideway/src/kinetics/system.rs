@@ -8,6 +8,12 @@ use nalgebra::{DMatrix, DVector};
 const SINGULAR: f64 = 1e-13;
 /// Components of an equilibrated solution that are this many roundoffs below its greatest one are noise.
 const NOISE: f64 = 16.0;
+/// Bits of the digits of an `f64` behind its exponent, ...
+const DIGITS: u32 = 52;
+/// ... 2 to that power, ...
+const POWER_52: f64 = 4_503_599_627_370_496.0;
+/// ... and what is added to its exponent.
+const BIAS: i32 = 1023;
 
 /// The factored matrix of the kinetic equations.
 #[derive(Debug, Clone)]
@@ -255,8 +261,35 @@ fn inverse_root(x: f64) -> f64 {
     if x <= 0.0 || !x.is_finite() {
         return 1.0;
     }
-    let exponent = libm::ilogb(x);
-    let is_between = exponent % 2 != 0 && x == libm::ldexp(1.0, exponent);
+    // Those without an exponent of their own are given one.
+    let (normal, shift) = if x.is_normal() { (x, 0) } else { (x * POWER_52, 52) };
+    let exponent = (normal.to_bits() >> DIGITS) as i32 - BIAS - shift;
+    let is_power_of_two = normal.to_bits() << (64 - DIGITS) == 0;
+    let is_between = exponent % 2 != 0 && is_power_of_two;
     let nearest = if is_between { exponent + exponent.signum() } else { exponent + 1 };
-    libm::ldexp(1.0, -nearest.div_euclid(2))
+    f64::from_bits(u64::from((BIAS - nearest.div_euclid(2)).unsigned_abs()) << DIGITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inverse_roots_are_those_of_the_exponent() {
+        let by_libm = |x: f64| {
+            let exponent = libm::ilogb(x);
+            let is_between = exponent % 2 != 0 && x == libm::ldexp(1.0, exponent);
+            let nearest = if is_between { exponent + exponent.signum() } else { exponent + 1 };
+            libm::ldexp(1.0, -nearest.div_euclid(2))
+        };
+        for exponent in -1074..=1023 {
+            let power = libm::ldexp(1.0, exponent);
+            for x in [power, power.next_up(), power.next_down(), 1.7 * power] {
+                if x > 0.0 && x.is_finite() {
+                    assert_eq!(inverse_root(x), by_libm(x), "{x:e}");
+                }
+            }
+        }
+        assert_eq!([0.0, f64::INFINITY, f64::NAN].map(inverse_root), [1.0; 3]);
+    }
 }
