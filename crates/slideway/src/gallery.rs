@@ -13,7 +13,7 @@ macro_rules! gallery {
     ($($name:literal),* $(,)?) => {
         &[$(GalleryModel {
             name: $name,
-            text: include_str!(concat!("../../../models/", $name, ".toml")),
+            text: include_str!(concat!("../models/", $name, ".toml")),
         }),*]
     };
 }
