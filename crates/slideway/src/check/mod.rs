@@ -1,6 +1,6 @@
 //! What a model consists of, and whether it can be solved: degrees of freedom, determinacy, inertia, sliding.
 //!
-//! Stands beside [`crate::solve`]: where that stops at the first thing that makes no sense, a check goes on as far
+//! Stands beside [`mod@crate::solve`]: where that stops at the first thing that makes no sense, a check goes on as far
 //! as it can and gathers what it finds.
 //!
 //! ```

@@ -1,7 +1,7 @@
 //! Design: the value of a parameter at which a wanted margin against locking is just met.
 //!
 //! The margin against locking is the factor by which all kinetic coefficients of friction may grow before there is no
-//! solution (`margins.no_solution` of [`crate::solve`]). Where there is none already, it is the factor to which they
+//! solution (`margins.no_solution` of [`mod@crate::solve`]). Where there is none already, it is the factor to which they
 //! have to fall, below 1. At one value it is known in closed form ([`crate::modes::existence`]); over a parameter it is
 //! bracketed. The margin against self-locking is the factor by which all static coefficients may grow before a load is
 //! held however great it is; the margin of holding is its inverse, the factor by which they may be smaller.

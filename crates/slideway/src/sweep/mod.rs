@@ -14,11 +14,11 @@
 //! ```
 //!
 //! # Method
-//! Each point goes through the stages of [`crate::solve`] without the proof. What the varied quantities leave as it is, is
+//! Each point goes through the stages of [`mod@crate::solve`] without the proof. What the varied quantities leave as it is, is
 //! not computed anew: where only coefficients of friction and preloads change, the influence coefficients stay; a position is
 //! reached from those of the last points ([`crate::configuration::Follower`]). Up to 8 contacts all patterns are tried
 //! by elimination. Where that leaves a pattern in doubt, because it is close to a boundary between modes or to locking, and for
-//! more contacts, the point is left to [`crate::solve`] itself (with a common factor of friction to its search, with bounds of
+//! more contacts, the point is left to [`mod@crate::solve`] itself (with a common factor of friction to its search, with bounds of
 //! rounding that are assumed, not proven). Contacts of one block that both have a preload at the pressed face have
 //! dependent gap states, so that each of their points is one of these.
 //!
