@@ -11,6 +11,7 @@ pub const SCHEMA: &str = "slideway/modes/2";
 
 /// All solutions of a raw problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RawReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -60,6 +61,7 @@ pub struct RawReport {
 /// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of other
 /// patterns.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Faces {
     /// Number of solutions, as decimal text.
     pub solutions: String,
@@ -152,6 +154,7 @@ impl Unknowns {
 
 /// What numbers that differ from those given by rounding alone have for solutions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct WithinRounding {
     /// Every number may differ by this part of its size.
     pub relative: f64,
@@ -165,6 +168,7 @@ pub struct WithinRounding {
 
 /// One solution, or one state with an unknown in its gap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RawSolution {
     /// The unknowns.
     #[serde(flatten)]
@@ -200,6 +204,7 @@ pub struct RawSolution {
 /// An unknown that is not zero and beyond the range of floating-point numbers of full precision: larger than
 /// 1.8e308, or smaller than 2.2e-308 in size.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct BeyondRange {
     /// The name of the unknown: "z", "w", "x", "normal_forces", "y" or "lambda".
     pub name: &'static str,
@@ -211,6 +216,7 @@ pub struct BeyondRange {
 
 /// An unknown in its preload gap.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct GapShare {
     /// Which unknown, from 0.
     pub index: usize,
@@ -223,6 +229,7 @@ pub struct GapShare {
 /// JSON `null`) is a value that is not zero and beyond the range of floating-point numbers, as of a [`BeyondRange`];
 /// its sign is that of the pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RawContinuum {
     /// "+", "-" or "0" (in the gap) for every unknown.
     pub pattern: String,
@@ -235,6 +242,7 @@ pub struct RawContinuum {
 /// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of the
 /// directions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContinuumPart {
     /// The unknowns, from 0; vertices and directions have one entry for each.
     pub indices: Vec<usize>,
@@ -250,6 +258,7 @@ pub struct ContinuumPart {
 
 /// A group of unknowns that was searched by itself.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RawGroup {
     /// Its unknowns, from 0.
     pub indices: Vec<usize>,
@@ -265,6 +274,7 @@ pub struct RawGroup {
 
 /// Fractions of the patterns of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RawShares {
     /// Excluded by a proof that there is exactly one solution.
     pub uniqueness: f64,

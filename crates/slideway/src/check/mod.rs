@@ -37,6 +37,7 @@ const NO_INERTIA: f64 = 1e-12;
 
 /// What a model consists of, and what stands in the way of solving it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CheckReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -75,6 +76,7 @@ pub struct CheckReport {
 
 /// Something for which the model would be refused.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Finding {
     /// What is wrong.
     pub message: String,
@@ -84,6 +86,7 @@ pub struct Finding {
 
 /// Degrees of freedom and determinacy.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MobilitySummary {
     /// Coordinates of all bodies: 3 b.
     pub body_coordinates: usize,
@@ -105,6 +108,7 @@ pub struct MobilitySummary {
 
 /// Inertia of the motions that the joints leave.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct InertiaSummary {
     /// Whether the mass matrix is regular on them: every motion has kinetic energy.
     pub regular: bool,
@@ -114,6 +118,7 @@ pub struct InertiaSummary {
 
 /// A body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BodySummary {
     /// Its name.
     pub name: String,
@@ -125,6 +130,7 @@ pub struct BodySummary {
 
 /// A joint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct JointSummary {
     /// Its name.
     pub name: String,
@@ -145,6 +151,7 @@ pub struct JointSummary {
 
 /// A contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContactSummary {
     /// "joint", "joint.front" or "joint.rear".
     pub name: String,
@@ -163,6 +170,7 @@ pub struct ContactSummary {
 
 /// A drive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveSummary {
     /// Its name.
     pub name: String,
@@ -172,6 +180,7 @@ pub struct DriveSummary {
 
 /// A chosen coordinate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CoordinateSummary {
     /// Its name.
     pub name: String,

@@ -9,6 +9,7 @@ pub const SCHEMA: &str = "slideway/drive/2";
 
 /// The efforts of all drives.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -29,6 +30,7 @@ pub struct DriveReport {
 
 /// A drive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveName {
     /// Its name.
     pub name: String,
@@ -38,6 +40,7 @@ pub struct DriveName {
 
 /// The efforts in one direction of motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveDirection {
     /// "model" or "reversed".
     pub direction: &'static str,
@@ -57,6 +60,7 @@ pub struct DriveDirection {
 
 /// The efforts without friction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Frictionless {
     /// Of each drive (N or N m).
     pub efforts: Vec<f64>,
@@ -66,6 +70,7 @@ pub struct Frictionless {
 
 /// The efforts in a solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveSolution {
     /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
     pub pattern: String,
@@ -85,6 +90,7 @@ pub struct DriveSolution {
 
 /// The share of power that is not lost to friction.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Efficiency {
     /// Which way power flows.
     pub is: EfficiencyKind,
@@ -110,6 +116,7 @@ pub enum EfficiencyKind {
 
 /// A value at which efforts grow without bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BlowUp {
     /// The value.
     pub at: f64,
@@ -125,6 +132,7 @@ pub struct BlowUp {
 
 /// The efforts over what is varied.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Course {
     /// What is varied.
     pub vary: VariedQuantity,
@@ -136,6 +144,7 @@ pub struct Course {
 
 /// The efforts over what is varied in one direction of motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CourseDirection {
     /// "model" or "reversed".
     pub direction: &'static str,
@@ -149,6 +158,7 @@ pub struct CourseDirection {
 
 /// The efforts in one solution at one value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CourseRow {
     /// The value.
     pub at: f64,

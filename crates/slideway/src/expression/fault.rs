@@ -38,7 +38,6 @@ impl ExpressionFault {
 
 /// What is wrong with an expression.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum ExpressionFaultKind {
     /// There is nothing but blanks.
     #[error("the expression is empty")]

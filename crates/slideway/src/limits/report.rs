@@ -20,6 +20,7 @@ pub const SCHEMA: &str = "slideway/limits/2";
 
 /// For which values each mode exists.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LimitsReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -53,6 +54,7 @@ pub struct LimitsReport {
 
 /// What is varied, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct VariedQuantity {
     /// Its name.
     pub name: String,
@@ -74,6 +76,7 @@ impl VariedQuantity {
 
 /// The modes of the opposite direction of motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Direction {
     /// The modes.
     pub modes: Vec<ModeLimits>,
@@ -88,6 +91,7 @@ pub struct Direction {
 
 /// An interval in which a mode has a solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ModeLimits {
     /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
     pub pattern: String,
@@ -116,6 +120,7 @@ pub struct ModeLimits {
 
 /// What a normal force does towards both ends of an interval.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EndReaction {
     /// The contact.
     pub contact: String,
@@ -131,6 +136,7 @@ pub struct EndReaction {
 
 /// An interval with the same number of solutions throughout.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CountLimits {
     /// Where it begins.
     pub from: f64,
@@ -172,6 +178,7 @@ impl CountLimits {
 
 /// A range in which there is no mode problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RangeWithoutProblem {
     /// Where it begins.
     pub from: f64,

@@ -15,6 +15,7 @@ pub const SCHEMA: &str = "slideway/map/1";
 
 /// A map of pixels and what their classes mean.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub struct MapReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -38,6 +39,7 @@ pub struct MapReport {
 
 /// An axis of a map.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub struct MapAxis {
     /// Its name.
     pub name: String,
@@ -57,6 +59,7 @@ pub struct MapAxis {
 
 /// A class of points.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MapClass {
     /// What its points have in common.
     pub meaning: ClassMeaning,

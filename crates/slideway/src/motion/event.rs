@@ -16,7 +16,6 @@ pub(super) const NOTHING: &str = "it goes on as before";
 
 /// Why a phase ends, or what is told.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum Cause {
     /// The motion begins.
     Start,

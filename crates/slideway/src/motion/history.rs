@@ -79,7 +79,6 @@ pub struct Statistics {
 
 /// Why a simulation ends.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum End {
     /// The duration is over.
     Finished,

@@ -17,6 +17,7 @@ pub const SCHEMA: &str = "slideway/simulate/1";
 
 /// A motion in time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SimulateReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -63,6 +64,7 @@ pub struct SimulateReport {
 
 /// Something that happened at an instant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EventReport {
     /// When (s).
     pub time: f64,
@@ -83,6 +85,7 @@ pub struct EventReport {
 
 /// Why a phase ended, or what was told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CauseReport {
     /// `start`, `normal_force_zero`, `preload_gap_ends`, `stops`, `slips`, `locks`, `reaction_limit`, `tips`,
     /// `overlap_vanishes`, `travel_limit`, `hits`, `meets_pad`, `leaves_pad`, `load_jumps`, `user`, `jams`.
@@ -93,6 +96,7 @@ pub struct CauseReport {
 
 /// A mode in which the motion could go on.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BranchReport {
     /// Its number, counted from 1.
     pub number: usize,
@@ -108,6 +112,7 @@ pub struct BranchReport {
 
 /// A phase and when it holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PhaseReport {
     /// Its start (s).
     pub from: f64,
@@ -121,6 +126,7 @@ pub struct PhaseReport {
 
 /// How a motion ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EndReport {
     /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `tips`, `no_continuation`, `jammed`,
     /// `accumulation`, `step_limit`, `event_limit`, `no_value`, `undecided`, `interrupted`.
@@ -133,6 +139,7 @@ pub struct EndReport {
 
 /// Where the energy went (J).
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EnergyReport {
     /// Kinetic energy at the start and at the end.
     pub kinetic: [f64; 2],
@@ -155,6 +162,7 @@ pub struct EnergyReport {
 
 /// A number with its name.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Named {
     /// Its name.
     pub name: String,
@@ -164,6 +172,7 @@ pub struct Named {
 
 /// What a simulation cost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StatisticsReport {
     /// Steps that were accepted.
     pub steps: usize,
@@ -180,6 +189,7 @@ pub struct StatisticsReport {
 
 /// Rest that was not proven, but looked at at four times in each step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SampledReport {
     /// How long in all (s).
     pub time: f64,

@@ -78,7 +78,7 @@ impl Text<'_> {
 
     /// What there is for numbers that differ by rounding alone.
     fn within_rounding(&mut self) {
-        let Some(WithinRounding { relative, answer, unknowns }) = &self.report.within_rounding else {
+        let Some(WithinRounding { relative, answer, unknowns, .. }) = &self.report.within_rounding else {
             return;
         };
         let rounding = format!("rounding of the numbers (relative {relative:e})");

@@ -20,6 +20,7 @@ pub enum Verdict {
 
 /// Attainability of a solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Attainability {
     /// The verdict.
     pub verdict: Verdict,
@@ -50,6 +51,7 @@ pub struct Attainability {
 
 /// The least damping of the contacts, `N = -kappa (gap + delta gap')`, that suppresses flutter.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FlutterDamping {
     /// Damping ratio `zeta = delta sqrt|lambda| / 2` of the fluttering motion.
     pub ratio: f64,

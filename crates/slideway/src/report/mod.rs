@@ -30,6 +30,7 @@ pub const SCHEMA: &str = "slideway/solve/2";
 
 /// All solutions of the kinetic problem of a mechanism in one state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Report {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -94,6 +95,7 @@ pub struct Report {
 
 /// What a model is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ModelSummary {
     /// Its title.
     pub title: Option<String>,
@@ -109,6 +111,7 @@ pub struct ModelSummary {
 
 /// A chosen coordinate in the state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CoordinateState {
     /// Its name.
     pub name: String,
@@ -122,6 +125,7 @@ pub struct CoordinateState {
 
 /// How many patterns had which outcome; all but `rejected` and the gap states add up to `total`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct PatternSummary {
     /// 2^r sign patterns.
     pub total: u64,
@@ -147,6 +151,7 @@ pub struct PatternSummary {
 
 /// One solution, or one state of a preload gap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Solution {
     /// Its pattern: "+" and "-" for the signs of the normal forces, "0" in a preload gap.
     pub pattern: String,
@@ -231,6 +236,7 @@ pub enum CertificateKind {
 
 /// A mode whose outcome is not decided within the bounds of the mechanism's numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct UndecidedMode {
     /// Its pattern.
     pub pattern: String,
@@ -242,6 +248,7 @@ pub struct UndecidedMode {
 
 /// By which factors all coefficients of friction together may grow before the answer changes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Margins {
     /// Up to this factor there is the same number of solutions (and of gap states); absent if it never changes.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -263,6 +270,7 @@ pub struct Margins {
 
 /// The contact whose coefficient of friction matters most.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CriticalContact {
     /// Its name.
     pub contact: String,
@@ -272,6 +280,7 @@ pub struct CriticalContact {
 
 /// By which factor all friction may grow before a mode ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ModeMargin {
     /// The factor; absent if the mode never ends.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -284,6 +293,7 @@ pub struct ModeMargin {
 
 /// What is certain for all values of parameters that are known within bounds only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Uncertainty {
     /// The parameters and their bounds.
     pub parameters: Vec<UncertainParameter>,
@@ -302,6 +312,7 @@ pub struct Uncertainty {
 
 /// A parameter that is known within bounds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct UncertainParameter {
     /// Its name.
     pub name: String,
@@ -315,6 +326,7 @@ pub struct UncertainParameter {
 
 /// A mode that exists for some values of the uncertain parameters, or perhaps does.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct UncertainMode {
     /// Its pattern.
     pub pattern: String,
@@ -341,6 +353,7 @@ pub enum Persistence {
 
 /// A contact in a solution. Signs as in theory, section 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Contact {
     /// "joint", "joint.front" or "joint.rear".
     pub name: String,
@@ -365,6 +378,7 @@ pub struct Contact {
 
 /// The contact mode of a sliding joint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct JointMode {
     /// Its name.
     pub name: String,
@@ -374,6 +388,7 @@ pub struct JointMode {
 
 /// A hinge force.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Hinge {
     /// The hinge.
     pub name: String,
@@ -385,6 +400,7 @@ pub struct Hinge {
 
 /// Acceleration of a body, and what is left over in its balance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Body {
     /// Its name.
     pub name: String,
@@ -400,6 +416,7 @@ pub struct Body {
 
 /// Acceleration of a chosen coordinate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CoordinateAcceleration {
     /// The coordinate.
     pub name: String,
@@ -411,6 +428,7 @@ pub struct CoordinateAcceleration {
 
 /// The effort of a drive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Drive {
     /// The drive.
     pub name: String,
@@ -423,6 +441,7 @@ pub struct Drive {
 /// Infinitely many solutions of one mode: all convex combinations of the vertices plus all non-negative multiples
 /// of the directions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Continuum {
     /// Its pattern.
     pub pattern: String,
@@ -436,6 +455,7 @@ pub struct Continuum {
 
 /// A mode with a vanishing determinant and no solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LockedMode {
     /// Its pattern.
     pub pattern: String,
@@ -445,6 +465,7 @@ pub struct LockedMode {
 
 /// A solution of the equations that is none of the mechanism.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Rejection {
     /// Its pattern.
     pub pattern: String,
@@ -460,6 +481,7 @@ pub struct Rejection {
 
 /// A mode without a solution, close to locking.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ClosestMode {
     /// Its pattern.
     pub pattern: String,
@@ -475,6 +497,7 @@ pub struct ClosestMode {
 
 /// The frictionless answer and the influence coefficients.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct InfluenceSummary {
     /// Accelerations of the coordinates without friction.
     pub coordinate_accelerations: Vec<f64>,

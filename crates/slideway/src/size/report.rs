@@ -29,6 +29,7 @@ pub enum MarginKind {
 
 /// For which values a wanted margin is met.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SizeReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -61,6 +62,7 @@ pub struct SizeReport {
 
 /// An interval in which the wanted margin is met.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MetInterval {
     /// Where it begins.
     pub from: f64,
@@ -90,6 +92,7 @@ pub enum SampleKind {
 
 /// The margin at a value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Sample {
     /// The value.
     pub at: f64,
@@ -101,6 +104,7 @@ pub struct Sample {
 
 /// A range without an answer: the mechanism cannot be assembled or solved, or a guided slider is between its faces.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RangeWithoutPosition {
     /// Where it begins.
     pub from: f64,

@@ -43,6 +43,7 @@ pub struct Range {
 
 /// Whether a mechanism stays at rest, under which loads, and how it begins to move.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct HoldReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
@@ -82,6 +83,7 @@ pub struct HoldReport {
 
 /// A coordinate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CoordinateValue {
     /// Its name.
     pub name: String,
@@ -93,6 +95,7 @@ pub struct CoordinateValue {
 
 /// What is known of a load that is multiplied by a factor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LoadReport {
     /// Its name.
     pub name: String,
@@ -110,6 +113,7 @@ pub struct LoadReport {
 
 /// The static friction from which on the load alone, however great, is held.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Threshold {
     /// What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter.
     pub varied: String,
@@ -124,6 +128,7 @@ pub struct Threshold {
 
 /// Static coefficients of a contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Coefficients {
     /// Its name.
     pub contact: String,
@@ -133,6 +138,7 @@ pub struct Coefficients {
 
 /// All states of rest together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct AtRest {
     /// The sign patterns of the normal forces that are possible; 0 for a contact in its gap.
     pub patterns: Vec<String>,
@@ -142,6 +148,7 @@ pub struct AtRest {
 
 /// Ranges of reactions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Reactions {
     /// Of the contacts.
     pub contacts: Vec<ContactRange>,
@@ -153,6 +160,7 @@ pub struct Reactions {
 
 /// Reactions of a contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContactRange {
     /// Its name.
     pub name: String,
@@ -166,6 +174,7 @@ pub struct ContactRange {
 
 /// Force of a hinge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct HingeRange {
     /// Its name.
     pub name: String,
@@ -177,6 +186,7 @@ pub struct HingeRange {
 
 /// Effort of a drive that holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveRange {
     /// Its name.
     pub name: String,
@@ -188,6 +198,7 @@ pub struct DriveRange {
 
 /// A state in which the mechanism begins to move.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Release {
     /// What each sliding joint does.
     pub joints: Vec<JointRelease>,
@@ -201,6 +212,7 @@ pub struct Release {
 
 /// What a sliding joint does on release.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct JointRelease {
     /// Its name.
     pub name: String,
@@ -214,6 +226,7 @@ pub struct JointRelease {
 
 /// Acceleration of a coordinate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CoordinateRange {
     /// Its name.
     pub name: String,
