@@ -11,7 +11,7 @@
 //!
 //! let identity = nalgebra::DMatrix::identity(3, 3);
 //! let problem = ModeProblem::from_linear_complementarity(&identity, nalgebra::dvector![-1.0, 1.0, 2.0])?;
-//! let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Break(()))?;
+//! let result = search(&problem, &SearchOptions::default(), &mut |_| ControlFlow::Break(()));
 //! assert_eq!(result.completeness, Completeness::Partial(StopReason::Cancelled));
 //! # Ok::<(), slideway_modes::ModeProblemError>(())
 //! ```
