@@ -299,7 +299,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
 
     /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the event.
     fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
-        causes.extend(self.switching.switch(switches));
+        causes.extend(self.switching.switch(self.time, switches));
         self.equations.hold(&self.switching);
         Ended::Event(causes)
     }

@@ -36,6 +36,8 @@ pub(super) struct Switching<'m> {
     /// Until when no relation of time alone leaves its piece, and those that leave it then.
     next: f64,
     due: Vec<Switch>,
+    /// The relations that have left their pieces last, at a time (s).
+    passed: (f64, Vec<usize>),
 }
 
 impl<'m> Switching<'m> {
@@ -46,7 +48,8 @@ impl<'m> Switching<'m> {
         let values = mechanism.values(&[], &[], 0.0);
         let parameters = values.parameters.iter().map(|value| Interval::point(*value)).collect();
         let next = f64::NEG_INFINITY;
-        let mut switching = Self { mechanism, relations, pieces, parameters, next, due: Vec::new() };
+        let (due, passed) = (Vec::new(), (next, Vec::new()));
+        let mut switching = Self { mechanism, relations, pieces, parameters, next, due, passed };
         for relation in 0..switching.relations.len() {
             let piece = switching.ahead(configuration, relation, switching.speed(configuration, relation));
             switching.set(relation, piece);
@@ -113,7 +116,8 @@ impl<'m> Switching<'m> {
 
     /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there, and the pads that begin or
     /// cease to push.
-    pub(super) fn switch(&mut self, switches: &[Switch]) -> Vec<Cause> {
+    pub(super) fn switch(&mut self, time: f64, switches: &[Switch]) -> Vec<Cause> {
+        self.passed = (time, switches.iter().map(|(relation, _)| *relation).collect());
         let mut causes: Vec<Cause> = Vec::new();
         let pads = self.pushing();
         for &(relation, end) in switches {
@@ -143,12 +147,13 @@ impl<'m> Switching<'m> {
     }
 
     /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none, and for those of the
-    /// friction of joints that stop.
+    /// friction of joints that stop. What has just left a piece has fallen through its end: velocities alone do not tell how it goes on.
     pub(super) fn settle(&mut self, configuration: &Configuration, stops: &dyn Fn(JointId) -> bool) {
         for relation in 0..self.relations.len() {
             let contact = self.relations[relation].contact;
             let rubs = contact.is_some_and(|contact| stops(self.mechanism.contacts[contact.index()].joint));
-            let at_end = |end: End| self.margin(configuration, (relation, end)) == 0.0;
+            let has_passed = self.passed.0 == configuration.time && self.passed.1.contains(&relation);
+            let at_end = |end: End| !has_passed && self.margin(configuration, (relation, end)) == 0.0;
             let is_free = self.pieces.piece(relation) == Piece::Free;
             if !self.relations[relation].kind.of_time
                 && (is_free || rubs || End::BOTH.into_iter().any(at_end))

@@ -253,3 +253,62 @@ fn the_gallery_drawer_closes_softly() {
     let [_, leaves] = contacts(&simulate(&bounces, &options).unwrap());
     assert!(!leaves.is_empty());
 }
+
+/// A block of 2.4 kg is pushed out of its damped pad and meets it again before it is out of its depth: where k d + c d' passes zero with
+/// d > 0 and d' < 0, d'' > 0. A second block, which rests far away, changes nothing: what has just left its piece has left it, although
+/// velocities alone would take it back.
+#[test]
+fn a_pad_that_is_met_within_its_depth_is_met_once() {
+    let text = r#"
+gravity = "9.81 m/s^2"
+[bodies.a]
+mass = 1
+centre_of_mass = [0, 0]
+moment_of_inertia = 1
+[bodies.b]
+points = ["B"]
+mass = 2.4
+centre_of_mass = "B"
+moment_of_inertia = 1
+[points]
+B = [1, 0]
+[joints.ga]
+type = "block_slider"
+block = "a"
+at = [0, 0]
+along = 0
+length = 0.2
+mu = 0.6
+[joints.gb]
+type = "block_slider"
+block = "b"
+at = "B"
+along = 0
+length = 0.2
+mu = 0.1
+travel = [0, 1]
+stop = { stiffness = 2000, damping = 30 }
+[loads.push]
+type = "force"
+at = "b.B"
+components = ["-2.9 N", 0]
+[coordinates.xa]
+slide = "ga"
+[coordinates.xb]
+slide = "gb"
+value = "-0.13 mm"
+rate = "14.8 mm/s"
+"#;
+    for duration in [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 3.0] {
+        let history = simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(duration)).unwrap();
+        assert_eq!(history.end, End::Finished, "{duration}: {:#?}", words(&history));
+        let [meets, _] = contacts(&history);
+        // Outside of the pad the force is -2.9 N - 0.1 m g, so that d = 0.13 mm - 14.8 mm/s t + a t^2/2, and k d + c d' = 0.
+        let acceleration = (2.9 + 0.1 * 2.4 * 9.81) / 2.4;
+        let depth = |t: f64| 0.13e-3 - 14.8e-3 * t + acceleration * t * t / 2.0;
+        let rate = |t: f64| -14.8e-3 + acceleration * t;
+        assert!(meets.len() <= 1 || meets[1] - meets[0] > 1e-6, "{duration}: {meets:?}");
+        let at = meets[0];
+        assert!((2000.0 * depth(at) + 30.0 * rate(at)).abs() < 1e-6, "{duration}: {at}");
+    }
+}
