@@ -359,7 +359,7 @@ pub enum FaultKind {
     NoLoadAtRest { load: String },
     #[error("`{parameter}` is no parameter of static friction alone")]
     NotOnlyFriction { parameter: String },
-    #[error("the joints and contacts have {states} states; at most {limit} are tried")]
+    #[error("the joints and contacts have {} states; at most {limit} are tried", counted(*states))]
     TooManyStates { states: u64, limit: u64 },
     #[error("the mechanism has {expected} {what}, but {found} are given")]
     WrongCount { what: &'static str, expected: usize, found: usize },
@@ -531,6 +531,11 @@ impl FaultKind {
             _ => None,
         }
     }
+}
+
+/// A number of states, which may be beyond what is counted.
+fn counted(states: u64) -> String {
+    if states == u64::MAX { format!("more than {states}") } else { states.to_string() }
 }
 
 fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {

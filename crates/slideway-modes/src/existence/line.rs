@@ -277,7 +277,8 @@ impl Value {
         self.value >= -TOLERANCE * self.magnitude
     }
 
-    fn vanishes(self) -> bool {
+    /// Whether it is an equality, rounding aside.
+    pub(super) fn vanishes(self) -> bool {
         self.value.abs() <= 10.0 * TOLERANCE * self.magnitude
     }
 }

@@ -284,6 +284,15 @@ impl ModeProblemLine {
         mode.line.solution(at).is_some_and(|unknowns| mode.violated(&unknowns).is_empty())
     }
 
+    /// What vanishes within rounding in the solution of a pattern at a parameter, as the cause by which it would end there;
+    /// [`EndCause::Range`] if nothing does, or its determinant vanishes.
+    pub fn cause_at(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> EndCause {
+        let mode = self.mode(pattern, options);
+        let Some(unknowns) = mode.line.solution(at) else { return EndCause::Range };
+        let vanishing = mode.vanishing(&unknowns);
+        if vanishing.is_empty() { EndCause::Range } else { mode.cause(&Cause::Conditions(vanishing)) }
+    }
+
     /// Why a pattern that has a solution here has none in a problem close by, both at `t = 0`; none where its
     /// determinant changes its sign between them.
     pub fn cause(
@@ -436,6 +445,17 @@ impl Mode<'_> {
             !Value { value, magnitude: magnitude.max(unknowns.amax()) }.is_met()
         };
         (0..self.conditions.len()).filter(contradicts).collect()
+    }
+
+    /// The conditions that are equalities within rounding.
+    fn vanishing(&self, unknowns: &DVector<f64>) -> Vec<usize> {
+        let vanishes = |&index: &usize| {
+            let condition = &self.conditions[index];
+            let value = condition.times(unknowns.as_slice()) + condition.offset;
+            let magnitude = condition.magnitude(unknowns.as_slice()) + condition.offset.abs();
+            Value { value, magnitude: magnitude.max(unknowns.amax()) }.vanishes()
+        };
+        (0..self.conditions.len()).filter(vanishes).collect()
     }
 
     /// Adds the condition `weights . z + offset >= 0`.

@@ -5,6 +5,7 @@ use super::report::{BlowUp, CourseDirection, CourseRow};
 use super::state::growing_ends;
 use crate::fault::Faults;
 use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, find, guarantee};
+use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::solve::{Stages, pattern};
 
@@ -168,6 +169,19 @@ impl Tabulated<'_> {
             .into_iter()
             .map(|state| row(state.pattern, state.drives.iter().map(|drive| drive.effort + 0.0).collect()));
         let rows: Vec<CourseRow> = pressed.chain(between_faces).collect();
+        // Where modes end and others begin there is one state, which is on the boundary of each.
+        let ends_here = |end: &&ModeEnd| {
+            let is_boundary = matches!(end.cause, EndCause::SideChange(_) | EndCause::OutputBound(_));
+            is_boundary && is_same(end.at, value)
+        };
+        let boundary = || {
+            let ended = |mode: &&ModeInterval| [&mode.from, &mode.to].iter().any(ends_here);
+            let mode = self.found.existence.modes.iter().find(ended)?;
+            Some(row(pattern(&mode.pattern), efforts.of(&mode.pattern)?))
+        };
+        if let Some(row) = rows.is_empty().then(boundary).flatten() {
+            return vec![row];
+        }
         if rows.is_empty() {
             return vec![CourseRow { frictionless: Some(efforts.frictionless), ..nothing(value) }];
         }

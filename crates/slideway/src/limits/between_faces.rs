@@ -27,18 +27,29 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
         return;
     }
     let is_open = found.known.iter().any(|known| known.elsewhere != Elsewhere::Nothing);
+    let has_free = |count: &CountInterval| {
+        let parts = varied.parts(f64::midpoint(count.from, count.to));
+        parts.is_ok_and(|parts| !parts.with_free_faces().is_empty())
+    };
+    if !found.counts.iter().any(has_free) {
+        return;
+    }
+    let zeros = if is_open { zeros(varied, found, work) } else { None };
+    let candidates = zeros.as_deref().unwrap_or_default();
     let mut counts = Vec::new();
     let mut all_known = Vec::new();
     for (interval, known) in found.counts.iter().zip(&found.known) {
         let whole = [interval.from, interval.to];
         let parts = open(whole, known);
         let states = |at: f64| varied.states_between_faces((at, 1.0), greatest, work).len();
-        let stretches: Vec<Stretch> = parts.iter().flat_map(|&part| stretches(part, &states)).collect();
-        if stretches.is_empty() {
+        let stretches: Vec<Stretch> =
+            parts.iter().flat_map(|&part| stretches(part, candidates, &states)).collect();
+        if parts.is_empty() {
             counts.push(*interval);
             all_known.push(known.clone());
             continue;
         }
+        // Zeros of determinants do not tell these states: what they are not found at may be between the values.
         let spacing = parts.iter().map(|[from, to]| (to - from) / VALUES as f64).fold(0.0, f64::max);
         let elsewhere = match known.elsewhere {
             Elsewhere::Contradicted => Elsewhere::Contradicted,
@@ -60,20 +71,18 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
     found.counts = counts;
     found.known = all_known;
     if is_open {
-        found.between_faces = single_values(varied, greatest, found, work);
+        found.between_faces = single_values(varied, (greatest, zeros), found, work);
     }
 }
 
-/// The states at single values, outside of intervals that have others.
-fn single_values(varied: &Varied, greatest: Option<f64>, found: &Found, work: Work<'_>) -> SingleValues {
-    let has_free = |count: &CountInterval| {
-        let parts = varied.parts(f64::midpoint(count.from, count.to));
-        parts.is_ok_and(|parts| !parts.with_free_faces().is_empty())
-    };
-    if !found.counts.iter().any(has_free) {
-        return SingleValues::Impossible;
-    }
-    let Some(mut values) = zeros(varied, found, work) else { return SingleValues::LeftOut };
+/// The states at single values, outside of intervals that have others; they are among the zeros of normal forces, if these are known.
+fn single_values(
+    varied: &Varied,
+    (greatest, zeros): (Option<f64>, Option<Vec<f64>>),
+    found: &Found,
+    work: Work<'_>,
+) -> SingleValues {
+    let Some(mut values) = zeros else { return SingleValues::LeftOut };
     let has_states = |at: f64| {
         let mut around = found.counts.iter().filter(|count| (count.from..=count.to).contains(&at));
         around.all(|count| count.gap_states == 0)
@@ -125,11 +134,14 @@ fn open([from, to]: [f64; 2], known: &Knowledge) -> Vec<[f64; 2]> {
     parts.filter(|part| part[1] - part[0] > margin_of([from, to])).collect()
 }
 
-/// Where there are such states in a part.
-fn stretches(part: [f64; 2], states: &dyn Fn(f64) -> usize) -> Vec<Stretch> {
+/// Where there are such states in a part: at evenly spaced values, at candidates, and between them.
+fn stretches(part: [f64; 2], candidates: &[f64], states: &dyn Fn(f64) -> usize) -> Vec<Stretch> {
     let [from, to] = part;
     let value = |index: usize| from + (to - from) * (index as f64 + 0.5) / VALUES as f64;
-    let tried: Vec<(f64, usize)> = (0..VALUES).map(value).map(|at| (at, states(at))).collect();
+    let candidates = candidates.iter().copied().filter(|at| from < *at && *at < to);
+    let mut values: Vec<f64> = (0..VALUES).map(value).chain(candidates).collect();
+    values.sort_by(f64::total_cmp);
+    let tried: Vec<(f64, usize)> = values.into_iter().map(|at| (at, states(at))).collect();
     let mut found = Vec::new();
     let mut begin = from;
     for equal in tried.chunk_by(|one, next| one.1 == next.1) {

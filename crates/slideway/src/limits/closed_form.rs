@@ -8,6 +8,7 @@ use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
+use crate::modes::ContactState;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, TooManyModes, counts,
 };
@@ -51,7 +52,11 @@ pub(super) fn closed_form(
         all.not_computed.extend(found.not_computed);
         append(&mut numbers, intervals);
     }
-    join(&mut all, [from, to]);
+    let cause = |pattern: &[ContactState], at: f64| {
+        let there = varied.parts(at).ok().map(|parts| parts.line_to(&parts));
+        there.map_or(EndCause::Range, |line| line.cause_at(pattern, 0.0, options))
+    };
+    join(&mut all, [from, to], &cause);
     let method = if changes { Method::ClosedForm } else { Method::Same { at_rest: dependence.at_rest } };
     let known = Knowledge::unproven(Elsewhere::ClosedForm);
     Ok(Some(Found {
@@ -79,13 +84,12 @@ fn allowed(varied: &Varied, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     (ends[0] < ends[1]).then_some(ends)
 }
 
-/// The rest of the range.
+/// The rest of the range, with the reason at its ends: next to what is allowed bisection may have stopped early.
 fn outside(varied: &Varied, [from, to]: [f64; 2], [first, last]: [f64; 2]) -> Vec<Gap> {
-    let gap = |[from, to]: [f64; 2]| {
-        let faults = varied.parts(f64::midpoint(from, to)).err().unwrap_or_default();
-        (from < to).then_some(Gap { from, to, faults })
+    let gap = |([from, to], end): ([f64; 2], f64)| {
+        (from < to).then(|| Gap { from, to, faults: varied.parts(end).err().unwrap_or_default() })
     };
-    [[from, first], [last, to]].into_iter().filter_map(gap).collect()
+    [([from, first], from), ([last, to], to)].into_iter().filter_map(gap).collect()
 }
 
 /// The pieces of a range: from the value nearest to zero outwards, the first as long as the scale on which the mode problem
@@ -134,8 +138,9 @@ fn append(all: &mut Vec<CountInterval>, more: Vec<CountInterval>) {
     }
 }
 
-/// Joins modes that go on in the next piece, and sorts them. One that ends exactly where a piece does has not been understood.
-fn join(existence: &mut Existence, [from, to]: [f64; 2]) {
+/// Joins modes that go on in the next piece, and sorts them. One that ends exactly where a piece does, as where all loads vanish, ends by
+/// what vanishes there; if nothing does it has not been understood.
+fn join(existence: &mut Existence, [from, to]: [f64; 2], cause: &dyn Fn(&[ContactState], f64) -> EndCause) {
     existence
         .modes
         .sort_by(|one, other| one.pattern.cmp(&other.pattern).then(one.from.at.total_cmp(&other.from.at)));
@@ -151,6 +156,13 @@ fn join(existence: &mut Existence, [from, to]: [f64; 2]) {
                 last.to = mode.to;
             }
             _ => joined.push(mode),
+        }
+    }
+    for ModeInterval { pattern, from: first, to: last } in &mut joined {
+        for end in [first, last] {
+            if end.cause == EndCause::Range && end.at != from && end.at != to {
+                end.cause = cause(pattern, end.at);
+            }
         }
     }
     let is_cut = |end: &crate::modes::existence::ModeEnd| {

@@ -25,10 +25,7 @@ pub(super) fn conclusion(
     let pieces = joined.into_iter().map(|piece| piece.sentence(name, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
         let sentence = |at: &f64| {
-            format!(
-                "At {name} = {} alone there is{way} a state with the preload between the faces.",
-                precise(*at)
-            )
+            format!("At {name} = {} there is{way} a state with the preload between the faces.", precise(*at))
         };
         direction.between_faces_at.iter().map(sentence).collect()
     };

@@ -136,7 +136,7 @@ impl Words<'_> {
         let demands = self.places.iter().filter_map(|place| Some(place.margin?.demand(1.0)));
         let [least, greatest] =
             demands.fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
-        (greatest - least <= SAME * greatest || least == f64::INFINITY && greatest == f64::INFINITY)
+        (greatest - least <= SAME * least || least == f64::INFINITY && greatest == f64::INFINITY)
             .then(|| format!("The margin does not depend on {}.", self.report.vary.name))
     }
 }

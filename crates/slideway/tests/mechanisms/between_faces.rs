@@ -170,7 +170,8 @@ fn limits_tell_single_values() {
                 assert_eq!(solve(&there).expect("solvable").preload_gap_states.len(), 1);
             }
         }
-        let told = report.conclusion.iter().filter(|sentence| sentence.contains("alone there is")).count();
+        let told =
+            report.conclusion.iter().filter(|sentence| sentence.contains("a state with the preload")).count();
         assert_eq!(told, 2 * expected.len(), "{:?}", report.conclusion);
     }
     // Where values are bracketed they are left out, and that is said.
@@ -178,4 +179,18 @@ fn limits_tell_single_values() {
         limits_of(&slope.with(&parameters(&[("T", "0.1 N")])).expect("sound"), "a=10 deg..50 deg");
     assert!(bracketed.between_faces_at.is_empty());
     assert!(bracketed.guarantee.contains("are left out"), "{}", bracketed.guarantee);
+}
+
+/// N = 0 along the slope, whatever the moment: the state exists for |M| < F h/2 = 0.6 N m, far less than the distance of the values
+/// that are tried.
+#[test]
+fn limits_find_a_narrow_interval_of_these_states() {
+    let report = limits_of(&slope(), "M=-50..50");
+    let told: Vec<[f64; 2]> = report.counts.iter().map(|count| [count.from, count.to]).collect();
+    assert_eq!(told.len(), 3, "{told:?}");
+    // `solve` tells shares within 1e-9 of 0 and 1 as on the boundary, and M = 0.6 N m (2 lambda - 1).
+    assert_close(told[1][0], -0.6, 1.0, 2e-9);
+    assert_close(told[1][1], 0.6, 1.0, 2e-9);
+    let states: Vec<usize> = report.counts.iter().map(|count| count.preload_gap_states).collect();
+    assert_eq!(states, [0, 1, 0]);
 }

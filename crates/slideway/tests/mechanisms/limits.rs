@@ -4,6 +4,7 @@ use crate::answers::{model, parameters};
 use crate::random_mechanisms::mechanisms;
 use proptest::prelude::*;
 use serde::Deserialize;
+use slideway::drive::{DriveOptions, drive};
 use slideway::fault::{FaultKind, Faults};
 use slideway::gallery;
 use slideway::limits::{LimitsOptions, LimitsReport, ModeLimits, limits};
@@ -239,5 +240,27 @@ proptest! {
             prop_assert_eq!(present.solutions, solved.solutions.len());
             prop_assert_eq!(present.preload_gap_states, solved.preload_gap_states.len());
         }
+    }
+}
+
+/// Where every load scales with what is varied all normal forces vanish at zero, and the drawer goes over from one corner to the other: both
+/// modes are told with their ends, and efforts of drives on both sides are those of `solve`.
+#[test]
+fn modes_on_both_sides_of_a_load_that_vanishes() {
+    let report = of("drawer", &[], "Q=-50 N..50 N");
+    let told: Vec<(&str, f64, f64)> = report
+        .modes
+        .iter()
+        .map(|mode| (mode.pattern.as_str(), mode.from.unwrap(), mode.to.unwrap()))
+        .collect();
+    assert_eq!(told, [("+-", 0.0, 50.0), ("-+", -50.0, 0.0)]);
+    assert_eq!(report.counts.len(), 1);
+    let options = DriveOptions { vary: Some("Q=-50 N..50 N".to_owned()), rows: 4 };
+    let courses = drive(&model("drawer"), &options).expect("sound").course.expect("it is varied");
+    for row in &courses.directions[0].rows {
+        let settings = parameters(&[("Q", &format!("{:e}", row.at))]);
+        let solved = solve(&model("drawer").with(&settings).expect("sound")).expect("solvable");
+        let efforts = row.efforts.as_ref().unwrap_or_else(|| panic!("no solution at {}", row.at));
+        assert!((efforts[0] - solved.solutions[0].drives[0].effort).abs() < 1e-9, "{row:?}");
     }
 }
