@@ -445,7 +445,12 @@ fn finished(history: &History, time: &str) -> String {
             let from = number(interval.from);
             format!("At {time} s the time is over; since {from} s all sliding joints have stuck.{jams}")
         }
-        _ => format!("At {time} s the time is over; it is still moving.{jams}"),
+        _ => {
+            let bodies = 3 * history.mechanism.bodies.len();
+            let moves = history.last.1[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
+            let told = if moves { "it is still moving" } else { "nothing moves" };
+            format!("At {time} s the time is over; {told}.{jams}")
+        }
     }
 }
 
