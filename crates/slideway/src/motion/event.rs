@@ -251,7 +251,13 @@ impl Words<'_> {
                     format!("{name} starts to slide: it {}", self.state("is now", index, *joint, after))
                 }
                 (JointPhase::Sliding(old), JointPhase::Sliding(new)) if old != new => {
-                    format!("{name} reverses: it {}", self.state("is now", index, *joint, after))
+                    // Nothing happens where a joint without friction turns round: the next event tells.
+                    let now = stops
+                        || causes
+                            .iter()
+                            .any(|cause| matches!(cause, Cause::Hits { .. } | Cause::Jams { .. }));
+                    let reverses = if now { "reverses" } else { "has reversed since the last event" };
+                    format!("{name} {reverses}: it {}", self.state("is now", index, *joint, after))
                 }
                 (JointPhase::Sliding(_), JointPhase::Sliding(_)) => {
                     let slider = self.mechanism.slider(*joint)?;

@@ -312,3 +312,12 @@ rate = "14.8 mm/s"
         assert!((2000.0 * depth(at) + 30.0 * rate(at)).abs() < 1e-6, "{duration}: {at}");
     }
 }
+
+/// Without friction nothing is watched where the block turns round inside the pad: the next event says that it has.
+#[test]
+fn a_reversal_without_friction_is_told_by_the_next_event() {
+    let history = run(&with_stop(&block("0", "rate = 2", ""), "{ stiffness = 2e4 }"), 3.0);
+    let told = words(&history).join("\n");
+    assert!(told.contains("guide has reversed since the last event"), "{told}");
+    assert!(!told.contains("guide reverses"), "{told}");
+}
