@@ -3,6 +3,7 @@
 use super::parts::Parts;
 use super::state::pattern;
 use crate::fault::Faults;
+use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::existence::{
@@ -27,12 +28,13 @@ pub(super) fn add(
 ) {
     let friction = Friction { mechanism, influence, velocity_signs };
     let Some(all) = friction.along(&|_| true) else { return };
-    // Such a state hangs on a normal force that is zero, and is no mode that could be followed.
-    let hangs = |state: &report::Solution| {
-        let mut jumps = state.pattern.chars().zip(&all.line.has_jump);
-        jumps.any(|(sign, jumps)| sign == '0' && !jumps)
+    // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no mode that could be followed.
+    let is_free = |k: usize| {
+        mechanism.preload_jumps(ContactId(k)) && !all.line.has_jump.get(k).copied().unwrap_or(false)
     };
-    if report.preload_gap_states.iter().any(hangs) {
+    let hangs =
+        |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
+    if report.solutions.iter().chain(&report.preload_gap_states).any(hangs) {
         return;
     }
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {

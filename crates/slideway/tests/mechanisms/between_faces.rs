@@ -194,3 +194,14 @@ fn limits_find_a_narrow_interval_of_these_states() {
     let states: Vec<usize> = report.counts.iter().map(|count| count.preload_gap_states).collect();
     assert_eq!(states, [0, 1, 0]);
 }
+
+/// At |M| = 0.6 N m the preload rubs on one face, and still nothing presses: with more friction the same state goes on, whatever happens to the
+/// modes beside it, so that no margin is told.
+#[test]
+fn nothing_is_said_of_margins_where_nothing_presses() {
+    for moment in ["-0.6 N m", "0 N m", "0.6 N m"] {
+        let report = solve(&slope().with(&parameters(&[("M", moment)])).expect("sound")).expect("solvable");
+        let states = report.solutions.len() + report.preload_gap_states.len();
+        assert_eq!((states, &report.margins), (1, &None), "{moment}");
+    }
+}
