@@ -438,24 +438,21 @@ const NONE: (usize, f64) = (0, 0.0);
 impl Mode<'_> {
     /// The conditions that a solution contradicts.
     fn violated(&self, unknowns: &DVector<f64>) -> Vec<usize> {
-        let contradicts = |&index: &usize| {
-            let condition = &self.conditions[index];
-            let value = condition.times(unknowns.as_slice()) + condition.offset;
-            let magnitude = condition.magnitude(unknowns.as_slice()) + condition.offset.abs();
-            !Value { value, magnitude: magnitude.max(unknowns.amax()) }.is_met()
-        };
-        (0..self.conditions.len()).filter(contradicts).collect()
+        self.conditions_where(unknowns, |value| !value.is_met())
     }
 
     /// The conditions that are equalities within rounding.
     fn vanishing(&self, unknowns: &DVector<f64>) -> Vec<usize> {
-        let vanishes = |&index: &usize| {
-            let condition = &self.conditions[index];
-            let value = condition.times(unknowns.as_slice()) + condition.offset;
-            let magnitude = condition.magnitude(unknowns.as_slice()) + condition.offset.abs();
-            Value { value, magnitude: magnitude.max(unknowns.amax()) }.vanishes()
+        self.conditions_where(unknowns, Value::vanishes)
+    }
+
+    fn conditions_where(&self, unknowns: &DVector<f64>, holds: impl Fn(Value) -> bool) -> Vec<usize> {
+        let value = |condition: &Condition| Value {
+            value: condition.times(unknowns.as_slice()) + condition.offset,
+            magnitude: (condition.magnitude(unknowns.as_slice()) + condition.offset.abs())
+                .max(unknowns.amax()),
         };
-        (0..self.conditions.len()).filter(vanishes).collect()
+        (0..self.conditions.len()).filter(|&index| holds(value(&self.conditions[index]))).collect()
     }
 
     /// Adds the condition `weights . z + offset >= 0`.
