@@ -215,7 +215,7 @@ fn displaced(
         let displacements: Vec<f64> = full.iter().map(|displacement| part * displacement).collect();
         let moved = configuration.displaced(mechanism, &displacements)?;
         let is_near = moved.poses.iter().zip(&configuration.poses).all(|(new, old)| {
-            (new.angle - old.angle).abs() < GREATEST_ROTATION
+            (new.angle() - old.angle()).abs() < GREATEST_ROTATION
                 && (new.position - old.position).norm() * view.scale < GREATEST_DISPLACEMENT
         });
         is_near.then_some((moved, part))

@@ -93,7 +93,7 @@ fn cut(
     let half = 0.5 * width.max(height);
     let along = |configuration: &&Configuration| {
         let pose = configuration.poses[body.index()];
-        let (sin, cos) = (pose.angle + lean(mechanism, body) + upright).sin_cos();
+        let (sin, cos) = (pose.angle() + lean(mechanism, body) + upright).sin_cos();
         let axis = Vector2::new(cos, sin);
         places(mechanism, configuration).into_iter().map(move |place| (place - pose.position).dot(&axis))
     };

@@ -25,7 +25,7 @@ impl Configuration {
     /// let state = Configuration::new(&mechanism)?;
     /// // The lower block, 0.2 m long, with its front end down by 10 mm and its rear end up by 10 mm.
     /// let tipped = state.displaced(&mechanism, &[0.0, -0.01, 0.01]).expect("a regular state");
-    /// assert!((tipped.poses[1].angle + 0.1).abs() < 1e-9);
+    /// assert!((tipped.poses[1].angle() + 0.1).abs() < 1e-9);
     /// # Ok::<(), slideway::fault::Faults>(())
     /// ```
     pub fn displaced(&self, mechanism: &Mechanism, displacements: &[f64]) -> Option<Self> {

@@ -37,7 +37,7 @@ const WIDEST: f64 = 0.02;
 /// for phi in ["61 deg", "61.1 deg", "61.2 deg"] {
 ///     let moved = Mechanism::new(&model.with(&Settings::default().position("phi", phi))?)?;
 ///     let (near, direct) = (follower.configuration(&moved)?, Configuration::new(&moved)?);
-///     assert!((near.poses[1].angle - direct.poses[1].angle).abs() < 1e-14);
+///     assert!((near.poses[1].angle() - direct.poses[1].angle()).abs() < 1e-14);
 /// }
 /// # Ok::<(), slideway::fault::Faults>(())
 /// ```
@@ -240,9 +240,11 @@ fn extrapolated(coordinates: &[f64], earlier: &[Configuration]) -> Option<Vec<Po
     }
     let extrapolated = |one: f64, two: f64, three: f64| 3.0 * (one - two) + three;
     let poses = first.poses.iter().zip(&second.poses).zip(&third.poses);
-    let pose = |((one, two), three): ((&Pose, &Pose), &Pose)| Pose {
-        position: one.position.zip_zip_map(&two.position, &three.position, extrapolated),
-        angle: extrapolated(one.angle, two.angle, three.angle),
+    let pose = |((one, two), three): ((&Pose, &Pose), &Pose)| {
+        Pose::new(
+            one.position.zip_zip_map(&two.position, &three.position, extrapolated),
+            extrapolated(one.angle, two.angle, three.angle),
+        )
     };
     Some(poses.map(pose).collect())
 }

@@ -5,7 +5,7 @@
 //! the size of the mechanism, and displacements are counted in it, so that all numbers are of order one.
 
 use super::curvature::{Curvature, End};
-use super::{Pose, middle_points, moved, turned};
+use super::{Pose, middle_points, moved};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
@@ -188,7 +188,7 @@ impl<T: Real> Rows<'_, T> {
     }
 
     fn direction(&self, slider: &Slider<T>) -> Vector2<T> {
-        turned(self.angle(slider.guide), slider.tangent)
+        slider.guide.body().map_or(slider.tangent, |body| self.poses[body.index()].turned(slider.tangent))
     }
 
     fn assemble(self) -> JointEquations<T> {

@@ -276,9 +276,8 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
 pub(crate) fn advance<T: Real>(mechanism: &Mechanism<T>, poses: &mut [Pose<T>], step: &DVector<T>) {
     let size = T::exactly(mechanism.size);
     for (index, pose) in poses.iter_mut().enumerate() {
-        pose.position.x += size * step[3 * index];
-        pose.position.y += size * step[3 * index + 1];
-        pose.angle += step[3 * index + 2];
+        let moved = Vector2::new(step[3 * index], step[3 * index + 1]) * size;
+        *pose = Pose::new(pose.position + moved, pose.angle + step[3 * index + 2]);
     }
 }
 

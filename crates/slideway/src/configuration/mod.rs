@@ -37,8 +37,31 @@ use std::sync::Arc;
 pub struct Pose<T = f64> {
     /// Centre of mass (m).
     pub position: Vector2<T>,
+    angle: T,
+    /// Cosine and sine of the angle: every point and direction of the body asks for them.
+    turn: [T; 2],
+}
+
+impl<T: Real> Pose<T> {
+    /// A body whose centre of mass is at a position (m), turned by an angle (rad).
+    pub fn new(position: Vector2<T>, angle: T) -> Self {
+        let turn = if angle.is_zero() { [T::one(), T::zero()] } else { [angle.cos(), angle.sin()] };
+        Self { position, angle, turn }
+    }
+
     /// Rotation (rad), not reduced to one turn.
-    pub angle: T,
+    pub fn angle(&self) -> T {
+        self.angle
+    }
+
+    /// A direction of the drawing, turned with the body.
+    pub(crate) fn turned(&self, drawn: Vector2<T>) -> Vector2<T> {
+        if self.angle.is_zero() {
+            return drawn;
+        }
+        let [cos, sin] = self.turn;
+        Vector2::new(cos * drawn.x - sin * drawn.y, sin * drawn.x + cos * drawn.y)
+    }
 }
 
 /// Velocity of a body.
@@ -184,7 +207,7 @@ impl<T: Real> Configuration<T> {
 
     /// A direction of the drawing, turned with a frame.
     pub fn direction(&self, frame: Frame, drawn: Vector2<T>) -> Vector2<T> {
-        turned(self.angle(frame), drawn)
+        frame.body().map_or(drawn, |body| self.poses[body.index()].turned(drawn))
     }
 
     /// Where a point of the drawing is now.
@@ -257,16 +280,7 @@ impl<T: Real> Configuration<T> {
 
 /// Where every body is in the drawing.
 fn drawing_poses(mechanism: &Mechanism) -> Vec<Pose> {
-    mechanism.bodies.iter().map(|body| Pose { position: body.centre_of_mass, angle: 0.0 }).collect()
-}
-
-/// A vector turned by an angle.
-fn turned<T: Real>(angle: T, vector: Vector2<T>) -> Vector2<T> {
-    if angle.is_zero() {
-        return vector;
-    }
-    let (cos, sin) = (angle.cos(), angle.sin());
-    Vector2::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y)
+    mechanism.bodies.iter().map(|body| Pose::new(body.centre_of_mass, 0.0)).collect()
 }
 
 /// Where a point of the drawing is when the bodies have these poses.
@@ -276,7 +290,7 @@ fn moved<T: Real>(mechanism: &Mechanism<T>, poses: &[Pose<T>], point: &Attachmen
         Some(body) => {
             let pose = poses[body.index()];
             let arm = point.position - mechanism.bodies[body.index()].centre_of_mass;
-            pose.position + turned(pose.angle, arm)
+            pose.position + pose.turned(arm)
         }
     }
 }

@@ -61,7 +61,7 @@ fn positions(
 }
 
 fn exact(pose: &Pose) -> Pose<Interval> {
-    Pose { position: pose.position.map(Interval::point), angle: Interval::point(pose.angle) }
+    Pose::new(pose.position.map(Interval::point), Interval::point(pose.angle()))
 }
 
 fn inflated(step: Interval) -> Interval {

@@ -127,9 +127,25 @@ impl KineticEquations {
     /// Loads without a value or direction; a motion without inertia; drives that cannot produce their motion;
     /// equations too ill-conditioned to be solved.
     pub fn new(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
+        Self::factored(mechanism, configuration, Factorization::new)
+    }
+
+    /// The equations of the same mechanism in a configuration close to this one, in the same scales.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn near(&self, mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
+        Self::factored(mechanism, configuration, |matrix| self.factorization.near(matrix))
+    }
+
+    fn factored(
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        factor: impl FnOnce(DMatrix<f64>) -> Result<Factorization, Singular>,
+    ) -> Result<Self, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
         let Assembled { layout, contacts, applied, matrix, load, friction, coordinate_rows } = assembled;
-        let factorization = Factorization::new(matrix).map_err(|singular| {
+        let factorization = factor(matrix).map_err(|singular| {
             Builder { mechanism, configuration, layout: &layout }.singular_fault(&singular)
         })?;
         Ok(Self { layout, contacts, applied, load, friction, factorization, coordinate_rows })

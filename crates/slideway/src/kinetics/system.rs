@@ -40,6 +40,19 @@ pub(super) struct Singular {
 impl Factorization {
     /// Factors a square matrix.
     pub(super) fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
+        let scales = equilibration(&matrix);
+        Self::scaled(matrix, scales)
+    }
+
+    /// Factors a matrix that differs little from this one: its rows and columns have the same scales.
+    pub(super) fn near(&self, matrix: DMatrix<f64>) -> Result<Self, Singular> {
+        Self::scaled(matrix, (self.row_scale.clone(), self.column_scale.clone()))
+    }
+
+    fn scaled(
+        matrix: DMatrix<f64>,
+        (row_scale, column_scale): (DVector<f64>, DVector<f64>),
+    ) -> Result<Self, Singular> {
         if !matrix.iter().all(|entry| entry.is_finite()) {
             let nothing = DVector::zeros(matrix.ncols());
             return Err(Singular {
@@ -48,7 +61,6 @@ impl Factorization {
                 condition: f64::INFINITY,
             });
         }
-        let (row_scale, column_scale) = equilibration(&matrix);
         let scaled = scaled(&matrix, &row_scale, &column_scale);
         let factors = Factors::of(&scaled);
         let condition = factors.condition();
@@ -69,15 +81,18 @@ impl Factorization {
     /// Solutions of `matrix` x = `side`, each with one step of iterative refinement.
     pub(super) fn solve(&self, sides: &[&DVector<f64>]) -> Vec<DVector<f64>> {
         let (size, count) = (self.matrix.nrows(), sides.len());
-        let first = self.solve_once(&|row, place| sides[place][row], count);
-        let mut sums = vec![0.0; size * count];
-        for (column, entries) in self.matrix.column_iter().enumerate() {
-            for (row, entry) in entries.iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
-                let known = &first[column * count..][..count];
-                sums[row * count..][..count].iter_mut().zip(known).for_each(|(sum, x)| *sum += entry * x);
-            }
+        let mut known = vec![0.0; size * count];
+        for (place, side) in sides.iter().enumerate() {
+            side.iter()
+                .zip(known.iter_mut().skip(place).step_by(count))
+                .for_each(|(side, known)| *known = *side);
         }
-        let more = self.solve_once(&|row, place| sides[place][row] - sums[row * count + place], count);
+        let first = self.solve_once(&known, count);
+        let entries = self.matrix.as_slice().chunks_exact(size.max(1));
+        for (entries, unknown) in entries.zip(first.chunks_exact(count.max(1))) {
+            subtract_rows(entries, unknown, &mut known);
+        }
+        let more = self.solve_once(&known, count);
         let solution = |place: usize| {
             DVector::from_fn(size, |row, _| first[row * count + place] + more[row * count + place])
         };
@@ -101,9 +116,9 @@ impl Factorization {
     }
 
     /// Solutions for all right-hand sides, which stand side by side in each row.
-    fn solve_once(&self, side: &dyn Fn(usize, usize) -> f64, count: usize) -> Vec<f64> {
-        let mut solution = self.factors.solve(&|row, place| side(row, place) * self.row_scale[row], count);
-        for (row, scale) in solution.chunks_exact_mut(count.max(1)).zip(&self.column_scale) {
+    fn solve_once(&self, sides: &[f64], count: usize) -> Vec<f64> {
+        let mut solution = self.factors.solve((sides, self.row_scale.as_slice()), count);
+        for (row, scale) in solution.chunks_exact_mut(count.max(1)).zip(self.column_scale.as_slice()) {
             row.iter_mut().for_each(|value| *value *= scale);
         }
         solution
@@ -161,11 +176,13 @@ impl Factors {
         if size == 0 { 1.0 } else { greatest / least }
     }
 
-    /// Solutions for several right-hand sides, which stand side by side in each row.
-    fn solve(&self, side: &dyn Fn(usize, usize) -> f64, count: usize) -> Vec<f64> {
+    /// Solutions for several right-hand sides, which stand side by side in each row and are multiplied by its scale.
+    fn solve(&self, (sides, scales): (&[f64], &[f64]), count: usize) -> Vec<f64> {
         let size = self.rows.len();
-        let sides = self.rows.iter().flat_map(|row| (0..count).map(move |place| side(*row, place)));
-        let mut work: Vec<f64> = sides.collect();
+        let mut work = Vec::with_capacity(size * count);
+        for row in &self.rows {
+            work.extend(sides[row * count..][..count].iter().map(|side| side * scales[*row]));
+        }
         for step in 0..size {
             let (known, rest) = work.split_at_mut((step + 1) * count);
             let factors = &self.entries[step * size + step + 1..(step + 1) * size];
@@ -229,23 +246,25 @@ pub(crate) fn scaled<T: Real>(
 /// Powers of two by which rows and columns are multiplied so that their greatest entries are near one
 /// (Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices, 2001).
 pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64>) {
-    let mut rows = DVector::from_element(matrix.nrows(), 1.0);
-    let mut columns = DVector::from_element(matrix.ncols(), 1.0);
-    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(8 * matrix.ncols());
-    for (j, column) in matrix.column_iter().enumerate() {
+    let [height, width] = [matrix.nrows(), matrix.ncols()];
+    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(8 * width);
+    for (j, column) in matrix.as_slice().chunks_exact(height.max(1)).enumerate() {
         let present = column.iter().enumerate().filter(|(_, entry)| **entry != 0.0);
-        entries.extend(present.map(|(i, entry)| (i, j, *entry)));
+        entries.extend(present.map(|(i, entry)| (i, height + j, entry.abs())));
     }
+    // Rows, then columns.
+    let mut scales = vec![1.0; height + width];
+    let mut greatest = vec![0.0_f64; height + width];
     for _ in 0..6 {
-        let mut greatest = [vec![0.0_f64; matrix.nrows()], vec![0.0_f64; matrix.ncols()]];
+        greatest.fill(0.0);
         for &(i, j, entry) in &entries {
-            let scaled = (rows[i] * entry * columns[j]).abs();
-            greatest[0][i] = greatest[0][i].max(scaled);
-            greatest[1][j] = greatest[1][j].max(scaled);
+            let scaled = scales[i] * entry * scales[j];
+            greatest[i] = greatest[i].max(scaled);
+            greatest[j] = greatest[j].max(scaled);
         }
-        let [of_rows, of_columns] = greatest.map(|list| list.into_iter().map(inverse_root));
         let mut changed = false;
-        for (scale, factor) in rows.iter_mut().zip(of_rows).chain(columns.iter_mut().zip(of_columns)) {
+        for (scale, greatest) in scales.iter_mut().zip(&greatest) {
+            let factor = inverse_root(*greatest);
             *scale *= factor;
             changed |= factor != 1.0;
         }
@@ -253,7 +272,8 @@ pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64
             break;
         }
     }
-    (rows, columns)
+    let (rows, columns) = scales.split_at(height);
+    (DVector::from_column_slice(rows), DVector::from_column_slice(columns))
 }
 
 /// The power of two nearest to 1/sqrt(x), from the exponent of x; 1 for an empty row. Between two the one farther from 1.

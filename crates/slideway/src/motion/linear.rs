@@ -1,9 +1,20 @@
 //! Small dense linear systems, solved again and again without new memory.
 
+/// Ratio of pivots from which on no pivot is given without a search.
+const WELL_CONDITIONED: f64 = 1e6;
+
 /// A square matrix, its factors (LU with partial pivoting) and its determinant.
+///
+/// Of kinetic equations the first unknowns, accelerations, are coupled by nothing but the others: the diagonal of masses is taken for
+/// their pivots without a search, and most of the work is left out. Where the pivots that then follow say that it matters which one
+/// is taken, all are searched for.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LinearSystem {
     size: usize,
+    /// So many of the first rows have in as many of the first columns nothing but the diagonal, and that is not zero.
+    uncoupled: usize,
+    /// Of these, the ones that were taken for pivots without a search.
+    given: usize,
     /// Row by row: the matrix, and after factorization the factors of `diag(rows) matrix diag(columns)`.
     entries: Vec<f64>,
     /// Powers of two that bring rows and columns to order one.
@@ -12,6 +23,8 @@ pub(super) struct LinearSystem {
     /// The row that stands at each place after the exchanges.
     order: Vec<usize>,
     work: Vec<f64>,
+    /// The matrix before it was factored.
+    unfactored: Vec<f64>,
     determinant: Determinant,
 }
 
@@ -59,13 +72,21 @@ impl LinearSystem {
     pub(super) fn new(size: usize) -> Self {
         Self {
             size,
+            uncoupled: 0,
+            given: 0,
             entries: vec![0.0; size * size],
             row_scale: vec![1.0; size],
             column_scale: vec![1.0; size],
             order: vec![0; size],
             work: vec![0.0; size],
+            unfactored: Vec::new(),
             determinant: Determinant::default(),
         }
+    }
+
+    /// So many of the first rows have in as many of the first columns nothing but the diagonal, from now on.
+    pub(super) fn uncouple(&mut self, rows: usize) {
+        self.uncoupled = rows;
     }
 
     /// Sets every entry to zero, to begin a new matrix.
@@ -105,27 +126,42 @@ impl LinearSystem {
                 *entry *= scale * column;
             }
         }
+        if self.uncoupled > 0 {
+            self.unfactored.clone_from(&self.entries);
+            let ratio = self.eliminate(self.uncoupled);
+            if ratio <= WELL_CONDITIONED {
+                return ratio;
+            }
+            self.entries.copy_from_slice(&self.unfactored);
+        }
+        self.eliminate(0)
+    }
+
+    /// Elimination in which so many of the first pivots are those of the diagonal, whose rows have no entries in one another's columns.
+    fn eliminate(&mut self, given: usize) -> f64 {
+        let size = self.size;
+        self.given = given;
         for (place, row) in self.order.iter_mut().enumerate() {
             *row = place;
         }
         self.determinant = Determinant::ONE;
         let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
         for step in 0..size {
-            let pivot = self.bring_pivot(step);
+            let is_given = step < given;
+            let pivot = if is_given { self.entries[step * size + step] } else { self.bring_pivot(step) };
             self.determinant = self.determinant.times(pivot);
             if pivot == 0.0 || !pivot.is_finite() {
                 return f64::INFINITY;
             }
             (least, greatest) = (least.min(pivot.abs()), greatest.max(pivot.abs()));
-            let (upper, lower) = self.entries.split_at_mut((step + 1) * size);
-            let pivot_row = &upper[step * size + step + 1..];
+            let next = if is_given { given } else { step + 1 };
+            let (upper, lower) = self.entries.split_at_mut(next * size);
+            let pivot_row = &upper[step * size + next..][..size - next];
             for row in lower.chunks_exact_mut(size) {
                 if row[step] != 0.0 {
                     let factor = row[step] / pivot;
                     row[step] = factor;
-                    for (entry, above) in row[step + 1..].iter_mut().zip(pivot_row) {
-                        *entry -= factor * above;
-                    }
+                    row[next..].iter_mut().zip(pivot_row).for_each(|(entry, above)| *entry -= factor * above);
                 }
             }
         }
@@ -135,10 +171,11 @@ impl LinearSystem {
     /// Exchanges rows so that the greatest entry of the column stands on the diagonal, which is returned.
     fn bring_pivot(&mut self, step: usize) -> f64 {
         let size = self.size;
-        let mut best = step;
+        let (mut best, mut greatest) = (step, self.entries[step * size + step].abs());
         for row in step + 1..size {
-            if self.entries[row * size + step].abs() > self.entries[best * size + step].abs() {
-                best = row;
+            let entry = self.entries[row * size + step].abs();
+            if entry > greatest {
+                (best, greatest) = (row, entry);
             }
         }
         if best != step {
@@ -161,16 +198,17 @@ impl LinearSystem {
         for (place, row) in self.order.iter().enumerate() {
             self.work[place] = right_hand_side[*row] * self.row_scale[*row];
         }
-        for row in 1..size {
+        for row in self.given.max(1)..size {
             let factors = &self.entries[row * size..row * size + row];
             let sum: f64 = factors.iter().zip(&self.work).map(|(factor, value)| factor * value).sum();
             self.work[row] -= sum;
         }
         for row in (0..size).rev() {
-            let factors = &self.entries[row * size + row..(row + 1) * size];
-            let later = factors[1..].iter().zip(&self.work[row + 1..]);
+            let factors = &self.entries[row * size..(row + 1) * size];
+            let next = self.given.max(row + 1);
+            let later = factors[next..].iter().zip(&self.work[next..]);
             let sum: f64 = later.map(|(factor, value)| factor * value).sum();
-            self.work[row] = (self.work[row] - sum) / factors[0];
+            self.work[row] = (self.work[row] - sum) / factors[row];
         }
         for (unknown, (value, scale)) in
             right_hand_side.iter_mut().zip(self.work.iter().zip(&self.column_scale))
@@ -209,6 +247,29 @@ mod tests {
         // Expanded by hand along the first row: det = -2 (0.5 + 4) + 1 (1) = -8; scales multiply it by 0.25.
         let determinant = system.determinant().relative_to(Determinant::ONE);
         assert!((determinant + 2.0).abs() < 1e-15, "{determinant}");
+    }
+
+    #[test]
+    fn a_diagonal_of_masses_gives_the_pivots_unless_they_matter() {
+        // Two masses m and 2 that a rod holds together and a force 1 pulls: a = 1/(m + 2), the rod has 2 a.
+        for mass in [3.0, 1e-12] {
+            let rows: [&[f64]; 3] = [&[mass, 0.0, 1.0], &[0.0, 2.0, -1.0], &[-1.0, 1.0, 0.0]];
+            let mut system = system(&rows);
+            system.uncouple(2);
+            assert!(system.factor().is_finite());
+            assert_eq!(system.given, if mass == 3.0 { 2 } else { 0 });
+            let mut right_hand_side = [1.0, 0.0, 0.0];
+            system.solve(&mut right_hand_side);
+            let acceleration = 1.0 / (mass + 2.0);
+            for (found, expected) in
+                right_hand_side.iter().zip([acceleration, acceleration, 2.0 * acceleration])
+            {
+                assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+            }
+            // Expanded by hand along the last row.
+            let determinant = system.determinant().relative_to(Determinant::ONE);
+            assert!((determinant - (mass + 2.0)).abs() < 1e-15 * determinant.abs(), "{determinant}");
+        }
     }
 
     #[test]

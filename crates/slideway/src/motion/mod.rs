@@ -121,7 +121,7 @@ fn check_tolerance(
     configuration: &Configuration,
     tolerance: f64,
 ) -> Result<(), Faults> {
-    let magnitude = |pose: &Pose| (pose.position.amax() / mechanism.size).max(pose.angle.abs());
+    let magnitude = |pose: &Pose| (pose.position.amax() / mechanism.size).max(pose.angle().abs());
     let greatest = configuration.poses.iter().map(magnitude).fold(1.0, f64::max);
     let least = f64::EPSILON * greatest;
     if tolerance < least {

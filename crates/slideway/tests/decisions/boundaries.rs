@@ -2,7 +2,7 @@
 
 use crate::agreement::slider_count;
 use crate::set_up::{State, sides};
-use slideway::configuration::{Configuration, Velocity};
+use slideway::configuration::{Configuration, Pose, Velocity};
 use slideway::model::{Model, Settings};
 use slideway::modes::Side;
 use slideway::motion::decision::{PhaseState, Standing, phase_state, successors};
@@ -67,7 +67,8 @@ fn stepped(configuration: &Configuration, state: &PhaseState, step: f64) -> Conf
         let velocity = configuration.velocities[body];
         next.poses[body].position.x += step * (velocity.linear.x + step * x / 2.0);
         next.poses[body].position.y += step * (velocity.linear.y + step * y / 2.0);
-        next.poses[body].angle += step * (velocity.angular + step * turn / 2.0);
+        let turned = step * (velocity.angular + step * turn / 2.0);
+        next.poses[body] = Pose::new(next.poses[body].position, next.poses[body].angle() + turned);
         let linear = velocity.linear + nalgebra::Vector2::new(x, y) * step;
         next.velocities[body] = Velocity { linear, angular: velocity.angular + step * turn };
     }

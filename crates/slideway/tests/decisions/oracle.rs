@@ -4,7 +4,7 @@
 use crate::agreement::Random;
 use crate::set_up::State;
 use nalgebra::Vector2;
-use slideway::configuration::Configuration;
+use slideway::configuration::{Configuration, Pose};
 use slideway::gallery::MODELS;
 use slideway::ids::{BodyId, Frame, JointId};
 use slideway::kinetics::{KineticEquations, Reaction};
@@ -128,8 +128,9 @@ fn keeps_joints(state: &State, one: &Successor) {
     for body in 0..next.poses.len() {
         let velocity = state.configuration.velocities[body];
         let [x, y, turn] = [0, 1, 2].map(|axis| one.state.unknowns[3 * body + axis]);
-        next.poses[body].position += velocity.linear * step;
-        next.poses[body].angle += velocity.angular * step;
+        let Pose { position, .. } = next.poses[body];
+        let angle = next.poses[body].angle() + velocity.angular * step;
+        next.poses[body] = Pose::new(position + velocity.linear * step, angle);
         next.velocities[body].linear += Vector2::new(x, y) * step;
         next.velocities[body].angular += turn * step;
     }

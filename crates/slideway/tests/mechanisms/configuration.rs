@@ -49,11 +49,11 @@ fn slider_crank_over_two_full_turns() {
         // The rod leans by -asin(r sin(phi) / l), counted from its inclination in the drawing.
         let rod = body(&mechanism, "rod");
         let drawn = (r * 60_f64.to_radians().sin() / l).asin();
-        assert_close(configuration.poses[rod].angle, drawn - (height / l).asin(), 1.0, 1e-12);
+        assert_close(configuration.poses[rod].angle(), drawn - (height / l).asin(), 1.0, 1e-12);
         assert_close(configuration.velocities[rod].angular, -omega * r * cos / reach, omega, 1e-12);
         // Angles are counted on, not reduced to one turn.
         let crank = body(&mechanism, "crank");
-        assert_close(configuration.poses[crank].angle, phi - 60_f64.to_radians(), 1.0, 1e-12);
+        assert_close(configuration.poses[crank].angle(), phi - 60_f64.to_radians(), 1.0, 1e-12);
         for k in 0..2 {
             let sliding = configuration.contact(&mechanism, ContactId(k)).sliding_velocity;
             assert_close(sliding, velocity, omega, 1e-12);
@@ -82,7 +82,7 @@ fn velocities_are_the_derivatives_of_positions() {
         for (index, velocity) in now.velocities.iter().enumerate() {
             let change = (after.poses[index].position - before.poses[index].position) / (2.0 * step);
             assert!((change - velocity.linear).norm() < 1e-8, "{name}");
-            let turning = (after.poses[index].angle - before.poses[index].angle) / (2.0 * step);
+            let turning = (after.poses[index].angle() - before.poses[index].angle()) / (2.0 * step);
             assert_close(turning, velocity.angular, 1.0, 1e-8);
         }
     }
@@ -342,7 +342,7 @@ fn relative_rotations_add_up() {
         theta = { rotation = "wheel", relative_to = "arm", drawn_at = 0.1, value = 1.4, rate = 3 }
     "#;
     let (_, configuration) = of_text(text, &Settings::default()).unwrap();
-    assert_close(configuration.poses[1].angle, 0.5 + 1.4 - 0.1, 1.0, 1e-12);
+    assert_close(configuration.poses[1].angle(), 0.5 + 1.4 - 0.1, 1.0, 1e-12);
     assert_close(configuration.velocities[1].angular, 2.0 + 3.0, 1.0, 1e-12);
     assert_vector(configuration.poses[1].position, [0.5_f64.cos(), 0.5_f64.sin()], 1.0);
     assert_vector(configuration.velocities[1].linear, [-2.0 * 0.5_f64.sin(), 2.0 * 0.5_f64.cos()], 1.0);

@@ -205,7 +205,7 @@ fn second_differences(drawing: &Drawing, accelerations: &[f64], step: f64) -> Op
         }
         let mechanism = Mechanism::new(&Model::parse(&drawing.text()).unwrap()).unwrap();
         let poses = Configuration::new(&mechanism).ok()?.poses;
-        Some(poses.iter().map(|pose| [pose.position.x, pose.position.y, pose.angle]).collect())
+        Some(poses.iter().map(|pose| [pose.position.x, pose.position.y, pose.angle()]).collect())
     };
     let [before, now, after] = [poses_at(-step)?, poses_at(0.0)?, poses_at(step)?];
     let difference = |body: usize| {

@@ -1,6 +1,6 @@
 //! Whether a phase that starts at one of its bounds moves away from it: short steps along its own motion.
 
-use super::assessment::{Assessment, Decisive, assess};
+use super::assessment::{Assessment, Decisive, Slack, assess};
 use super::instant::Instant;
 use super::state::state;
 use super::system::{Question, Subject};
@@ -18,6 +18,9 @@ const STEP: f64 = 1e-4;
 const NO_RATE: f64 = 1e-6;
 /// Second derivatives of slacks below this, likewise: they are accurate to about 1e-4.
 const NO_CURVATURE: f64 = 2e-3;
+/// A rate beyond this, per unit of that time, is told by one step: second derivatives, which one step counts as rates, are of the order
+/// of one in that unit, and would have to be 200 times that.
+const CLEAR_RATE: f64 = 1e-2;
 
 /// Accelerations of bodies and coordinates.
 struct Accelerations {
@@ -31,9 +34,9 @@ struct Accelerations {
 /// Something of the motion can change in the time in which accelerations or velocities go through the whole mechanism, or in that over
 /// which four samples show what the loads do.
 ///
-/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase, from one-sided
-/// differences over two steps: with constant accelerations, which tells rates as well as any, and by Heun's method where a rate
-/// is zero and the curvature is asked for.
+/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase: by the difference over one step
+/// where all rates are clear, else by one-sided differences over two steps, with constant accelerations, which tells rates as well as
+/// any, and by Heun's method where a rate is zero and the curvature is asked for.
 pub(super) fn standing(
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),
@@ -51,35 +54,12 @@ pub(super) fn standing(
     let scale =
         Resolution::new(instant.mechanism).step(configuration, [0.0; 2], [scale, least_step(configuration)]);
     let start = (configuration, accelerations(instant, assessment));
-    let (mut constant, mut violated) = (Vec::new(), Vec::new());
-    for method in [Method::ConstantAccelerations, Method::Heun] {
-        let later = match flow.slacks((start.0, &start.1), STEP * scale, method) {
-            Ok(Later::Lasts(later)) => later,
-            Ok(Later::Ends) => return Err(Vec::new()),
-            Ok(Later::Unsolved) | Err(_) => return Ok(Standing::Undecided(limits(&bounds))),
-        };
-        (constant, violated) = (Vec::new(), Vec::new());
-        let mut wants_curvature = false;
-        for &index in &bounds {
-            let first = assessment.slacks[index];
-            let at = |step: usize| later[step].get(index).filter(|slack| slack.subject == first.subject);
-            let (Some(second), Some(third)) = (at(0), at(1)) else {
-                constant.push(index);
-                continue;
-            };
-            let rate = (-3.0 * first.value + 4.0 * second.value - third.value) / (2.0 * STEP);
-            let curvature = (first.value - 2.0 * second.value + third.value) / (STEP * STEP);
-            wants_curvature |= rate.abs() <= NO_RATE;
-            if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
-                violated.push(first.subject);
-            } else if rate <= NO_RATE && curvature <= NO_CURVATURE {
-                constant.push(index);
-            }
-        }
-        if !wants_curvature {
-            break;
-        }
-    }
+    let judged = flow.judged(start, STEP * scale, Bounds { slacks: &assessment.slacks, at_zero: &bounds });
+    let Judged { violated, constant, .. } = match judged {
+        Ok(Later::Lasts(judged)) => judged,
+        Ok(Later::Ends) => return Err(Vec::new()),
+        Ok(Later::Unsolved) | Err(_) => return Ok(Standing::Undecided(limits(&bounds))),
+    };
     if !violated.is_empty() {
         return Err(violated);
     }
@@ -90,6 +70,66 @@ pub(super) fn standing(
     } else {
         Standing::Undecided(limits(&constant))
     })
+}
+
+/// The slacks of a phase, and which of them are zero.
+#[derive(Clone, Copy)]
+struct Bounds<'b> {
+    slacks: &'b [Slack],
+    at_zero: &'b [usize],
+}
+
+/// What becomes of slacks that are zero.
+#[derive(Default)]
+struct Judged {
+    /// Those that fall.
+    violated: Vec<Decisive>,
+    /// Those of which neither is told that they rise nor that they fall.
+    constant: Vec<usize>,
+    /// Whether a curvature decides.
+    wants_curvature: bool,
+}
+
+impl Bounds<'_> {
+    /// Judges by the difference over one step; nothing where a rate is not clear.
+    fn after_one(self, first: &[Slack]) -> Option<Judged> {
+        let mut judged = Judged::default();
+        for &index in self.at_zero {
+            let now = self.slacks[index];
+            let later = first.get(index).filter(|slack| slack.subject == now.subject)?;
+            let rate = (later.value - now.value) / STEP;
+            if rate < -CLEAR_RATE {
+                judged.violated.push(now.subject);
+            } else if rate <= CLEAR_RATE {
+                return None;
+            }
+        }
+        Some(judged)
+    }
+
+    /// Judges by one-sided differences over two steps.
+    fn after_two(self, [first, second]: [&[Slack]; 2]) -> Judged {
+        let mut judged = Judged::default();
+        for &index in self.at_zero {
+            let now = self.slacks[index];
+            let at = |later: &[Slack]| {
+                later.get(index).filter(|slack| slack.subject == now.subject).map(|slack| slack.value)
+            };
+            let (Some(first), Some(second)) = (at(first), at(second)) else {
+                judged.constant.push(index);
+                continue;
+            };
+            let rate = (-3.0 * now.value + 4.0 * first - second) / (2.0 * STEP);
+            let curvature = (now.value - 2.0 * first + second) / (STEP * STEP);
+            judged.wants_curvature |= rate.abs() <= NO_RATE;
+            if rate < -NO_RATE || (rate <= NO_RATE && curvature < -NO_CURVATURE) {
+                judged.violated.push(now.subject);
+            } else if rate <= NO_RATE && curvature <= NO_CURVATURE {
+                judged.constant.push(index);
+            }
+        }
+        judged
+    }
 }
 
 fn limit(instant: &Instant<'_>, subject: Decisive) -> Limit {
@@ -124,17 +164,6 @@ struct Flow<'f> {
     stopped: &'f [bool],
 }
 
-type Slacks = Vec<super::assessment::Slack>;
-
-/// How the motion of a phase is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Method {
-    /// Errors of slacks are of second order in the step, as the differences for rates take them out.
-    ConstantAccelerations,
-    /// Errors of slacks are of third order.
-    Heun,
-}
-
 /// What becomes of a phase along its own motion.
 enum Later<T> {
     Lasts(T),
@@ -155,24 +184,41 @@ impl<T> Later<T> {
 }
 
 impl Flow<'_> {
-    /// The slacks after one step and after two.
-    fn slacks(
+    /// What becomes of slacks that are zero.
+    fn judged(
+        &self,
+        (from, start): (&Configuration, Accelerations),
+        step: f64,
+        bounds: Bounds<'_>,
+    ) -> Result<Later<Judged>, Faults> {
+        // Errors are of second order in the step, as the differences for rates take them out.
+        let after = |time: f64| self.at(&advanced(from, &start, &start, time));
+        after(step)?.and_then(|(_, first)| {
+            if let Some(judged) = bounds.after_one(&first) {
+                return Ok(Later::Lasts(judged));
+            }
+            after(2.0 * step)?.and_then(|(_, second)| {
+                let judged = bounds.after_two([&first, &second]);
+                if judged.wants_curvature {
+                    self.curved((from, &start), step, bounds)
+                } else {
+                    Ok(Later::Lasts(judged))
+                }
+            })
+        })
+    }
+
+    /// The same with errors of third order, which leave curvatures.
+    fn curved(
         &self,
         (from, start): (&Configuration, &Accelerations),
         step: f64,
-        method: Method,
-    ) -> Result<Later<[Slacks; 2]>, Faults> {
-        match method {
-            Method::ConstantAccelerations => {
-                let after = |time: f64| self.at(&advanced(from, start, start, time));
-                after(step)?.and_then(|(_, first)| {
-                    after(2.0 * step)?.and_then(|(_, second)| Ok(Later::Lasts([first, second])))
-                })
-            }
-            Method::Heun => self.step(from, start, step)?.and_then(|(next, start, first)| {
-                self.step(&next, &start, step)?.and_then(|(_, _, second)| Ok(Later::Lasts([first, second])))
-            }),
-        }
+        bounds: Bounds<'_>,
+    ) -> Result<Later<Judged>, Faults> {
+        self.step(from, start, step)?.and_then(|(next, start, first)| {
+            self.step(&next, &start, step)?
+                .and_then(|(_, _, second)| Ok(Later::Lasts(bounds.after_two([&first, &second]))))
+        })
     }
 
     /// A step of Heun's method: the configuration after it, its accelerations and slacks.
@@ -181,7 +227,7 @@ impl Flow<'_> {
         from: &Configuration,
         start: &Accelerations,
         step: f64,
-    ) -> Result<Later<(Configuration, Accelerations, Slacks)>, Faults> {
+    ) -> Result<Later<(Configuration, Accelerations, Vec<Slack>)>, Faults> {
         self.at(&advanced(from, start, start, step))?.and_then(|(end, _)| {
             let corrected = advanced(from, start, &end, step);
             self.at(&corrected)?
@@ -189,7 +235,7 @@ impl Flow<'_> {
         })
     }
 
-    fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Slacks)>, Faults> {
+    fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Vec<Slack>)>, Faults> {
         let instant = self.instant.later(configuration)?;
         let question = instant.question(self.stopped, Some(self.phase));
         let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
@@ -217,7 +263,7 @@ fn advanced(from: &Configuration, start: &Accelerations, end: &Accelerations, st
     let pose = |(body, (pose, velocity)): (usize, (&Pose, &Velocity))| {
         let ([ax, ay, at], [bx, by, bt]) = (part(start, body), part(end, body));
         let moved = Vector2::new(way(velocity.linear.x, ax, bx), way(velocity.linear.y, ay, by));
-        Pose { position: pose.position + moved, angle: pose.angle + way(velocity.angular, at, bt) }
+        Pose::new(pose.position + moved, pose.angle() + way(velocity.angular, at, bt))
     };
     let velocity = |(body, velocity): (usize, &Velocity)| {
         let ([ax, ay, at], [bx, by, bt]) = (part(start, body), part(end, body));

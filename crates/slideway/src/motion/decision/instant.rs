@@ -55,7 +55,8 @@ impl<'m> Instant<'m> {
     /// # Errors
     /// Whatever [`KineticEquations::new`] refuses, friction without a value.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
-        Self::of(mechanism, configuration, Least::Now(rounding))
+        let equations = KineticEquations::new(mechanism, configuration)?;
+        Self::of(mechanism, (configuration, equations), Least::Now(rounding))
     }
 
     /// The same in units of what the forces come to: those of the instant may vanish, and what they do next decides.
@@ -66,7 +67,8 @@ impl<'m> Instant<'m> {
         mechanism: &'m Mechanism,
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
-        Self::of(mechanism, configuration, Least::Now(scale))
+        let equations = KineticEquations::new(mechanism, configuration)?;
+        Self::of(mechanism, (configuration, equations), Least::Now(scale))
     }
 
     /// The mechanism a little later, with the same least units and the same difference from the loads.
@@ -74,13 +76,18 @@ impl<'m> Instant<'m> {
     /// # Errors
     /// As [`Self::new`].
     pub(super) fn later(&self, configuration: &Configuration) -> Result<Self, Faults> {
-        let mut later = Self::of(self.mechanism, configuration, Least::Before(&self.least_forces))?;
+        let equations = self.equations.near(self.mechanism, configuration)?;
+        let least = Least::Before(&self.least_forces);
+        let mut later = Self::of(self.mechanism, (configuration, equations), least)?;
         later.change_base(&self.shift);
         Ok(later)
     }
 
-    fn of(mechanism: &'m Mechanism, configuration: &Configuration, least: Least<'_>) -> Result<Self, Faults> {
-        let equations = KineticEquations::new(mechanism, configuration)?;
+    fn of(
+        mechanism: &'m Mechanism,
+        (configuration, equations): (&Configuration, KineticEquations),
+        least: Least<'_>,
+    ) -> Result<Self, Faults> {
         let influence = Influence::new(&equations);
         let mut joints = sliding_joints(mechanism, configuration, &equations);
         let (now, mut least_forces) = match least {

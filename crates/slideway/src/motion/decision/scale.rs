@@ -113,7 +113,7 @@ fn advance(ahead: &mut Configuration, from: &Configuration, step: f64) {
     let moves = from.poses.iter().zip(&from.velocities);
     for (to, (pose, velocity)) in ahead.poses.iter_mut().zip(moves) {
         let moved: Vector2<f64> = pose.position + velocity.linear * step;
-        *to = Pose { position: moved, angle: pose.angle + velocity.angular * step };
+        *to = Pose::new(moved, pose.angle() + velocity.angular * step);
     }
     let coordinates = from.coordinates.iter().zip(&from.rates);
     for (to, (value, rate)) in ahead.coordinates.iter_mut().zip(coordinates) {

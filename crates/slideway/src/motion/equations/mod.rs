@@ -28,7 +28,7 @@ use super::phase::Phase;
 pub(super) use super::phase::sliding_joints;
 use super::stepper::Derivative;
 use super::switching::Switching;
-use crate::configuration::{Configuration, ContactGeometry};
+use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
@@ -149,7 +149,7 @@ impl<'m> Equations<'m> {
 
     /// The state vector of a configuration, without any work so far.
     pub(super) fn state_of(&self, configuration: &Configuration) -> Vec<f64> {
-        let poses = configuration.poses.iter().flat_map(|p| [p.position.x, p.position.y, p.angle]);
+        let poses = configuration.poses.iter().flat_map(|p| [p.position.x, p.position.y, p.angle()]);
         let rates = configuration.velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         let mut state: Vec<f64> = poses.chain(rates).collect();
         state.resize(self.state_size(), 0.0);
@@ -166,6 +166,10 @@ impl<'m> Equations<'m> {
         self.choose_stuck(phase);
         let size = self.layout.len() + self.stuck.len();
         self.system = LinearSystem::new(size);
+        let inertias = self.mechanism.bodies.iter().flat_map(|body| [body.mass, body.moment_of_inertia]);
+        if inertias.into_iter().all(|inertia| inertia > 0.0) {
+            self.system.uncouple(3 * self.mechanism.bodies.len());
+        }
         self.unknowns = vec![0.0; size];
         self.work = vec![0.0; size];
         self.assemble()?;
@@ -181,8 +185,7 @@ impl<'m> Equations<'m> {
         let (poses, rates) = state.split_at(3 * bodies);
         let configuration = &mut self.configuration;
         for (pose, values) in configuration.poses.iter_mut().zip(poses.chunks_exact(3)) {
-            pose.position = Vector2::new(values[0], values[1]);
-            pose.angle = values[2];
+            *pose = Pose::new(Vector2::new(values[0], values[1]), values[2]);
         }
         for (velocity, values) in configuration.velocities.iter_mut().zip(rates.chunks_exact(3)) {
             velocity.linear = Vector2::new(values[0], values[1]);

@@ -71,7 +71,7 @@ fn frictionless_motion_conserves_energy_and_can_be_reversed() {
         let distance = |one: &Configuration, other: &Configuration| {
             let poses = one.poses.iter().zip(&other.poses);
             poses.fold(0.0_f64, |greatest, (one, other)| {
-                let turned = (one.angle - other.angle).abs();
+                let turned = (one.angle() - other.angle()).abs();
                 greatest.max((one.position - other.position).norm() / size).max(turned)
             })
         };
