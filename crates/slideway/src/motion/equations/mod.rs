@@ -167,7 +167,8 @@ impl<'m> Equations<'m> {
         let size = self.layout.len() + self.stuck.len();
         self.system = LinearSystem::new(size);
         let inertias = self.mechanism.bodies.iter().flat_map(|body| [body.mass, body.moment_of_inertia]);
-        if inertias.into_iter().all(|inertia| inertia > 0.0) {
+        // With a search the acceleration of what sticks is zero to the last bit, not only beside those of forces that balance.
+        if self.stuck.is_empty() && inertias.into_iter().all(|inertia| inertia > 0.0) {
             self.system.uncouple(3 * self.mechanism.bodies.len());
         }
         self.unknowns = vec![0.0; size];
