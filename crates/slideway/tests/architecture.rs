@@ -79,6 +79,26 @@ fn a_stage_imports_only_stages_to_its_left() {
     }
 }
 
+/// The floors of `motion`: what moves, what decides, what is remembered, what follows the motion, what is told.
+const FLOORS_OF_MOTION: &[&str] = &["options", "moving", "decision", "record", "following", "told"];
+
+#[test]
+fn a_floor_of_motion_imports_only_floors_below() {
+    for (floor, name) in FLOORS_OF_MOTION.iter().enumerate() {
+        for file in files_of(&source().join("motion"), name) {
+            let own = |path: &str| {
+                let first = path.split([':', ';', '{', ',']).next().unwrap_or_default();
+                FLOORS_OF_MOTION[..=floor].contains(&first)
+            };
+            for line in code(&file) {
+                let used = line.match_indices("crate::motion::").map(|(at, found)| &line[at + found.len()..]);
+                let restricted = line.contains("pub(in crate::motion)");
+                assert!(restricted || used.into_iter().all(own), "{}: `{}`", file.display(), line.trim());
+            }
+        }
+    }
+}
+
 /// Linear programs are asked in one place alone.
 #[test]
 fn one_module_knows_the_solver_of_linear_programs() {

@@ -5,8 +5,7 @@ use super::outputs::Group;
 use super::system::{Forces, Inequality, Question, Subject, System};
 use crate::influence::ContactFriction;
 use crate::modes::Side;
-use crate::motion::{ContactPhase, JointPhase, Phase};
-use crate::pattern::{Affine, Region, Unsolved};
+use crate::pattern::{Affine, ContactPhase, JointPhase, Phase, Region, Unsolved};
 
 /// Slacks below this are rounding.
 const ROUNDING: f64 = 1e-11;

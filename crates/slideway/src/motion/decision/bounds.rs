@@ -4,7 +4,7 @@ use super::BOUNDARY;
 use super::instant::Instant;
 use super::system::Question;
 use crate::ids::ContactId;
-use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DMatrix, DVector};
 
 /// Rounds of the iteration for the greatest pressures.

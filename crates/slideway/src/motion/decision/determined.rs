@@ -8,7 +8,7 @@ use super::system::{Question, System};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
-use crate::motion::Phase;
+use crate::pattern::Phase;
 
 /// The normal force of each contact in a phase (N); nothing where it hangs on how the joints that stick share their friction:
 /// where the equations leave it open for some admissible sides of the contacts that stick, or it differs from one choice of sides to

@@ -8,7 +8,7 @@ use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Attachment, Coordinate, CoordinateKind, Drive, Effort, Mechanism, Quantity, Slider};
 use crate::modes::Side;
-use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 use crate::solve::mode_problem;
 use nalgebra::DVector;

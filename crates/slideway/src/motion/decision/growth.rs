@@ -8,8 +8,8 @@ use super::{BOUNDARY, Limit, Standing};
 use crate::configuration::{Configuration, Pose, Velocity};
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
-use crate::motion::Phase;
-use crate::motion::resolution::Resolution;
+use crate::motion::moving::resolution::Resolution;
+use crate::pattern::Phase;
 use nalgebra::{DVector, Vector2};
 
 /// Length of a step, as a part of the time in which something of the motion can change.

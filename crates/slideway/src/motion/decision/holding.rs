@@ -5,23 +5,15 @@ use super::assessment::{Assessment, assess_group};
 use super::instant::Instant;
 use super::outputs::Group;
 use super::plan::{Fall, Plan, System};
+use super::rules::Outlook;
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
-use crate::motion::amounts::Amounts;
-use crate::motion::equations::joint_rests;
-use crate::motion::{JointPhase, Phase};
+use crate::motion::moving::amounts::Amounts;
+use crate::motion::moving::equations::joint_rests;
+use crate::pattern::{JointPhase, Phase};
 use nalgebra::DVector;
-
-/// What is known of the time ahead of what stands still.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outlook {
-    /// Until this time (s) it is proven that nothing slips.
-    pub proven: f64,
-    /// Whether something slips then.
-    pub slips: bool,
-}
 
 /// Bodies that stand still in a phase: equations and influence coefficients are computed once.
 pub(crate) struct Holding<'m> {

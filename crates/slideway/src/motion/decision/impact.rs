@@ -10,8 +10,8 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
-use crate::motion::energy::kinetic;
-use crate::motion::{ContactPhase, JointPhase};
+use crate::motion::moving::energy::kinetic;
+use crate::pattern::{ContactPhase, JointPhase};
 use nalgebra::DVector;
 
 /// What an impact on end stops does.

@@ -9,7 +9,7 @@ use super::{BOUNDARY, MOST_STATES};
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::influence::ContactFriction;
-use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::{DVector, Vector2};
 
 /// Sliding velocities below this multiple of the greatest are zero.

@@ -10,8 +10,7 @@ use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Contact, Mechanism};
-use crate::motion::Phase;
-use crate::pattern::Law;
+use crate::pattern::{Law, Phase};
 use nalgebra::DVector;
 use std::borrow::Cow;
 

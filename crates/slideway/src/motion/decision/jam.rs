@@ -8,8 +8,8 @@ use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::influence::ContactFriction;
 use crate::mechanism::Mechanism;
-use crate::motion::energy::kinetic;
-use crate::motion::{ContactPhase, JointPhase, Phase};
+use crate::motion::moving::energy::kinetic;
+use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::DVector;
 
 /// What an impulse that ends a jam does.

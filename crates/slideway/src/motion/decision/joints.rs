@@ -1,13 +1,14 @@
 //! The sliding joints of a mechanism at an instant.
 
 use super::scale::{Scale, Share};
-use super::units::{Units, connected, greatest, units};
+use super::units::{Units, greatest, units};
 use crate::configuration::Configuration;
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Stop;
+use crate::motion::moving::connected::connected;
 
 /// A joint nearer to its end stop than this, in sizes of the mechanism, touches it: rounding of places.
 pub(in crate::motion) const TOUCHES: f64 = 1e-11;

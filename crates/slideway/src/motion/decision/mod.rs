@@ -34,7 +34,7 @@
 //! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
 //!
 //! # Files
-//! `motion::decision` decides at events. `instant.rs` is a mechanism at one instant, made of its sliding
+//! `rules.rs` is what the simulation asks, `thorough.rs` who answers. `instant.rs` is a mechanism at one instant, made of its sliding
 //! joints (`joints.rs`), how normal forces, sliding accelerations and couples answer to friction with the
 //! groups of joints that are decided separately (`outputs.rs`), and their units (`units.rs`); `mobility.rs`
 //! says which joints hold one another; `bounds.rs` is what is asked, with the sides that contacts take
@@ -52,7 +52,7 @@ mod bounds;
 mod determined;
 mod elastic;
 mod growth;
-mod holding;
+pub(super) mod holding;
 mod impact;
 mod impulse;
 mod instant;
@@ -62,26 +62,27 @@ mod mobility;
 mod outputs;
 mod parts;
 mod plan;
+pub(super) mod rules;
 mod scale;
 mod sieve;
 mod state;
 mod sticking;
 mod successors;
 mod system;
+pub(super) mod thorough;
 mod units;
 mod vanishing;
 
 pub(super) use determined::determined_normal_forces;
-pub(super) use holding::Holding;
-pub use holding::Outlook;
 pub use impact::{Blow, Impact, impact};
 pub use jam::{Impulse, Jam, jam};
 pub(super) use joints::TOUCHES;
+pub use rules::Outlook;
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
 pub(super) use successors::continuations;
 pub use successors::{Successor, Successors, Tipping, successors};
-pub(super) use units::{connected, scale_of_forces};
+pub(super) use units::scale_of_forces;
 
 use crate::ids::{ContactId, JointId};
 

@@ -1,10 +1,10 @@
 //! How normal forces, sliding accelerations and couples answer to friction, and which joints act on one another.
 
 use super::joints::SlidingJoint;
-use super::units::join;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
+use crate::motion::moving::connected::join;
 use nalgebra::{DMatrix, DVector};
 
 /// Influence coefficients (force for force) below this are rounding: the friction has no influence there.

@@ -4,6 +4,7 @@ use super::assessment::{Assessment, Decisive, assess_group, with_sides};
 use super::elastic::verdict;
 use super::instant::Instant;
 use super::outputs::Group;
+use super::rules;
 use super::sieve::Sieve;
 use super::state::{PhaseState, is_same_phase, state};
 use super::sticking::ENOUGH;
@@ -11,8 +12,7 @@ use super::successors::{Successors, Tipping};
 use super::system::{Question, Subject};
 use super::{BOUNDARY, MOST_STATES};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::motion::{self, ContactPhase, JointPhase, Phase};
-use crate::pattern::Unsolved;
+use crate::pattern::{ContactPhase, JointPhase, Phase, Unsolved};
 use crate::report::Verdict;
 use std::cmp::Reverse;
 
@@ -50,7 +50,7 @@ pub(super) struct Part {
 /// The search for what groups of joints can do.
 pub(super) struct Search<'s> {
     pub(super) instant: &'s Instant<'s>,
-    pub(super) event: &'s motion::Instant<'s>,
+    pub(super) event: &'s rules::Instant<'s>,
     pub(super) question: &'s Question<'s>,
     pub(super) detail: Detail,
 }

@@ -14,10 +14,9 @@ use super::outputs::Group;
 use super::system::{Inequality, Question, System as Equations};
 use crate::fault::Fault;
 use crate::interval::{Interval, Sloped};
-use crate::motion::Phase;
-use crate::motion::amounts::Amounts;
-use crate::motion::root::falling_root;
-use crate::pattern::{Affine, AffineSet, Region};
+use crate::motion::moving::amounts::Amounts;
+use crate::motion::moving::root::falling_root;
+use crate::pattern::{Affine, AffineSet, Phase, Region};
 use nalgebra::{DMatrix, DVector};
 
 /// A plan ends where a slack falls to this below zero: so what is admissible at the boundary where it begins lasts.

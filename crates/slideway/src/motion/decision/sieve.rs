@@ -3,8 +3,7 @@
 use super::instant::Instant;
 use super::outputs::Group;
 use super::system::Question;
-use crate::motion::{ContactPhase, JointPhase, Phase};
-use crate::pattern::Law;
+use crate::pattern::{ContactPhase, JointPhase, Law, Phase};
 
 /// Patterns are excluded only by slacks below this part of the greatest normal force, far beyond rounding ...
 const CLEAR: f64 = 1e-6;

@@ -5,7 +5,7 @@ use super::instant::Instant;
 use super::outputs::Group;
 use crate::influence::ContactFriction;
 use crate::kinetics::Layout;
-use crate::motion::{JointPhase, Phase};
+use crate::pattern::{JointPhase, Phase};
 use nalgebra::DVector;
 
 /// Accelerations and reactions of a mechanism in a phase.

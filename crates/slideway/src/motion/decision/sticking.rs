@@ -7,7 +7,7 @@ use super::state::{PhaseState, state};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
-use crate::motion::Phase;
+use crate::pattern::Phase;
 
 /// The margin where no distribution of forces is admissible whatever the friction, or none was found.
 pub(super) const NONE: f64 = -1.0;

@@ -5,6 +5,7 @@ use super::elastic::attainability;
 use super::growth::standing;
 use super::instant::Instant;
 use super::parts::{Detail, Part, Search};
+use super::rules;
 use super::state::{PhaseState, state};
 use super::vanishing::vanish;
 use super::{Limit, Standing};
@@ -12,7 +13,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
-use crate::motion::{self, JointPhase, Phase};
+use crate::pattern::{JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 
 /// More combinations of what independent groups of joints can do are not listed.
@@ -113,7 +114,7 @@ pub fn successors(
         velocity => velocity.signum(),
     };
     let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
-    let event = motion::Instant { mechanism, configuration, signs: &signs, zero: &[], previous };
+    let event = rules::Instant { mechanism, configuration, signs: &signs, zero: &[], previous };
     at(instant, &event, Detail::Everything)
 }
 
@@ -124,12 +125,12 @@ pub fn successors(
 ///
 /// # Errors
 /// As [`successors`].
-pub(crate) fn continuations(event: &motion::Instant<'_>) -> Result<Successors, Faults> {
+pub(crate) fn continuations(event: &rules::Instant<'_>) -> Result<Successors, Faults> {
     let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
     at(instant, event, Detail::Order)
 }
 
-fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> Result<Successors, Faults> {
+fn at(mut instant: Instant<'_>, event: &rules::Instant<'_>, detail: Detail) -> Result<Successors, Faults> {
     instant.check_joints(event.signs.len())?;
     if let Some(previous) = event.previous {
         instant.check(previous)?;
@@ -141,7 +142,7 @@ fn at(mut instant: Instant<'_>, event: &motion::Instant<'_>, detail: Detail) -> 
         sign => sign,
     };
     let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
-    let event = &motion::Instant { signs: &signs, ..*event };
+    let event = &rules::Instant { signs: &signs, ..*event };
     let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
     let question = instant.question(&stopped, None);
     let search = Search { instant, event, question: &question, detail };

@@ -4,8 +4,9 @@ use super::instant::Instant;
 use super::joints::SlidingJoint;
 use super::outputs::{Group, Outputs};
 use crate::influence::ContactFriction;
-use crate::motion::{ContactPhase, JointPhase, Phase};
-use crate::pattern::{Affine, AffineSet, Bound, Expression, Friction, without_tipping};
+use crate::pattern::{
+    Affine, AffineSet, Bound, ContactPhase, Expression, Friction, JointPhase, Phase, without_tipping,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// What an inequality of a pattern is about.

@@ -5,7 +5,7 @@ use crate::configuration::Configuration;
 use crate::ids::{BodyId, Frame};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::Mechanism;
 
 /// Units in which the numbers of a decision are of order one.
 #[derive(Debug, Clone, Copy)]
@@ -26,27 +26,6 @@ pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &
     let mass = masses.fold(0.0, f64::max);
     let force = scale(mechanism, configuration, Share { counts: &|_| true, mass, force: 0.0 });
     units(length, (force, mass), 1.0).force
-}
-
-/// For each body a number that it shares with the bodies that are connected with it by joints.
-pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
-    let mut parts: Vec<usize> = (0..mechanism.bodies.len()).collect();
-    for joint in &mechanism.joints {
-        let [one, other] = match &joint.kind {
-            JointKind::Hinge([first, second]) => [first.frame, second.frame],
-            JointKind::Slider(slider) => [slider.block, slider.guide],
-        };
-        if let (Some(one), Some(other)) = (one.body(), other.body()) {
-            join(&mut parts, one.index(), other.index());
-        }
-    }
-    parts
-}
-
-/// Puts what two members belong to together.
-pub(super) fn join(parts: &mut [usize], one: usize, other: usize) {
-    let (kept, dissolved) = (parts[one], parts[other]);
-    parts.iter_mut().filter(|part| **part == dissolved).for_each(|part| *part = kept);
 }
 
 /// The greatest of the loads, preloads and forces of inertia of some bodies (N), and the greatest of their masses (kg).

@@ -3,8 +3,9 @@
 use super::BOUNDARY;
 use super::assessment::{Assessment, assess};
 use super::instant::Instant;
+use super::rules;
 use super::sticking::ENOUGH;
-use crate::motion::{self, ContactPhase, JointPhase, Phase};
+use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::DVector;
 
 /// What is left of a normal force, in units, or of a share, where an event has found it to be zero; it is greater only where it
@@ -12,7 +13,7 @@ use nalgebra::DVector;
 const NEARLY_ZERO: f64 = 1e-4;
 
 /// Makes exactly zero in the previous phase what the event has found to be zero.
-pub(super) fn vanish(instant: &mut Instant<'_>, event: &motion::Instant<'_>, previous: &Phase) {
+pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::Instant<'_>, previous: &Phase) {
     if event.zero.is_empty() {
         return;
     }

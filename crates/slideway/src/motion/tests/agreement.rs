@@ -6,7 +6,7 @@ use crate::ids::DriveId;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::Side;
-use crate::motion::equations::Equations;
+use crate::motion::moving::equations::Equations;
 use crate::motion::{ContactPhase, JointPhase, Phase};
 use crate::report::Solution;
 use crate::solve::solve;

@@ -8,8 +8,9 @@ use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::model::Settings;
 use crate::modes::Side;
-use crate::motion::decision::{Holding, Successor, Successors, continuations, sticking_margin, successors};
-use crate::motion::equations::sliding_joints;
+use crate::motion::decision::holding::Holding;
+use crate::motion::decision::{Successor, Successors, continuations, sticking_margin, successors};
+use crate::motion::moving::equations::sliding_joints;
 use crate::motion::{ContactPhase, Instant, JointPhase, Phase};
 
 /// A sequence of numbers between 0 and 1 (D. E. Knuth's MMIX generator).

@@ -5,8 +5,10 @@ use crate::fault::Faults;
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::{CoordinateKind, Mechanism};
 use crate::modes::Side;
-use crate::motion::equations::{Equations, sliding_joints};
-use crate::motion::{ContactPhase, Decisions, Instant, Jam, JointPhase, Phase, Successor, Successors};
+use crate::motion::moving::equations::{Equations, sliding_joints};
+use crate::motion::{
+    ContactPhase, Continuation, Continuations, Decisions, HaltingImpulse, Instant, JointPhase, Phase,
+};
 use crate::report::Verdict;
 use nalgebra::Vector2;
 
@@ -78,7 +80,7 @@ fn sliding_acceleration(equations: &Equations<'_>, index: usize) -> f64 {
 }
 
 impl Decisions for TryAll {
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Successors, Faults> {
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Continuations, Faults> {
         let mut equations = Equations::new(instant.mechanism, instant.configuration);
         let joints = sliding_joints(instant.mechanism);
         let choices: Vec<Vec<JointPhase>> = (0..joints.len())
@@ -108,19 +110,19 @@ impl Decisions for TryAll {
                 let phase = Phase { joints: joints.clone(), contacts };
                 if !redundant && Self::admits(&mut equations, instant, &phase) {
                     let continues = Some(&phase) == instant.previous;
-                    list.push(Successor { phase, verdict: Verdict::NotComputed, continues });
+                    list.push(Continuation { phase, verdict: Verdict::NotComputed, continues });
                 }
             }
         }
-        Ok(Successors { list, left_out: false })
+        Ok(Continuations { list, left_out: false })
     }
 
     /// Brings everything to rest.
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults> {
+    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
         let rest = Velocity { linear: Vector2::zeros(), angular: 0.0 };
-        Ok(Some(Jam {
+        Ok(Some(HaltingImpulse {
             velocities: vec![rest; instant.mechanism.bodies.len()],
-            energy_lost: crate::motion::energy::kinetic(instant.mechanism, instant.configuration),
+            energy_lost: crate::motion::moving::energy::kinetic(instant.mechanism, instant.configuration),
         }))
     }
 

@@ -6,7 +6,7 @@
 //! interval arithmetic proves the margin to be positive, and what is left is a time within rounding. So none is missed,
 //! however long the steps are.
 
-use super::event::Cause;
+use super::cause::Cause;
 use super::root::first_fall;
 use crate::configuration::Configuration;
 use crate::expression::{End, Expression, Piece, Values};
@@ -25,10 +25,10 @@ const LOOKS: i32 = 64;
 const NEAREST: f64 = 1e-60;
 
 /// A relation and an end of its piece.
-pub(super) type Switch = (usize, End);
+pub(in crate::motion) type Switch = (usize, End);
 
 /// The relations of loads, drives and friction along a motion.
-pub(super) struct Switching<'m> {
+pub(in crate::motion) struct Switching<'m> {
     mechanism: &'m Mechanism,
     relations: Vec<Relation>,
     pieces: Arc<Pieces>,
@@ -42,7 +42,7 @@ pub(super) struct Switching<'m> {
 
 impl<'m> Switching<'m> {
     /// All relations on the pieces on which they are just after a state.
-    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
+    pub(in crate::motion) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
         let relations = mechanism.relations();
         let pieces = Arc::new(Pieces::free(mechanism, &relations));
         let values = mechanism.values(&[], &[], 0.0);
@@ -58,12 +58,12 @@ impl<'m> Switching<'m> {
     }
 
     /// The pieces; nothing without relations.
-    pub(super) fn pieces(&self) -> Option<Arc<Pieces>> {
+    pub(in crate::motion) fn pieces(&self) -> Option<Arc<Pieces>> {
         (!self.relations.is_empty()).then(|| Arc::clone(&self.pieces))
     }
 
     /// The ends that have to be watched: those of relations that depend on the motion.
-    pub(super) fn watched(&self) -> impl Iterator<Item = Switch> + '_ {
+    pub(in crate::motion) fn watched(&self) -> impl Iterator<Item = Switch> + '_ {
         let held = |relation: &usize| {
             !self.relations[*relation].kind.of_time && self.pieces.piece(*relation) != Piece::Free
         };
@@ -72,7 +72,7 @@ impl<'m> Switching<'m> {
     }
 
     /// How far a relation is from an end of its piece; infinite where it has none.
-    pub(super) fn margin(&self, configuration: &Configuration, (relation, end): Switch) -> f64 {
+    pub(in crate::motion) fn margin(&self, configuration: &Configuration, (relation, end): Switch) -> f64 {
         let Configuration { coordinates, rates, time, .. } = configuration;
         let (expression, pieces, number) = self.of(relation);
         let margin =
@@ -86,7 +86,7 @@ impl<'m> Switching<'m> {
 
     /// The first time after `time`, and at most `until`, at which a relation of time alone leaves its piece; infinite if none
     /// does.
-    pub(super) fn next(&mut self, time: f64, until: f64) -> f64 {
+    pub(in crate::motion) fn next(&mut self, time: f64, until: f64) -> f64 {
         if !self.due.is_empty() {
             return self.next;
         }
@@ -110,13 +110,13 @@ impl<'m> Switching<'m> {
     }
 
     /// The relations that leave their pieces at [`Self::next`], which has come.
-    pub(super) fn due(&mut self) -> Vec<Switch> {
+    pub(in crate::motion) fn due(&mut self) -> Vec<Switch> {
         std::mem::take(&mut self.due)
     }
 
     /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there, and the pads that begin or
     /// cease to push.
-    pub(super) fn switch(&mut self, time: f64, switches: &[Switch]) -> Vec<Cause> {
+    pub(in crate::motion) fn switch(&mut self, time: f64, switches: &[Switch]) -> Vec<Cause> {
         self.passed = (time, switches.iter().map(|(relation, _)| *relation).collect());
         let mut causes: Vec<Cause> = Vec::new();
         let pads = self.pushing();
@@ -148,7 +148,11 @@ impl<'m> Switching<'m> {
 
     /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none, and for those of the
     /// friction of joints that stop. What has just left a piece has fallen through its end: velocities alone do not tell how it goes on.
-    pub(super) fn settle(&mut self, configuration: &Configuration, stops: &dyn Fn(JointId) -> bool) {
+    pub(in crate::motion) fn settle(
+        &mut self,
+        configuration: &Configuration,
+        stops: &dyn Fn(JointId) -> bool,
+    ) {
         for relation in 0..self.relations.len() {
             let contact = self.relations[relation].contact;
             let rubs = contact.is_some_and(|contact| stops(self.mechanism.contacts[contact.index()].joint));
@@ -166,7 +170,7 @@ impl<'m> Switching<'m> {
     }
 
     /// Finds new pieces for all relations of the motion: velocities have jumped.
-    pub(super) fn jump(&mut self, configuration: &Configuration) {
+    pub(in crate::motion) fn jump(&mut self, configuration: &Configuration) {
         for relation in 0..self.relations.len() {
             if !self.relations[relation].kind.of_time {
                 let piece = self.ahead(configuration, relation, self.speed(configuration, relation));

@@ -1,26 +1,26 @@
 //! End stops along a motion: impacts, and when bouncing has come to rest.
 
-use super::decision::{Impact, TOUCHES, impact, phase_state};
-use super::event::Cause;
-use super::rules::{Decisions, Instant};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
+use crate::motion::decision::rules::{Decisions, Instant};
+use crate::motion::decision::{Impact, TOUCHES, impact, phase_state};
+use crate::motion::moving::cause::Cause;
 
 /// A joint that has reached an end stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Hit {
-    pub(super) joint: JointId,
+pub(in crate::motion) struct Hit {
+    pub(in crate::motion) joint: JointId,
     /// Whether it is the stop at the greatest displacement.
-    pub(super) greatest: bool,
+    pub(in crate::motion) greatest: bool,
     restitution: f64,
     /// Where the stop is (m).
-    pub(super) displacement: f64,
+    pub(in crate::motion) displacement: f64,
 }
 
 /// The stop that a joint has at an end of its travel.
-pub(super) fn of_limit(mechanism: &Mechanism, joint: JointId, greatest: bool) -> Option<Hit> {
+pub(in crate::motion) fn of_limit(mechanism: &Mechanism, joint: JointId, greatest: bool) -> Option<Hit> {
     let slider = mechanism.slider(joint)?;
     let end = usize::from(greatest);
     let (restitution, displacement) = (slider.stops[end]?.restitution()?, slider.travel?[end]);
@@ -28,7 +28,7 @@ pub(super) fn of_limit(mechanism: &Mechanism, joint: JointId, greatest: bool) ->
 }
 
 /// The stops that are reached with these causes.
-pub(super) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hit> {
+pub(in crate::motion) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hit> {
     let hit = |cause: &Cause| match cause {
         Cause::TravelLimit { joint, greatest } => of_limit(mechanism, *joint, *greatest),
         _ => None,
@@ -41,7 +41,7 @@ pub(super) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hit> {
 ///
 /// # Errors
 /// As [`impact`], and whatever keeps the next flight from being decided.
-pub(super) fn impact_of(
+pub(in crate::motion) fn impact_of(
     hits: &[Hit],
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -71,7 +71,7 @@ fn flies(
     after: &Configuration,
     decisions: &mut dyn Decisions,
 ) -> Result<bool, Faults> {
-    let joints = super::equations::sliding_joints(mechanism);
+    let joints = crate::motion::moving::equations::sliding_joints(mechanism);
     let sliders = joints.iter().filter_map(|joint| mechanism.slider(*joint));
     let velocities: Vec<f64> = sliders.map(|slider| after.sliding(mechanism, slider).1).collect();
     let Some(index) = joints.iter().position(|joint| *joint == hit.joint) else { return Ok(true) };

@@ -7,7 +7,7 @@ use crate::kinetics::{Wrench, effort_forces};
 use crate::mechanism::{Load, LoadKind, Mechanism, Quantity, length};
 
 /// Kinetic energy (J): sum of m v^2 / 2 + J omega^2 / 2.
-pub(super) fn kinetic(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+pub(in crate::motion) fn kinetic(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
     let bodies = mechanism.bodies.iter().zip(&configuration.velocities);
     let one = |(body, velocity): (&crate::mechanism::Body, &crate::configuration::Velocity)| {
         let turning = body.moment_of_inertia * velocity.angular.powi(2);
@@ -18,7 +18,7 @@ pub(super) fn kinetic(mechanism: &Mechanism, configuration: &Configuration) -> f
 
 /// Potential energy of weights, pads, springs and torsional springs with constant properties (J); weights count from the
 /// origin.
-pub(super) fn potential(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+pub(in crate::motion) fn potential(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
     let bodies = mechanism.bodies.iter().zip(&configuration.poses);
     let weights: f64 = bodies.map(|(body, pose)| -body.mass * mechanism.gravity.dot(&pose.position)).sum();
     let springs: f64 = mechanism.loads.iter().map(|load| elastic(mechanism, configuration, load)).sum();
@@ -48,7 +48,7 @@ fn elastic(mechanism: &Mechanism, configuration: &Configuration, load: &Load) ->
 }
 
 /// Whether the work of a load is counted as potential energy: a spring that does not change, a pad without damping.
-pub(super) fn is_conservative(load: &Load) -> bool {
+pub(in crate::motion) fn is_conservative(load: &Load) -> bool {
     let constant = |quantity: &Quantity| matches!(quantity, Quantity::Constant(_));
     match &load.kind {
         LoadKind::Spring { stiffness, free_length, .. } => constant(stiffness) && constant(free_length),
@@ -61,7 +61,7 @@ pub(super) fn is_conservative(load: &Load) -> bool {
 }
 
 /// Power of the friction of every contact (W, what it dissipates is positive), then of every load and drive.
-pub(super) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
+pub(in crate::motion) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
     let (contacts, others) = powers.split_at_mut(equations.contacts.len());
     let (loads, drives) = others.split_at_mut(equations.mechanism.loads.len());
     for (k, power) in contacts.iter_mut().enumerate() {

@@ -18,7 +18,7 @@ enum Amount {
 
 /// The amounts of the loads that change with time while a mechanism stays in a configuration: functions of time alone.
 #[derive(Debug, Clone)]
-pub(super) struct Amounts<'m> {
+pub(in crate::motion) struct Amounts<'m> {
     mechanism: &'m Mechanism,
     list: Vec<(Amount, Load)>,
     coordinates: Vec<f64>,
@@ -30,7 +30,11 @@ pub(super) struct Amounts<'m> {
 
 impl<'m> Amounts<'m> {
     /// The amounts of the loads on bodies that stand still in a configuration, with relations on the pieces of that.
-    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration, rests: &[bool]) -> Self {
+    pub(in crate::motion) fn new(
+        mechanism: &'m Mechanism,
+        configuration: &Configuration,
+        rests: &[bool],
+    ) -> Self {
         let acts = |load: &&Load| loaded_bodies(mechanism, &load.kind).iter().any(|body| rests[body.index()]);
         let one = |load: &Load| amounts_of(mechanism, configuration, load);
         let Configuration { coordinates, rates, pieces, .. } = configuration;
@@ -47,7 +51,7 @@ impl<'m> Amounts<'m> {
     }
 
     /// For each amount the load of which there is one unit, and nothing else.
-    pub(super) fn units(&self) -> impl Iterator<Item = &Load> {
+    pub(in crate::motion) fn units(&self) -> impl Iterator<Item = &Load> {
         self.list.iter().map(|(_, unit)| unit)
     }
 
@@ -55,7 +59,7 @@ impl<'m> Amounts<'m> {
     ///
     /// # Errors
     /// One without a value.
-    pub(super) fn at(&self, time: f64) -> Result<Vec<f64>, Fault> {
+    pub(in crate::motion) fn at(&self, time: f64) -> Result<Vec<f64>, Fault> {
         let values = self.mechanism.values(&self.coordinates, &self.rates, time);
         let pieces = self.pieces.as_deref();
         let quantity = |quantity| self.mechanism.quantity_on(quantity, &values, pieces);
@@ -63,7 +67,7 @@ impl<'m> Amounts<'m> {
     }
 
     /// The amounts over a span of time, with bounds of their rates; nothing where one has no value for some of it.
-    pub(super) fn over(&self, span: Interval) -> Option<Vec<Sloped>> {
+    pub(in crate::motion) fn over(&self, span: Interval) -> Option<Vec<Sloped>> {
         let [parameters, coordinates, rates] = &self.fixed;
         let values = Values {
             parameters,

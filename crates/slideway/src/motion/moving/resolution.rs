@@ -28,7 +28,7 @@ struct Changing {
 }
 
 /// The formulas of loads and drives that depend on time.
-pub(super) struct Resolution<'m> {
+pub(in crate::motion) struct Resolution<'m> {
     mechanism: &'m Mechanism,
     formulas: Vec<Changing>,
     parameters: Vec<Sloped>,
@@ -38,7 +38,7 @@ pub(super) struct Resolution<'m> {
 
 impl<'m> Resolution<'m> {
     /// Those of a mechanism.
-    pub(super) fn new(mechanism: &'m Mechanism) -> Self {
+    pub(in crate::motion) fn new(mechanism: &'m Mechanism) -> Self {
         let masses = mechanism.bodies.iter().map(|body| body.mass).filter(|mass| *mass > 0.0);
         let parameters = mechanism.values(&[], &[], 0.0).parameters.iter();
         let mass = masses.fold(f64::INFINITY, f64::min);
@@ -51,13 +51,13 @@ impl<'m> Resolution<'m> {
     }
 
     /// Whether nothing depends on time.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::motion) fn is_empty(&self) -> bool {
         self.formulas.is_empty()
     }
 
     /// The greatest of a step (s), its half, its quarter and so on, from a state on, that sees all formulas; at least `least`. Velocities have
     /// a magnitude and a permitted error (m/s).
-    pub(super) fn step(
+    pub(in crate::motion) fn step(
         &self,
         configuration: &Configuration,
         [velocity, error]: [f64; 2],

@@ -8,7 +8,7 @@ use crate::interval::Interval;
 /// ITP (I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average performance preserving
 /// minmax optimality, ACM Transactions on Mathematical Software 47, 2021): superlinear on smooth functions, and never
 /// more than one evaluation above bisection. Of several roots it finds one.
-pub(super) fn falling_root<E>(
+pub(in crate::motion) fn falling_root<E>(
     [mut left, mut right]: [f64; 2],
     [mut at_left, mut at_right]: [f64; 2],
     tolerance: f64,
@@ -46,7 +46,7 @@ const NARROWEST: f64 = 4.0;
 
 /// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to the left of it, but
 /// for times at which it cannot be told from zero.
-pub(super) fn first_fall(
+pub(in crate::motion) fn first_fall(
     [from, until]: [f64; 2],
     mut function: impl FnMut(Interval) -> Interval,
 ) -> Option<f64> {
@@ -103,7 +103,7 @@ const NEAR: f64 = 0.1;
 ///
 /// In Bernstein form the cubic lies within the hull of its four coefficients, so that most functions take no more than two
 /// of these.
-pub(super) fn dip([first, second, third, last]: [f64; 4]) -> Option<f64> {
+pub(in crate::motion) fn dip([first, second, third, last]: [f64; 4]) -> Option<f64> {
     // p(1/3) and p(2/3) of p(f) = (1-f)^3 first + 3 (1-f)^2 f one + 3 (1-f) f^2 two + f^3 last, solved for `one` and `two`.
     let one = (18.0 * second - 9.0 * third + 2.0 * last - 5.0 * first) / 6.0;
     let two = (18.0 * third - 9.0 * second + 2.0 * first - 5.0 * last) / 6.0;

@@ -6,7 +6,7 @@ use crate::ids::{ContactId, DriveId};
 use crate::kinetics::{ConstraintRow, Wrench, effort_forces, friction_forces};
 use crate::mechanism::{CoordinateKind, rot90};
 use crate::modes::Side;
-use crate::motion::linear::LinearSystem;
+use crate::motion::moving::linear::LinearSystem;
 use crate::pattern::face;
 
 impl Equations<'_> {

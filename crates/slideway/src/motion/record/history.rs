@@ -1,14 +1,14 @@
 //! The result of a simulation: the motion at any time, its events and phases, and how good it is.
 
-use super::energy::{kinetic, potential};
-use super::equations::{Drift, Equations};
 use super::event::Event;
-use super::phase::Phase;
-use super::stepper::{DENSE, within};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::mechanism::Mechanism;
+use crate::motion::moving::energy::{kinetic, potential};
+use crate::motion::moving::equations::{Drift, Equations};
+use crate::motion::moving::stepper::{DENSE, within};
+use crate::pattern::phase::Phase;
 
 /// A motion in time.
 #[derive(Debug, Clone)]
@@ -29,17 +29,17 @@ pub struct History {
     pub energy_scale: f64,
     /// What it cost.
     pub statistics: Statistics,
-    pub(super) steps: Vec<Step>,
+    pub(in crate::motion) steps: Vec<Step>,
     /// The solution within each step.
-    pub(super) dense: Vec<f64>,
+    pub(in crate::motion) dense: Vec<f64>,
     /// Components of the state.
-    pub(super) size: usize,
+    pub(in crate::motion) size: usize,
     /// Energy lost in impulses: when, and how much up to then.
-    pub(super) impulses: Vec<(f64, f64)>,
+    pub(in crate::motion) impulses: Vec<(f64, f64)>,
     /// Contacts whose normal forces were asked for while joints stuck, and are not determined then.
-    pub(super) undetermined: Vec<ContactId>,
-    pub(super) initial: Configuration,
-    pub(super) last: (f64, Vec<f64>),
+    pub(in crate::motion) undetermined: Vec<ContactId>,
+    pub(in crate::motion) initial: Configuration,
+    pub(in crate::motion) last: (f64, Vec<f64>),
 }
 
 /// A phase and when it holds.
@@ -55,10 +55,10 @@ pub struct PhaseInterval {
 
 /// A step of the solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Step {
-    pub(super) time: f64,
-    pub(super) length: f64,
-    pub(super) phase: usize,
+pub(in crate::motion) struct Step {
+    pub(in crate::motion) time: f64,
+    pub(in crate::motion) length: f64,
+    pub(in crate::motion) phase: usize,
 }
 
 /// What a simulation cost.
@@ -171,7 +171,7 @@ impl Energy {
     }
 
     /// Energies at a state.
-    pub(super) fn of(
+    pub(in crate::motion) fn of(
         mechanism: &Mechanism,
         configuration: &Configuration,
         state: &[f64],

@@ -1,18 +1,19 @@
 //! The loop: a phase, an event, a decision, and so on.
 
-use super::decision::Blow;
-use super::equations::{Drift, Equations, Failure};
-use super::event::{Cause, Event, Words};
-use super::history::{End, Energy, History, PhaseInterval, Statistics, Step};
-use super::options::SimulateOptions;
-use super::phase::{JointPhase, Phase};
-use super::rules::{Decisions, Instant, Successor, Successors};
 use super::smooth::{Ended, Smooth};
 use super::stop::{self, Hit};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
+use crate::motion::decision::Blow;
+use crate::motion::decision::rules::{Continuation, Continuations, Decisions, Instant};
+use crate::motion::moving::cause::Cause;
+use crate::motion::moving::equations::{Drift, Equations, Failure};
+use crate::motion::options::SimulateOptions;
+use crate::motion::record::event::{Event, Words};
+use crate::motion::record::history::{End, Energy, History, PhaseInterval, Statistics, Step};
+use crate::pattern::phase::{JointPhase, Phase};
 use crate::progress::{Callback, Progress};
 use crate::report::spaced;
 
@@ -26,7 +27,7 @@ const CROWD: usize = 40;
 const SHORT: f64 = 5e-5;
 
 /// A simulation under way.
-pub(super) struct Run<'a, 'm> {
+pub(in crate::motion) struct Run<'a, 'm> {
     options: &'a SimulateOptions,
     decisions: &'a mut dyn Decisions,
     smooth: Smooth<'a, 'm>,
@@ -37,7 +38,7 @@ pub(super) struct Run<'a, 'm> {
 
 impl<'a, 'm> Run<'a, 'm> {
     /// A simulation at its start.
-    pub(super) fn new(
+    pub(in crate::motion) fn new(
         mechanism: &'m Mechanism,
         configuration: &Configuration,
         options: &'a SimulateOptions,
@@ -70,7 +71,7 @@ impl<'a, 'm> Run<'a, 'm> {
     ///
     /// # Errors
     /// A state from which it cannot begin.
-    pub(super) fn follow(mut self, progress: &mut Callback<'_>) -> Result<History, Faults> {
+    pub(in crate::motion) fn follow(mut self, progress: &mut Callback<'_>) -> Result<History, Faults> {
         let total = self.energy().total();
         let end = match self.decide(vec![Cause::Start])? {
             None => self.phases(progress, total),
@@ -97,7 +98,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 Ended::End(end) => return end,
             };
             if let Some(end) = self.terminal(&causes) {
-                self.tell(causes, Successors::default(), None);
+                self.tell(causes, Continuations::default(), None);
                 return end;
             }
             if causes.iter().any(Cause::ends_phase) {
@@ -107,7 +108,7 @@ impl<'a, 'm> Run<'a, 'm> {
                     Err(faults) => return End::Undecided(faults),
                 }
             } else {
-                self.note(causes, Some(phase), Successors::default(), None);
+                self.note(causes, Some(phase), Continuations::default(), None);
             }
             if self.history.events.len() >= self.options.most_events {
                 return End::EventLimit;
@@ -236,11 +237,11 @@ impl<'a, 'm> Run<'a, 'm> {
                 if !causes.contains(&Cause::Tips(joint)) {
                     causes.push(Cause::Tips(joint));
                 }
-                self.tell(causes, Successors::default(), None);
+                self.tell(causes, Continuations::default(), None);
                 return Ok(Some(End::Tips(joint)));
             }
             if stopped.iter().all(|stopped| *stopped) {
-                self.tell(causes, Successors::default(), None);
+                self.tell(causes, Continuations::default(), None);
                 return Ok(Some(End::NoContinuation));
             }
             let Some(jam) = self.decisions.jam(&instant)? else { break };
@@ -250,7 +251,7 @@ impl<'a, 'm> Run<'a, 'm> {
             causes.push(Cause::Jams { energy_lost: jam.energy_lost });
             previous = None;
         }
-        self.tell(causes, Successors::default(), None);
+        self.tell(causes, Continuations::default(), None);
         Ok(Some(End::Jammed))
     }
 
@@ -292,7 +293,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// The number of the phase that is taken; nothing where the branch that is wanted does not exist.
-    fn choose(&mut self, successors: &[Successor]) -> Result<Option<usize>, Faults> {
+    fn choose(&mut self, successors: &[Continuation]) -> Result<Option<usize>, Faults> {
         let mechanism = self.smooth.equations.mechanism;
         if self.phase.is_none()
             && let Some(wanted) = &self.options.initial
@@ -343,7 +344,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     /// Records an event after which these phases are possible, and begins the one that is taken.
-    fn tell(&mut self, causes: Vec<Cause>, successors: Successors, taken: Option<usize>) {
+    fn tell(&mut self, causes: Vec<Cause>, successors: Continuations, taken: Option<usize>) {
         let phase = taken.map(|taken| successors.list[taken].phase.clone());
         self.note(causes, phase, successors, taken);
     }
@@ -352,7 +353,7 @@ impl<'a, 'm> Run<'a, 'm> {
         &mut self,
         causes: Vec<Cause>,
         phase: Option<Phase>,
-        successors: Successors,
+        successors: Continuations,
         taken: Option<usize>,
     ) {
         let time = self.smooth.time;
@@ -363,7 +364,7 @@ impl<'a, 'm> Run<'a, 'm> {
             sliders: &equations.sliders,
         };
         let words = words.event(&causes, self.phase.as_ref(), phase.as_ref());
-        let Successors { list: successors, left_out } = successors;
+        let Continuations { list: successors, left_out } = successors;
         let event = Event { time, causes, phase: phase.clone(), successors, left_out, taken, words };
         self.history.events.push(event);
         if phase != self.phase {
@@ -392,7 +393,7 @@ impl<'a, 'm> Run<'a, 'm> {
 /// determinant vanishes.
 fn without_ended(
     mechanism: &Mechanism,
-    successors: &mut Vec<Successor>,
+    successors: &mut Vec<Continuation>,
     causes: &[Cause],
     previous: Option<&Phase>,
 ) {
@@ -402,15 +403,15 @@ fn without_ended(
     }
     if causes.contains(&Cause::Locks) {
         let pattern = previous.pattern(mechanism);
-        successors.retain(|Successor { phase, .. }| {
+        successors.retain(|Continuation { phase, .. }| {
             phase.joints != previous.joints || phase.pattern(mechanism) != pattern
         });
     }
 }
 
 /// The first of the phases in which the fewest joints stick.
-fn fewest_sticking(successors: &[Successor]) -> usize {
-    let sticking = |successor: &Successor| {
+fn fewest_sticking(successors: &[Continuation]) -> usize {
+    let sticking = |successor: &Continuation| {
         successor.phase.joints.iter().filter(|joint| **joint == JointPhase::Sticking).count()
     };
     (0..successors.len()).min_by_key(|index| sticking(&successors[*index])).unwrap_or(0)

@@ -21,19 +21,19 @@ mod phase;
 mod projection;
 mod rest;
 
-pub(super) use rest::joint_rests;
+pub(in crate::motion) use rest::joint_rests;
 
-use super::linear::{Determinant, LinearSystem};
-use super::phase::Phase;
-pub(super) use super::phase::sliding_joints;
-use super::stepper::Derivative;
-use super::switching::Switching;
 use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
+use crate::motion::moving::linear::{Determinant, LinearSystem};
+use crate::motion::moving::stepper::Derivative;
+use crate::motion::moving::switching::Switching;
+use crate::pattern::phase::Phase;
+pub(in crate::motion) use crate::pattern::phase::sliding_joints;
 use nalgebra::{DMatrix, Vector2};
 
 /// Ratio of pivots from which on the equations count as singular.
@@ -41,7 +41,7 @@ const SINGULAR: f64 = 1e14;
 
 /// Why the equations have no solution in a state.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Failure {
+pub(in crate::motion) enum Failure {
     /// Loads or drives without a value.
     Loads(Faults),
     /// The matrix is singular.
@@ -78,7 +78,7 @@ pub struct Drift {
 
 impl Drift {
     /// The greater of both, each by itself.
-    pub(super) fn max(self, other: Self) -> Self {
+    pub(in crate::motion) fn max(self, other: Self) -> Self {
         Self { position: self.position.max(other.position), velocity: self.velocity.max(other.velocity) }
     }
 }
@@ -87,21 +87,21 @@ impl Drift {
 ///
 /// The state is a vector: (x, y, angle) of every body, their rates, then the work done so far by every contact, load
 /// and drive.
-pub(super) struct Equations<'m> {
-    pub(super) mechanism: &'m Mechanism,
+pub(in crate::motion) struct Equations<'m> {
+    pub(in crate::motion) mechanism: &'m Mechanism,
     layout: Layout,
     /// The joints that slide, in their order.
-    pub(super) sliders: Vec<JointId>,
+    pub(in crate::motion) sliders: Vec<JointId>,
     /// Where the normal force of each contact stands among the unknowns.
     normal: Vec<usize>,
     /// Whether the work of each load is counted as potential energy.
-    pub(super) conservative: Vec<bool>,
+    pub(in crate::motion) conservative: Vec<bool>,
     rubbing: Vec<Rubbing>,
     stuck: Vec<Stuck>,
     /// The state of the last evaluation.
-    pub(super) configuration: Configuration,
-    pub(super) contacts: Vec<ContactGeometry>,
-    pub(super) applied: Applied,
+    pub(in crate::motion) configuration: Configuration,
+    pub(in crate::motion) contacts: Vec<ContactGeometry>,
+    pub(in crate::motion) applied: Applied,
     /// The rows of all reactions and of the sticking joints, one after the other.
     rows: Vec<(usize, f64)>,
     row_ends: Vec<usize>,
@@ -111,12 +111,12 @@ pub(super) struct Equations<'m> {
     unknowns: Vec<f64>,
     work: Vec<f64>,
     /// How often they were evaluated.
-    pub(super) evaluations: u64,
+    pub(in crate::motion) evaluations: u64,
 }
 
 impl<'m> Equations<'m> {
     /// The equations of a mechanism, not yet in a phase.
-    pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
+    pub(in crate::motion) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Self {
         let layout = Layout::of(mechanism);
         let contacts = (0..mechanism.contacts.len()).map(ContactId);
         let normal = contacts.clone().filter_map(|contact| layout.reaction(Reaction::Normal(contact)));
@@ -124,7 +124,11 @@ impl<'m> Equations<'m> {
             mechanism,
             sliders: sliding_joints(mechanism),
             normal: normal.collect(),
-            conservative: mechanism.loads.iter().map(super::energy::is_conservative).collect(),
+            conservative: mechanism
+                .loads
+                .iter()
+                .map(crate::motion::moving::energy::is_conservative)
+                .collect(),
             rubbing: vec![Rubbing::Sticking; mechanism.contacts.len()],
             stuck: Vec::new(),
             configuration: configuration.clone(),
@@ -142,13 +146,13 @@ impl<'m> Equations<'m> {
     }
 
     /// Components of the state.
-    pub(super) fn state_size(&self) -> usize {
+    pub(in crate::motion) fn state_size(&self) -> usize {
         let powers = self.contacts.len() + self.mechanism.loads.len() + self.mechanism.drives.len();
         6 * self.mechanism.bodies.len() + powers
     }
 
     /// The state vector of a configuration, without any work so far.
-    pub(super) fn state_of(&self, configuration: &Configuration) -> Vec<f64> {
+    pub(in crate::motion) fn state_of(&self, configuration: &Configuration) -> Vec<f64> {
         let poses = configuration.poses.iter().flat_map(|p| [p.position.x, p.position.y, p.angle()]);
         let rates = configuration.velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
         let mut state: Vec<f64> = poses.chain(rates).collect();
@@ -160,7 +164,12 @@ impl<'m> Equations<'m> {
     ///
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
-    pub(super) fn enter(&mut self, phase: &Phase, time: f64, state: &[f64]) -> Result<(), Failure> {
+    pub(in crate::motion) fn enter(
+        &mut self,
+        phase: &Phase,
+        time: f64,
+        state: &[f64],
+    ) -> Result<(), Failure> {
         self.place(time, state);
         self.choose_friction(phase);
         self.choose_stuck(phase);
@@ -181,7 +190,7 @@ impl<'m> Equations<'m> {
     }
 
     /// Takes over a state; cheap, and enough for whatever depends on positions and velocities alone.
-    pub(super) fn place(&mut self, time: f64, state: &[f64]) {
+    pub(in crate::motion) fn place(&mut self, time: f64, state: &[f64]) {
         let bodies = self.mechanism.bodies.len();
         let (poses, rates) = state.split_at(3 * bodies);
         let configuration = &mut self.configuration;
@@ -200,7 +209,7 @@ impl<'m> Equations<'m> {
     }
 
     /// Holds the relations of loads and drives on the pieces on which they are.
-    pub(super) fn hold(&mut self, switching: &Switching<'_>) {
+    pub(in crate::motion) fn hold(&mut self, switching: &Switching<'_>) {
         self.configuration.pieces = switching.pieces();
     }
 
@@ -208,7 +217,7 @@ impl<'m> Equations<'m> {
     ///
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
-    pub(super) fn evaluate(&mut self, time: f64, state: &[f64]) -> Result<(), Failure> {
+    pub(in crate::motion) fn evaluate(&mut self, time: f64, state: &[f64]) -> Result<(), Failure> {
         self.place(time, state);
         self.assemble()?;
         self.solve()
@@ -225,20 +234,20 @@ impl<'m> Equations<'m> {
     }
 
     /// The rates of the components of a state at which the equations have just been solved.
-    pub(super) fn write_rates(&self, state: &[f64], rates: &mut [f64]) {
+    pub(in crate::motion) fn write_rates(&self, state: &[f64], rates: &mut [f64]) {
         let bodies = 3 * self.mechanism.bodies.len();
         rates[..bodies].copy_from_slice(&state[bodies..2 * bodies]);
         rates[bodies..2 * bodies].copy_from_slice(self.accelerations());
-        super::energy::powers(self, &mut rates[2 * bodies..]);
+        crate::motion::moving::energy::powers(self, &mut rates[2 * bodies..]);
     }
 
     /// Accelerations of the bodies at the last evaluation: (x, y, angle) of each.
-    pub(super) fn accelerations(&self) -> &[f64] {
+    pub(in crate::motion) fn accelerations(&self) -> &[f64] {
         &self.unknowns[..3 * self.mechanism.bodies.len()]
     }
 
     /// A reaction at the last evaluation; of contacts in a preload gap zero.
-    pub(super) fn reaction(&self, reaction: Reaction) -> f64 {
+    pub(in crate::motion) fn reaction(&self, reaction: Reaction) -> f64 {
         match reaction {
             Reaction::Normal(contact) => self.normal_force(contact.index()),
             Reaction::Couple(joint) if self.is_between_faces(joint) => 0.0,
@@ -248,14 +257,14 @@ impl<'m> Equations<'m> {
 
     /// The normal force of a contact; for the ends of a block that sticks as if friction acted on the centre line. In the preload
     /// gap of a guided slider it is what would have to be zero.
-    pub(super) fn normal_force(&self, k: usize) -> f64 {
+    pub(in crate::motion) fn normal_force(&self, k: usize) -> f64 {
         let normal = self.normal[k];
         let is_taken = matches!(self.rubbing[k], Rubbing::Gap { share, .. } if share == normal);
         if is_taken { 0.0 } else { self.unknowns[normal] }
     }
 
     /// For a contact in a preload gap the share of the face of positive normal force.
-    pub(super) fn share(&self, k: usize) -> Option<f64> {
+    pub(in crate::motion) fn share(&self, k: usize) -> Option<f64> {
         match self.rubbing[k] {
             Rubbing::Gap { share, .. } => Some(self.unknowns[share]),
             _ => None,
@@ -269,7 +278,7 @@ impl<'m> Equations<'m> {
     }
 
     /// Friction force of a contact whose joint slides, eq. (2).
-    pub(super) fn friction_force(&self, k: usize) -> Option<f64> {
+    pub(in crate::motion) fn friction_force(&self, k: usize) -> Option<f64> {
         let (value, faces) = match self.rubbing[k] {
             Rubbing::Pressed { side, faces, .. } => (side.sign() * self.normal_force(k), faces),
             Rubbing::Gap { faces, share } => (self.unknowns[share], faces),
@@ -279,23 +288,23 @@ impl<'m> Equations<'m> {
     }
 
     /// Effort of a drive.
-    pub(super) fn effort(&self, drive: DriveId) -> f64 {
+    pub(in crate::motion) fn effort(&self, drive: DriveId) -> f64 {
         self.unknowns[self.layout.effort(drive)]
     }
 
     /// The tangential force on the block of a joint that sticks by a row of its own, counted among those (N).
     #[cfg(test)]
-    pub(super) fn tangential_force(&self, index: usize) -> f64 {
+    pub(in crate::motion) fn tangential_force(&self, index: usize) -> f64 {
         self.unknowns[self.layout.len() + index]
     }
 
     /// The determinant of the mode at the last evaluation.
-    pub(super) fn determinant(&self) -> Determinant {
+    pub(in crate::motion) fn determinant(&self) -> Determinant {
         self.system.determinant()
     }
 
     /// The greatest force among loads and normal forces (N), couples divided by the size of the mechanism.
-    pub(super) fn greatest_force(&self) -> f64 {
+    pub(in crate::motion) fn greatest_force(&self) -> f64 {
         let size = self.mechanism.size;
         let loads = self.applied.wrenches.iter();
         let loads = loads.map(|wrench| wrench.force.amax().max(wrench.couple.abs() / size));

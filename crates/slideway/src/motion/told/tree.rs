@@ -1,13 +1,15 @@
 //! All motions that are possible where several phases can follow an event.
 
-use super::history::History;
-use super::options::SimulateOptions;
 use super::report::{SimulateReport, report};
-use super::rules::Decisions;
-use super::{Cause, simulate_with};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
+use crate::motion::decision::rules::Decisions;
+use crate::motion::following::simulate_with;
+use crate::motion::moving::cause::Cause;
+use crate::motion::options::SimulateOptions;
+use crate::motion::record::event::Event;
+use crate::motion::record::history::History;
 use crate::progress::{Callback, Progress};
 use crate::report::indented_json;
 use serde::Serialize;
@@ -99,9 +101,8 @@ pub fn simulate_all(
 
 /// At each branching the phase that was taken, and how many there were.
 fn branchings(history: &History, has_initial: bool) -> (Vec<usize>, Vec<usize>) {
-    let chosen = |event: &&super::Event| {
-        event.successors.len() > 1 && !(has_initial && event.causes.contains(&Cause::Start))
-    };
+    let chosen =
+        |event: &&Event| event.successors.len() > 1 && !(has_initial && event.causes.contains(&Cause::Start));
     let events = history.events.iter().filter(chosen);
     events.filter_map(|event| Some((event.taken?, event.successors.len()))).unzip()
 }

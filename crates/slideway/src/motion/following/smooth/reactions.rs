@@ -1,12 +1,12 @@
 //! The limit of normal forces, where they are those of the equations and where joints stick.
 
-use super::super::equations::{Equations, Failure};
-use super::super::event::Cause;
-use super::super::phase::Phase;
-use super::super::rules::Decisions;
-use super::super::watch::Watched;
 use super::Smooth;
 use crate::ids::ContactId;
+use crate::motion::decision::rules::Decisions;
+use crate::motion::moving::cause::Cause;
+use crate::motion::moving::equations::{Equations, Failure};
+use crate::motion::moving::watch::Watched;
+use crate::pattern::phase::Phase;
 
 impl Smooth<'_, '_> {
     /// The contacts whose normal forces are beyond the limit where the phase begins.

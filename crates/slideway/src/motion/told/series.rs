@@ -1,11 +1,11 @@
 //! A motion as a table: one row for each time.
 
-use super::decision::determined_normal_forces;
-use super::history::{History, Sample};
-use super::phase::JointPhase;
 use crate::configuration::unit;
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
+use crate::motion::decision::determined_normal_forces;
+use crate::motion::record::history::{History, Sample};
+use crate::pattern::phase::JointPhase;
 use serde::Serialize;
 
 /// What tables hold besides the columns: a coordinate of such a name bears the prefix `coordinate.` there.

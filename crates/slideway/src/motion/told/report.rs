@@ -1,13 +1,14 @@
 //! What is told of a motion: plain data, which are the JSON output.
 
-use super::energy::{kinetic, potential};
-use super::event::{Event, NOTHING};
-use super::history::{End, Energy, History};
-use super::options::SimulateOptions;
-use super::phase::JointPhase;
 use super::series::Series;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
+use crate::motion::moving::cause::Cause;
+use crate::motion::moving::energy::{kinetic, potential};
+use crate::motion::options::SimulateOptions;
+use crate::motion::record::event::{Event, NOTHING};
+use crate::motion::record::history::{End, Energy, History, PhaseInterval};
+use crate::pattern::phase::JointPhase;
 use crate::report::number::number;
 use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
 use serde::Serialize;
@@ -295,7 +296,7 @@ fn is_told(event: &Event) -> bool {
 
 fn event_report(history: &History, event: &Event) -> EventReport {
     let mechanism = &history.mechanism;
-    let branch = |(index, successor): (usize, &super::rules::Successor)| BranchReport {
+    let branch = |(index, successor): (usize, &crate::motion::decision::rules::Continuation)| BranchReport {
         number: index + 1,
         mode: successor.phase.pattern(mechanism),
         taken: event.taken == Some(index),
@@ -304,8 +305,8 @@ fn event_report(history: &History, event: &Event) -> EventReport {
     };
     let several = event.successors.len() > 1;
     let lost = event.causes.iter().map(|cause| match cause {
-        super::Cause::Jams { energy_lost } => *energy_lost,
-        super::Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
+        Cause::Jams { energy_lost } => *energy_lost,
+        Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
         _ => 0.0,
     });
     EventReport {
@@ -331,7 +332,7 @@ fn event_report(history: &History, event: &Event) -> EventReport {
 }
 
 fn phases(history: &History) -> Vec<PhaseReport> {
-    let one = |interval: &super::PhaseInterval| PhaseReport {
+    let one = |interval: &PhaseInterval| PhaseReport {
         from: interval.from,
         to: interval.to,
         mode: interval.phase.pattern(&history.mechanism),
@@ -430,12 +431,12 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
 
 /// The end of a motion that was followed to the end: whether it is at rest, and for how long.
 fn finished(history: &History, time: &str) -> String {
-    let at_rest = |interval: &super::PhaseInterval| {
+    let at_rest = |interval: &PhaseInterval| {
         let joints = &interval.phase.joints;
         !joints.is_empty() && joints.iter().all(|joint| *joint == JointPhase::Sticking)
     };
     let jams = history.events.iter().flat_map(|event| &event.causes);
-    let jams = match jams.filter(|cause| matches!(cause, super::Cause::Jams { .. })).count() {
+    let jams = match jams.filter(|cause| matches!(cause, Cause::Jams { .. })).count() {
         0 => String::new(),
         1 => " It has jammed once.".to_owned(),
         count => format!(" It has jammed {count} times."),

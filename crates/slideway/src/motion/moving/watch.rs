@@ -2,14 +2,14 @@
 
 use super::equations::Equations;
 use super::linear::Determinant;
-use super::options::{Crossing, UserEvent};
-use super::phase::{ContactPhase, JointPhase, Phase};
 use super::switching::{Switch, Switching};
 use crate::fault::Fault;
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::Reaction;
 use crate::model::SliderKind;
 use crate::modes::Side;
+use crate::motion::options::{Crossing, UserEvent};
+use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
 
 /// Forces below this multiple of the greatest so far are rounding.
 const FORCE_TOLERANCE: f64 = 1e-9;
@@ -27,7 +27,7 @@ const LEAVES: f64 = 1e-6;
 
 /// A function that is watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Watched {
+pub(in crate::motion) enum Watched {
     /// The normal force of a contact, towards its side.
     NormalForce(ContactId),
     /// The share of a face in a preload gap: of the positive one, or of the negative one.
@@ -58,7 +58,7 @@ pub(super) enum Watched {
 
 /// What it takes to compute a watched function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Needs {
+pub(in crate::motion) enum Needs {
     /// Positions and velocities.
     Motion,
     /// The solution of the equations.
@@ -68,7 +68,7 @@ pub(super) enum Needs {
 }
 
 impl Watched {
-    pub(super) fn needs(self) -> Needs {
+    pub(in crate::motion) fn needs(self) -> Needs {
         match self {
             Self::NormalForce(_)
             | Self::Share(..)
@@ -86,27 +86,27 @@ impl Watched {
 
 /// The greatest magnitudes so far, for tolerances.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Magnitudes {
+pub(in crate::motion) struct Magnitudes {
     /// Force (N).
-    pub(super) force: f64,
+    pub(in crate::motion) force: f64,
     /// Velocity (m/s).
-    pub(super) velocity: f64,
+    pub(in crate::motion) velocity: f64,
 }
 
 /// The functions that are watched in a phase.
-pub(super) struct Watch<'o> {
-    pub(super) list: Vec<Watched>,
+pub(in crate::motion) struct Watch<'o> {
+    pub(in crate::motion) list: Vec<Watched>,
     user: &'o [UserEvent],
     reaction_limit: Option<f64>,
     /// The determinant at the start of the phase, and the product of the overlaps.
     reference: (Determinant, f64),
     /// The greatest so far.
-    pub(super) magnitudes: Magnitudes,
+    pub(in crate::motion) magnitudes: Magnitudes,
 }
 
 impl<'o> Watch<'o> {
     /// Nothing yet.
-    pub(super) fn new(user: &'o [UserEvent], reaction_limit: Option<f64>) -> Self {
+    pub(in crate::motion) fn new(user: &'o [UserEvent], reaction_limit: Option<f64>) -> Self {
         Self {
             list: Vec::new(),
             user,
@@ -117,7 +117,12 @@ impl<'o> Watch<'o> {
     }
 
     /// Chooses what is watched in a phase that the equations have just entered.
-    pub(super) fn begin(&mut self, phase: &Phase, equations: &Equations<'_>, switching: &Switching<'_>) {
+    pub(in crate::motion) fn begin(
+        &mut self,
+        phase: &Phase,
+        equations: &Equations<'_>,
+        switching: &Switching<'_>,
+    ) {
         self.list.clear();
         self.list.extend(switching.watched().map(Watched::Relation));
         self.reference = (equations.determinant(), overlaps(equations));
@@ -186,7 +191,7 @@ impl<'o> Watch<'o> {
     }
 
     /// The greatest normal force that is permitted (N).
-    pub(super) fn reaction_limit(&self) -> f64 {
+    pub(in crate::motion) fn reaction_limit(&self) -> f64 {
         self.reaction_limit.unwrap_or(f64::INFINITY)
     }
 
@@ -194,7 +199,7 @@ impl<'o> Watch<'o> {
     ///
     /// # Errors
     /// A function of the user has no value.
-    pub(super) fn value(
+    pub(in crate::motion) fn value(
         &self,
         watched: Watched,
         phase: &Phase,
@@ -249,7 +254,7 @@ impl<'o> Watch<'o> {
     }
 
     /// Values within this of zero count as zero.
-    pub(super) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
+    pub(in crate::motion) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
         let force = FORCE_TOLERANCE * self.magnitudes.force;
         match watched {
             Watched::NormalForce(_)

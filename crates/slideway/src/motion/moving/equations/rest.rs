@@ -7,7 +7,7 @@ use crate::ids::{BodyId, Frame, JointId};
 use crate::mechanism::{
     CoordinateKind, Effort, JointKind, LoadKind, Mechanism, Quantity, loaded_bodies, quantities,
 };
-use crate::motion::decision::connected;
+use crate::motion::moving::connected::connected;
 
 impl Equations<'_> {
     /// For each body whether it stands still as long as the joints that stick in the phase do: together with what joints connect with it no

@@ -1,11 +1,10 @@
 //! What the simulation asks at an event: how the motion can go on.
 
-use super::decision;
-use super::phase::Phase;
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
+use crate::pattern::Phase;
 use crate::report::Verdict;
 
 /// A mechanism at the instant of an event.
@@ -25,7 +24,7 @@ pub struct Instant<'a> {
 
 /// A phase in which the motion can go on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Successor {
+pub struct Continuation {
     /// The phase.
     pub phase: Phase,
     /// Whether a real mechanism can take it (theory, section 7).
@@ -36,16 +35,16 @@ pub struct Successor {
 
 /// The phases in which the motion can go on.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Successors {
+pub struct Continuations {
     /// The one to be taken first, and so on; none if there is none.
-    pub list: Vec<Successor>,
+    pub list: Vec<Continuation>,
     /// Whether some in which fewer joints stick may be missing.
     pub left_out: bool,
 }
 
 /// An impulse that ends a dynamic jam.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Jam {
+pub struct HaltingImpulse {
     /// The velocities after it.
     pub velocities: Vec<Velocity>,
     /// The kinetic energy that is lost (J).
@@ -58,7 +57,7 @@ pub trait Decisions {
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Successors, Faults>;
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Continuations, Faults>;
 
     /// Where nothing can follow, the guided sliders that would tip.
     ///
@@ -72,7 +71,7 @@ pub trait Decisions {
     ///
     /// # Errors
     /// Whatever keeps the impulse from being computed.
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults>;
+    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults>;
 
     /// At least zero while the joints that stick in the phase can stick.
     ///
@@ -112,84 +111,26 @@ pub trait Decisions {
     }
 }
 
+/// What is known of the time ahead of what stands still.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outlook {
+    /// Until this time (s) it is proven that nothing slips.
+    pub proven: f64,
+    /// Whether something slips then.
+    pub slips: bool,
+}
+
 /// What stands still while its loads change.
 pub trait Hold {
     /// When the joints that stick cannot any longer, and until when that is proven, in a span of time.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
-    fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults>;
+    fn outlook(&mut self, span: [f64; 2]) -> Result<Outlook, Faults>;
 
     /// What [`Decisions::sticking_margin`] is of the joints between these bodies at a time.
     ///
     /// # Errors
     /// Whatever keeps the forces from being computed.
     fn margin(&mut self, time: f64) -> Result<f64, Faults>;
-}
-
-impl Hold for decision::Holding<'_> {
-    fn outlook(&mut self, span: [f64; 2]) -> Result<decision::Outlook, Faults> {
-        self.outlook(span)
-    }
-
-    fn margin(&mut self, time: f64) -> Result<f64, Faults> {
-        self.margin(time)
-    }
-}
-
-/// The decisions of [`decision`]: every state of joints and contacts is tried.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Thorough;
-
-impl Decisions for Thorough {
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Successors, Faults> {
-        let found = decision::continuations(instant)?;
-        let one = |successor: decision::Successor| Successor {
-            phase: successor.phase,
-            verdict: successor.attainability.verdict,
-            continues: successor.continues,
-        };
-        Ok(Successors { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
-    }
-
-    fn tipping(&mut self, instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
-        let found = decision::continuations(instant)?;
-        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
-    }
-
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<Jam>, Faults> {
-        let decision::Jam::Stops(impulses) = decision::jam(instant.mechanism, instant.configuration)? else {
-            return Ok(None);
-        };
-        let first = impulses.into_iter().next();
-        Ok(first
-            .map(|impulse| Jam { velocities: impulse.after.velocities, energy_lost: impulse.energy_lost }))
-    }
-
-    fn sticking_margin(
-        &mut self,
-        mechanism: &Mechanism,
-        configuration: &Configuration,
-        phase: &Phase,
-    ) -> Result<f64, Faults> {
-        decision::sticking_margin(mechanism, configuration, phase)
-    }
-
-    fn normal_forces(
-        &mut self,
-        mechanism: &Mechanism,
-        configuration: &Configuration,
-        phase: &Phase,
-    ) -> Result<Vec<Option<f64>>, Faults> {
-        decision::determined_normal_forces(mechanism, configuration, phase)
-    }
-
-    fn hold<'m>(
-        &mut self,
-        mechanism: &'m Mechanism,
-        configuration: &Configuration,
-        resting: (&Phase, &[bool]),
-    ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
-        Ok(Some(Box::new(decision::Holding::new(mechanism, configuration, resting)?)))
-    }
 }

@@ -6,7 +6,7 @@
 //! Norsett and G. Wanner print it (Solving Ordinary Differential Equations I, 2nd edition, section II.6).
 
 /// A system of differential equations y' = f(t, y).
-pub(super) trait Derivative {
+pub(in crate::motion) trait Derivative {
     /// Why it has no value.
     type Failure;
 
@@ -39,23 +39,23 @@ const WITHIN: [f64; STAGES] = [
     69_997_945.0 / 29_380_423.0,
 ];
 /// Fractions of a step at which what is watched is evaluated: its ends and two places inside.
-pub(super) const SAMPLES: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+pub(in crate::motion) const SAMPLES: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
 /// Vectors that describe the solution within a step.
-pub(super) const DENSE: usize = 5;
+pub(in crate::motion) const DENSE: usize = 5;
 
 /// The stages of a step and its result.
 #[derive(Debug, Clone)]
-pub(super) struct Stepper {
+pub(in crate::motion) struct Stepper {
     stages: [Vec<f64>; STAGES],
     trial: Vec<f64>,
     /// State at the end of the last step that was tried.
-    pub(super) end: Vec<f64>,
+    pub(in crate::motion) end: Vec<f64>,
     dense: Vec<f64>,
 }
 
 impl Stepper {
     /// Memory for states of this many components.
-    pub(super) fn new(size: usize) -> Self {
+    pub(in crate::motion) fn new(size: usize) -> Self {
         Self {
             stages: std::array::from_fn(|_| vec![0.0; size]),
             trial: vec![0.0; size],
@@ -65,13 +65,13 @@ impl Stepper {
     }
 
     /// The derivative at the start of the next step, to be written after every change of state or equations.
-    pub(super) fn start(&mut self) -> &mut [f64] {
+    pub(in crate::motion) fn start(&mut self) -> &mut [f64] {
         &mut self.stages[0]
     }
 
     /// Tries a step from `state`; returns its estimated error: the root mean square of the components' errors
     /// divided by `scale`, to be compared with 1.
-    pub(super) fn attempt<S: Derivative>(
+    pub(in crate::motion) fn attempt<S: Derivative>(
         &mut self,
         system: &mut S,
         [time, step]: [f64; 2],
@@ -97,7 +97,7 @@ impl Stepper {
     }
 
     /// Appends the solution within the step to `dense`: [`DENSE`] vectors, for [`within`].
-    pub(super) fn describe(&self, step: f64, state: &[f64], dense: &mut Vec<f64>) {
+    pub(in crate::motion) fn describe(&self, step: f64, state: &[f64], dense: &mut Vec<f64>) {
         let first = dense.len();
         let size = state.len();
         dense.resize(first + DENSE * size, 0.0);
@@ -117,7 +117,7 @@ impl Stepper {
 
     /// Moves the end of a step from `state` that was tried by a small part of its length, along the solution within it; to be
     /// [finished](Self::finish).
-    pub(super) fn prolong(&mut self, step: f64, change: f64, state: &[f64]) {
+    pub(in crate::motion) fn prolong(&mut self, step: f64, change: f64, state: &[f64]) {
         let mut dense = std::mem::take(&mut self.dense);
         dense.clear();
         self.describe(step, state, &mut dense);
@@ -126,19 +126,23 @@ impl Stepper {
     }
 
     /// Evaluates the derivative at the end of the step where that was moved.
-    pub(super) fn finish<S: Derivative>(&mut self, system: &mut S, time: f64) -> Result<(), S::Failure> {
+    pub(in crate::motion) fn finish<S: Derivative>(
+        &mut self,
+        system: &mut S,
+        time: f64,
+    ) -> Result<(), S::Failure> {
         system.derivative(time, &self.end, &mut self.stages[STAGES - 1])
     }
 
     /// Makes the end of the step the start of the next one, whose first stage is known.
-    pub(super) fn advance(&mut self, state: &mut [f64]) {
+    pub(in crate::motion) fn advance(&mut self, state: &mut [f64]) {
         state.copy_from_slice(&self.end);
         self.stages.swap(0, STAGES - 1);
     }
 }
 
 /// The state at a fraction of a step, from the vectors that describe the solution within it.
-pub(super) fn within(dense: &[f64], fraction: f64, state: &mut [f64]) {
+pub(in crate::motion) fn within(dense: &[f64], fraction: f64, state: &mut [f64]) {
     let size = state.len();
     let rest = 1.0 - fraction;
     for (index, value) in state.iter_mut().enumerate() {
@@ -151,20 +155,20 @@ pub(super) fn within(dense: &[f64], fraction: f64, state: &mut [f64]) {
 
 /// Chooses the length of the next step from the errors of the last ones.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct StepControl {
+pub(in crate::motion) struct StepControl {
     last_error: f64,
     rejected: bool,
 }
 
 impl StepControl {
     /// Nothing known yet.
-    pub(super) fn new() -> Self {
+    pub(in crate::motion) fn new() -> Self {
         Self { last_error: 1e-4, rejected: false }
     }
 
     /// The factor for the step after one that was accepted with this error: proportional-integral control
     /// (Hairer, Norsett, Wanner, section II.4) with beta = 0.04, between 0.2 and 5.
-    pub(super) fn accepted(&mut self, error: f64) -> f64 {
+    pub(in crate::motion) fn accepted(&mut self, error: f64) -> f64 {
         const BETA: f64 = 0.04;
         let error = error.max(1e-10);
         let factor = 0.9 * error.powf(-(0.2 - 0.75 * BETA)) * self.last_error.powf(BETA);
@@ -175,7 +179,7 @@ impl StepControl {
     }
 
     /// The factor after one that was rejected.
-    pub(super) fn rejected(&mut self, error: f64) -> f64 {
+    pub(in crate::motion) fn rejected(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() { (0.9 * error.powf(-0.2)).clamp(0.1, 0.9) } else { 0.1 }
     }

@@ -9,7 +9,7 @@ const WELL_CONDITIONED: f64 = 1e6;
 /// their pivots without a search, and most of the work is left out. Where the pivots that then follow say that it matters which one
 /// is taken, all are searched for.
 #[derive(Debug, Clone, Default)]
-pub(super) struct LinearSystem {
+pub(in crate::motion) struct LinearSystem {
     size: usize,
     /// So many of the first rows have in as many of the first columns nothing but the diagonal, and that is not zero.
     uncoupled: usize,
@@ -30,7 +30,7 @@ pub(super) struct LinearSystem {
 
 /// A number of any magnitude: `mantissa * 2^(512 exponent)`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Determinant {
+pub(in crate::motion) struct Determinant {
     mantissa: f64,
     exponent: i32,
 }
@@ -55,7 +55,7 @@ impl Determinant {
     }
 
     /// This number divided by another one; zero or infinite where the quotient is beyond the range.
-    pub(super) fn relative_to(self, other: Self) -> f64 {
+    pub(in crate::motion) fn relative_to(self, other: Self) -> f64 {
         let quotient = self.mantissa / other.mantissa;
         match self.exponent - other.exponent {
             0 => quotient,
@@ -69,7 +69,7 @@ impl Determinant {
 
 impl LinearSystem {
     /// A system of this many unknowns, unscaled, all zero.
-    pub(super) fn new(size: usize) -> Self {
+    pub(in crate::motion) fn new(size: usize) -> Self {
         Self {
             size,
             uncoupled: 0,
@@ -85,41 +85,41 @@ impl LinearSystem {
     }
 
     /// So many of the first rows have in as many of the first columns nothing but the diagonal, from now on.
-    pub(super) fn uncouple(&mut self, rows: usize) {
+    pub(in crate::motion) fn uncouple(&mut self, rows: usize) {
         self.uncoupled = rows;
     }
 
     /// Sets every entry to zero, to begin a new matrix.
-    pub(super) fn clear(&mut self) {
+    pub(in crate::motion) fn clear(&mut self) {
         self.entries.fill(0.0);
     }
 
     /// Adds to an entry of the matrix.
-    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+    pub(in crate::motion) fn add(&mut self, row: usize, column: usize, value: f64) {
         self.entries[row * self.size + column] += value;
     }
 
     /// Sets every entry of a column to zero.
-    pub(super) fn clear_column(&mut self, column: usize) {
+    pub(in crate::motion) fn clear_column(&mut self, column: usize) {
         for row in 0..self.size {
             self.entries[row * self.size + column] = 0.0;
         }
     }
 
     /// An entry of the matrix, as long as it is not factored.
-    pub(super) fn entry(&self, row: usize, column: usize) -> f64 {
+    pub(in crate::motion) fn entry(&self, row: usize, column: usize) -> f64 {
         self.entries[row * self.size + column]
     }
 
     /// The powers of two by which rows and columns are multiplied before factorization, from now on.
-    pub(super) fn set_scales(&mut self, rows: &[f64], columns: &[f64]) {
+    pub(in crate::motion) fn set_scales(&mut self, rows: &[f64], columns: &[f64]) {
         self.row_scale.copy_from_slice(rows);
         self.column_scale.copy_from_slice(columns);
     }
 
     /// Replaces the matrix by its factors; returns the ratio of the greatest to the least pivot, infinite if the
     /// matrix is singular or not finite.
-    pub(super) fn factor(&mut self) -> f64 {
+    pub(in crate::motion) fn factor(&mut self) -> f64 {
         let size = self.size;
         for (row, scale) in self.entries.chunks_exact_mut(size.max(1)).zip(&self.row_scale) {
             for (entry, column) in row.iter_mut().zip(&self.column_scale) {
@@ -188,12 +188,12 @@ impl LinearSystem {
     }
 
     /// The determinant of the factored matrix, of its scaled form.
-    pub(super) fn determinant(&self) -> Determinant {
+    pub(in crate::motion) fn determinant(&self) -> Determinant {
         self.determinant
     }
 
     /// Replaces a right-hand side by the solution.
-    pub(super) fn solve(&mut self, right_hand_side: &mut [f64]) {
+    pub(in crate::motion) fn solve(&mut self, right_hand_side: &mut [f64]) {
         let size = self.size;
         for (place, row) in self.order.iter().enumerate() {
             self.work[place] = right_hand_side[*row] * self.row_scale[*row];

@@ -1,0 +1,78 @@
+//! Every state of joints and contacts is tried.
+
+use super::holding::Holding;
+use super::rules::{Continuation, Continuations, Decisions, HaltingImpulse, Hold, Instant, Outlook};
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::JointId;
+use crate::mechanism::Mechanism;
+use crate::pattern::Phase;
+
+impl Hold for Holding<'_> {
+    fn outlook(&mut self, span: [f64; 2]) -> Result<Outlook, Faults> {
+        self.outlook(span)
+    }
+
+    fn margin(&mut self, time: f64) -> Result<f64, Faults> {
+        self.margin(time)
+    }
+}
+
+/// The decisions of this module: every state of joints and contacts is tried.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Thorough;
+
+impl Decisions for Thorough {
+    fn successors(&mut self, instant: &Instant<'_>) -> Result<Continuations, Faults> {
+        let found = super::continuations(instant)?;
+        let one = |successor: super::Successor| Continuation {
+            phase: successor.phase,
+            verdict: successor.attainability.verdict,
+            continues: successor.continues,
+        };
+        Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
+    }
+
+    fn tipping(&mut self, instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+        let found = super::continuations(instant)?;
+        Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
+    }
+
+    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+        let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
+            return Ok(None);
+        };
+        let first = impulses.into_iter().next();
+        Ok(first.map(|impulse| HaltingImpulse {
+            velocities: impulse.after.velocities,
+            energy_lost: impulse.energy_lost,
+        }))
+    }
+
+    fn sticking_margin(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        phase: &Phase,
+    ) -> Result<f64, Faults> {
+        super::sticking_margin(mechanism, configuration, phase)
+    }
+
+    fn normal_forces(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        phase: &Phase,
+    ) -> Result<Vec<Option<f64>>, Faults> {
+        super::determined_normal_forces(mechanism, configuration, phase)
+    }
+
+    fn hold<'m>(
+        &mut self,
+        mechanism: &'m Mechanism,
+        configuration: &Configuration,
+        resting: (&Phase, &[bool]),
+    ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
+        Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)))
+    }
+}

@@ -1,0 +1,338 @@
+//! The motion within a phase, until it ends: what it knows, and one step after another.
+//!
+//! # Files
+//! `steps.rs` tries steps and ends them where something happens, `events.rs` finds where that is, `settling.rs` puts the state
+//! where an event says it is, `reactions.rs` has the limit of normal forces.
+
+mod events;
+mod reactions;
+mod settling;
+mod steps;
+
+use crate::fault::Faults;
+use crate::ids::ContactId;
+use crate::motion::decision::rules::{Decisions, Hold};
+use crate::motion::decision::{Outlook, scale_of_forces};
+use crate::motion::moving::cause::Cause;
+use crate::motion::moving::equations::{Equations, Failure, joint_rests};
+use crate::motion::moving::resolution::Resolution;
+use crate::motion::moving::stepper::{DENSE, StepControl, Stepper};
+use crate::motion::moving::switching::{Switch, Switching};
+use crate::motion::moving::watch::{Watch, Watched};
+use crate::motion::options::SimulateOptions;
+use crate::motion::record::history::{End, History};
+use crate::pattern::phase::{JointPhase, Phase};
+use std::collections::BTreeSet;
+
+/// Velocities below this part of what the greatest force gives the mechanism on its own size do not count.
+const LITTLE_VELOCITY: f64 = 1e-2;
+/// Bodies that are slower than this part of the greatest velocity stand still.
+const REST: f64 = 1e-10;
+/// Energies below this part of the greatest force times the size of the mechanism do not count.
+const LITTLE_ENERGY: f64 = 1e-2;
+
+/// What is known of the time ahead as long as nobody has looked.
+const NOTHING_KNOWN: Outlook = Outlook { proven: f64::NEG_INFINITY, slips: false };
+
+/// Why a phase is over.
+pub(in crate::motion) enum Ended {
+    /// Something happened.
+    Event(Vec<Cause>),
+    /// The simulation ends.
+    End(End),
+}
+
+/// A motion within a phase.
+pub(in crate::motion) struct Smooth<'o, 'm> {
+    pub(in crate::motion) equations: Equations<'m>,
+    pub(in crate::motion) time: f64,
+    pub(in crate::motion) state: Vec<f64>,
+    end: f64,
+    longest: f64,
+    tolerance: f64,
+    stepper: Stepper,
+    control: StepControl,
+    /// The length that is tried next (s).
+    next: f64,
+    scale: Vec<f64>,
+    energy: f64,
+    /// Of all bodies (kg).
+    mass: f64,
+    watch: Watch<'o>,
+    switching: Switching<'m>,
+    resolution: Resolution<'m>,
+    options: &'o SimulateOptions,
+    /// Values of the watched functions at the start of the step, inside, and at its end.
+    values: [Vec<f64>; 4],
+    inside: Vec<f64>,
+    /// What knows when sticking ends where bodies stand still, ...
+    hold: Option<Box<dyn Hold + 'm>>,
+    /// ... whether that are all joints that stick, ...
+    holds_all: bool,
+    /// ... and what it knows.
+    outlook: Outlook,
+    /// No step goes beyond this time.
+    stop: f64,
+    /// Contacts whose normal forces were beyond what statics determines when they were asked for.
+    pub(in crate::motion) undetermined: BTreeSet<ContactId>,
+}
+
+impl<'o, 'm> Smooth<'o, 'm> {
+    /// A motion at its start, not yet in a phase.
+    pub(in crate::motion) fn new(
+        equations: Equations<'m>,
+        state: Vec<f64>,
+        time: f64,
+        options: &'o SimulateOptions,
+    ) -> Self {
+        let size = state.len();
+        let mut smooth = Self {
+            time,
+            end: time + options.duration,
+            longest: options.longest_step.unwrap_or(options.duration / 1000.0).min(options.duration),
+            tolerance: options.tolerance,
+            stepper: Stepper::new(size),
+            control: StepControl::new(),
+            next: 0.0,
+            scale: vec![0.0; size],
+            energy: 0.0,
+            mass: equations.mechanism.bodies.iter().map(|body| body.mass).sum(),
+            watch: Watch::new(&options.events, options.reaction_limit),
+            switching: Switching::new(equations.mechanism, &equations.configuration),
+            resolution: Resolution::new(equations.mechanism),
+            options,
+            values: Default::default(),
+            inside: vec![0.0; size],
+            hold: None,
+            holds_all: false,
+            outlook: NOTHING_KNOWN,
+            stop: time,
+            undetermined: BTreeSet::new(),
+            state,
+            equations,
+        };
+        smooth.equations.hold(&smooth.switching);
+        smooth.watch.magnitudes.force =
+            scale_of_forces(smooth.equations.mechanism, &smooth.equations.configuration);
+        smooth.notice_velocity();
+        smooth
+    }
+
+    /// Whether the duration is over.
+    pub(in crate::motion) fn is_over(&self) -> bool {
+        self.time >= self.end
+    }
+
+    /// The greatest velocity so far (m/s), rotations times the size of the mechanism.
+    pub(in crate::motion) fn greatest_velocity(&self) -> f64 {
+        self.watch.magnitudes.velocity
+    }
+
+    /// The time in which the greatest velocity so far goes through the mechanism (s).
+    pub(in crate::motion) fn time_scale(&self) -> f64 {
+        self.equations.mechanism.size / self.greatest_velocity()
+    }
+
+    /// Enters a phase.
+    ///
+    /// # Errors
+    /// Equations that cannot be solved.
+    pub(in crate::motion) fn enter(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<(), Failure> {
+        self.equations.enter(phase, self.time, &self.state)?;
+        self.watch.begin(phase, &self.equations, &self.switching);
+        self.equations.write_rates(&self.state, self.stepper.start());
+        self.notice_force();
+        self.hold = None;
+        self.outlook = NOTHING_KNOWN;
+        let rests = self.equations.resting(REST * self.greatest_velocity());
+        if rests.contains(&true) {
+            let Equations { mechanism, configuration, sliders, .. } = &self.equations;
+            self.hold = decisions.hold(mechanism, configuration, (phase, &rests)).map_err(Failure::Loads)?;
+            let sticking =
+                sliders.iter().zip(&phase.joints).filter(|(_, state)| **state == JointPhase::Sticking);
+            self.holds_all = sticking.into_iter().all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
+        }
+        let mut values = std::mem::take(&mut self.values);
+        self.watch_all(phase, decisions, &mut values[0])?;
+        self.values = values;
+        if self.next == 0.0 {
+            self.next = self.first_step();
+        }
+        Ok(())
+    }
+
+    /// A step within which neither positions nor velocities change much.
+    fn first_step(&mut self) -> f64 {
+        let size = self.equations.mechanism.size;
+        let acceleration = self.equations.accelerations().chunks_exact(3);
+        let greatest = acceleration
+            .fold(0.0, |a: f64, body| a.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
+        let velocity = self.watch.magnitudes.velocity.max((greatest * size).sqrt());
+        self.watch.magnitudes.velocity = velocity;
+        let times = [size / velocity, velocity / greatest];
+        0.02 * times.into_iter().filter(|time| *time > 0.0).fold(self.longest, f64::min)
+    }
+
+    fn notice_velocity(&mut self) {
+        let size = self.equations.mechanism.size;
+        let bodies = 3 * self.equations.mechanism.bodies.len();
+        let rates = self.state[bodies..2 * bodies].chunks_exact(3);
+        let greatest =
+            rates.fold(0.0, |v: f64, body| v.max(body[0].abs()).max(body[1].abs()).max(body[2].abs() * size));
+        self.watch.magnitudes.velocity = self.watch.magnitudes.velocity.max(greatest);
+        let works = self.state[2 * bodies..].iter();
+        self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
+    }
+
+    /// Takes note of the greatest force, and of a velocity that it could cause: at rest there is no other scale.
+    fn notice_force(&mut self) {
+        let magnitudes = &mut self.watch.magnitudes;
+        magnitudes.force = magnitudes.force.max(self.equations.greatest_force());
+        if self.mass > 0.0 {
+            let velocity = (magnitudes.force * self.equations.mechanism.size / self.mass).sqrt();
+            magnitudes.velocity = magnitudes.velocity.max(LITTLE_VELOCITY * velocity);
+        }
+    }
+
+    /// The errors of the components that are permitted in a step.
+    fn set_scale(&mut self) {
+        let size = self.equations.mechanism.size;
+        let bodies = 3 * self.equations.mechanism.bodies.len();
+        let velocity = self.watch.magnitudes.velocity.max(f64::MIN_POSITIVE / self.tolerance);
+        let energy = self.energy.max(LITTLE_ENERGY * self.watch.magnitudes.force * size);
+        let energy = energy.max(f64::MIN_POSITIVE / self.tolerance);
+        for (index, scale) in self.scale.iter_mut().enumerate() {
+            let greatest = match index {
+                _ if index >= 2 * bodies => energy,
+                _ if index >= bodies && index % 3 == 2 => velocity / size,
+                _ if index >= bodies => velocity,
+                _ if index % 3 == 2 => 1.0,
+                _ => size,
+            };
+            *scale = self.tolerance * greatest;
+        }
+    }
+
+    /// One step, shorter if something happens; returns what.
+    pub(in crate::motion) fn step(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        history: &mut History,
+    ) -> Option<Ended> {
+        self.set_scale();
+        let due = self.due();
+        if !due.is_empty() {
+            return Some(self.switch(&due, Vec::new()));
+        }
+        match self.look_ahead() {
+            Ok(true) => return Some(Ended::Event(vec![Cause::Slips])),
+            Ok(false) => {}
+            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
+        }
+        let (step, error) = match self.accepted_step(phase, decisions, history) {
+            Ok(accepted) => accepted,
+            Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
+            Err(Failure::Singular) => return Some(Ended::Event(vec![Cause::Locks])),
+        };
+        let first = history.dense.len() - DENSE * self.state.len();
+        match self.first_event(phase, decisions, &history.dense[first..], step) {
+            Ok(None) => {
+                self.next = step * self.control.accepted(error);
+                self.advance(step);
+                self.values.swap(0, 3);
+                None
+            }
+            Ok(Some((fraction, watched))) => {
+                let dense = history.dense.split_off(first);
+                self.next = step;
+                let mut causes = self.causes(&watched);
+                let place = (fraction, watched[0]);
+                match self.stop_at(phase, decisions, (&dense, step), place, history) {
+                    Ok(length) if length > 0.0 && self.still_slides(phase, &causes) => {
+                        self.go_on(length, phase, decisions)
+                    }
+                    Ok(_) => {
+                        match self.held_causes(&watched, phase, decisions) {
+                            Ok(reached) => causes.extend(reached),
+                            Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
+                            Err(Failure::Singular) => return Some(Ended::Event(vec![Cause::Locks])),
+                        }
+                        let mut switches = self.due();
+                        switches.extend(watched.iter().filter_map(|watched| match watched {
+                            Watched::Relation(switch) => Some(*switch),
+                            _ => None,
+                        }));
+                        Some(self.switch(&switches, causes))
+                    }
+                    Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
+                    Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
+                }
+            }
+            Err(Failure::Loads(faults)) => {
+                history.dense.truncate(first);
+                Some(Ended::End(End::NoValue(faults)))
+            }
+            Err(Failure::Singular) => {
+                history.dense.truncate(first);
+                Some(Ended::Event(vec![Cause::Locks]))
+            }
+        }
+    }
+
+    /// What the watched functions that have passed zero are the causes of.
+    fn causes(&self, watched: &[Watched]) -> Vec<Cause> {
+        let name = |index: usize| self.options.events[index].name.clone();
+        watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
+    }
+
+    /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the event.
+    fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
+        causes.extend(self.switching.switch(self.time, switches));
+        self.equations.hold(&self.switching);
+        Ended::Event(causes)
+    }
+
+    /// The relations that leave their pieces now, at a time that was known.
+    fn due(&mut self) -> Vec<Switch> {
+        let horizon = self.horizon();
+        let is_now = self.switching.next(self.time, horizon) - self.time <= self.least_step();
+        if is_now { self.switching.due() } else { Vec::new() }
+    }
+
+    /// The end, or the next time at which a load or drive jumps or has a kink, if that is known in advance.
+    fn known_time(&mut self) -> f64 {
+        let horizon = self.horizon();
+        self.end.min(self.switching.next(self.time, horizon))
+    }
+
+    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood still.
+    fn look_ahead(&mut self) -> Result<bool, Faults> {
+        let known = self.known_time();
+        let until = known.min(self.horizon());
+        self.stop = known;
+        let Some(hold) = &mut self.hold else { return Ok(false) };
+        if !self.outlook.slips && self.outlook.proven < until {
+            self.outlook = hold.outlook([self.time.max(self.outlook.proven), until])?;
+        }
+        let is_now = self.outlook.proven - self.time <= self.least_step();
+        if !is_now {
+            self.stop = known.min(self.outlook.proven);
+        }
+        Ok(is_now && self.outlook.slips)
+    }
+
+    /// No step goes beyond it.
+    fn horizon(&self) -> f64 {
+        self.end.min(self.time + 2.0 * self.longest)
+    }
+
+    /// The shortest step that changes the time.
+    fn least_step(&self) -> f64 {
+        4.0 * f64::EPSILON * self.time.abs().max(self.end.abs())
+    }
+}

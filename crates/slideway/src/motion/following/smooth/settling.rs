@@ -1,0 +1,73 @@
+//! The state where an event says it is: joints that have stopped, joints at their stops, velocities after impulses.
+
+use super::Smooth;
+use crate::configuration::Velocity;
+use crate::ids::JointId;
+use crate::pattern::phase::{JointPhase, Phase};
+
+/// Velocities are set to zero where that changes none by more than this multiple of the tolerance, ...
+const SETTLED: f64 = 100.0;
+/// ... which counts as at least this.
+const LEAST_TOLERANCE: f64 = 1e-10;
+
+impl Smooth<'_, '_> {
+    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines would; unless that
+    /// changes more than errors of steps do: at a dead centre the joint stands while the mechanism moves on.
+    pub(in crate::motion) fn settle(&mut self, phase: &Phase, stopped: &[bool]) {
+        if !stopped.contains(&true) {
+            return;
+        }
+        let mut held = phase.clone();
+        for (joint, stopped) in held.joints.iter_mut().zip(stopped) {
+            if *stopped {
+                *joint = JointPhase::Sticking;
+            }
+        }
+        if self.equations.enter(&held, self.time, &self.state).is_err() {
+            return;
+        }
+        let mut settled = self.state.clone();
+        self.equations.project(&mut settled);
+        let size = self.equations.mechanism.size;
+        let bodies = 3 * self.equations.mechanism.bodies.len();
+        let rates = settled[bodies..2 * bodies].iter().zip(&self.state[bodies..2 * bodies]);
+        let change = rates.enumerate().fold(0.0_f64, |greatest, (index, (new, old))| {
+            let scale = if index % 3 == 2 { size } else { 1.0 };
+            greatest.max(scale * (new - old).abs())
+        });
+        let permitted = SETTLED * self.tolerance.max(LEAST_TOLERANCE);
+        if change <= permitted * self.watch.magnitudes.velocity {
+            self.state = settled;
+        }
+        self.equations.place(self.time, &self.state);
+        let sliders = self.equations.sliders.iter().zip(stopped);
+        let stops = |joint: JointId| sliders.clone().any(|(slider, stopped)| *slider == joint && *stopped);
+        self.switching.settle(&self.equations.configuration, &stops);
+        self.equations.hold(&self.switching);
+    }
+
+    /// Brings a joint exactly to a displacement at which an event has found it, within errors of steps, as reactions would.
+    pub(in crate::motion) fn put_at(&mut self, phase: &Phase, joint: JointId, displacement: f64) {
+        let mut held = phase.clone();
+        let sliders = self.equations.sliders.iter().zip(&mut held.joints);
+        sliders.filter(|(id, _)| **id == joint).for_each(|(_, state)| *state = JointPhase::Sticking);
+        if self.equations.enter(&held, self.time, &self.state).is_err() {
+            return;
+        }
+        self.equations.hold_at(joint, displacement);
+        let mut moved = self.state.clone();
+        self.equations.project(&mut moved);
+        let places = 3 * self.equations.mechanism.bodies.len();
+        self.state[..places].copy_from_slice(&moved[..places]);
+    }
+
+    /// Velocities after an impulse.
+    pub(in crate::motion) fn set_velocities(&mut self, velocities: &[Velocity]) {
+        let bodies = 3 * velocities.len();
+        let rates = velocities.iter().flat_map(|v| [v.linear.x, v.linear.y, v.angular]);
+        self.state[bodies..2 * bodies].iter_mut().zip(rates).for_each(|(value, rate)| *value = rate);
+        self.equations.place(self.time, &self.state);
+        self.switching.jump(&self.equations.configuration);
+        self.equations.hold(&self.switching);
+    }
+}

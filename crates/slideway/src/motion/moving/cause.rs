@@ -1,0 +1,147 @@
+//! Why a phase ends.
+
+use super::watch::Watched;
+use crate::ids::{ContactId, JointId};
+use crate::mechanism::Mechanism;
+use crate::modes::Side;
+
+/// Why a phase ends, or what is told.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// The motion begins.
+    Start,
+    /// The normal force of a contact has reached zero.
+    NormalForceZero(ContactId),
+    /// A contact leaves its preload gap, towards this side.
+    PreloadGapEnds(ContactId, Side),
+    /// The sliding velocity of a joint has reached zero.
+    Stops(JointId),
+    /// The joints that stick cannot do so any longer.
+    Slips,
+    /// The determinant of the mode has reached zero.
+    Locks,
+    /// The normal force of a contact has reached the limit.
+    ReactionLimit(ContactId),
+    /// The couple of a guided slider has reached what its pressure can give.
+    Tips(JointId),
+    /// A block leaves its guide.
+    OverlapVanishes(JointId),
+    /// A sliding joint has reached a limit of its travel: the greatest, or the least.
+    TravelLimit {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the greatest displacement.
+        greatest: bool,
+    },
+    /// A sliding joint hits the stop at an end of its travel.
+    Hits {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the stop at the greatest displacement.
+        greatest: bool,
+        /// Kinetic energy that is lost (J); of joints that act on one another the first has that of all.
+        energy_lost: Option<f64>,
+    },
+    /// A sliding joint meets the pad at an end of its travel, which begins to push.
+    MeetsPad {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the pad at the greatest displacement.
+        greatest: bool,
+    },
+    /// A sliding joint leaves such a pad, which has ceased to push.
+    LeavesPad {
+        /// The joint.
+        joint: JointId,
+        /// Whether it is the pad at the greatest displacement.
+        greatest: bool,
+    },
+    /// A load or drive jumps: a relation in its formula, or a table, passes to its next piece.
+    LoadJumps(String),
+    /// A function of the user has passed zero; its number and its name.
+    User(usize, String),
+    /// The mechanism could not go on moving: an impulse has stopped it, at a loss of kinetic energy (J).
+    Jams {
+        /// J
+        energy_lost: f64,
+    },
+}
+
+impl Cause {
+    /// The cause that a watched function is; none for relations, of which only jumps are told, and where it takes a decision to name it.
+    pub(in crate::motion) fn of(
+        watched: Watched,
+        sliders: &[JointId],
+        names: impl Fn(usize) -> String,
+    ) -> Option<Self> {
+        Some(match watched {
+            Watched::NormalForce(contact) => Self::NormalForceZero(contact),
+            // The share of the positive face has vanished: the negative one presses.
+            Watched::Share(contact, Side::Positive) => Self::PreloadGapEnds(contact, Side::Negative),
+            Watched::Share(contact, Side::Negative) => Self::PreloadGapEnds(contact, Side::Positive),
+            Watched::Between(contact, side) => Self::PreloadGapEnds(contact, side),
+            Watched::Velocity(index, _) => Self::Stops(sliders[index]),
+            Watched::Determinant => Self::Locks,
+            Watched::ReactionLimit(contact) => Self::ReactionLimit(contact),
+            Watched::Couple(joint) => Self::Tips(joint),
+            Watched::Sticking => Self::Slips,
+            Watched::Overlap(joint) => Self::OverlapVanishes(joint),
+            Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
+            Watched::User(index, _) => Self::User(index, names(index)),
+            Watched::Relation(_) | Watched::HeldReactions => return None,
+        })
+    }
+
+    /// Its name in reports.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::NormalForceZero(_) => "normal_force_zero",
+            Self::PreloadGapEnds(..) => "preload_gap_ends",
+            Self::Stops(_) => "stops",
+            Self::Slips => "slips",
+            Self::Locks => "locks",
+            Self::ReactionLimit(_) => "reaction_limit",
+            Self::Tips(_) => "tips",
+            Self::OverlapVanishes(_) => "overlap_vanishes",
+            Self::TravelLimit { .. } => "travel_limit",
+            Self::Hits { .. } => "hits",
+            Self::MeetsPad { .. } => "meets_pad",
+            Self::LeavesPad { .. } => "leaves_pad",
+            Self::LoadJumps(_) => "load_jumps",
+            Self::User(..) => "user",
+            Self::Jams { .. } => "jams",
+        }
+    }
+
+    /// The joint, contact or function of which it tells.
+    pub fn subject<'a>(&'a self, mechanism: &'a Mechanism) -> Option<&'a str> {
+        match self {
+            Self::NormalForceZero(contact)
+            | Self::PreloadGapEnds(contact, _)
+            | Self::ReactionLimit(contact) => Some(&mechanism.contacts[contact.index()].name),
+            Self::Stops(joint)
+            | Self::Tips(joint)
+            | Self::OverlapVanishes(joint)
+            | Self::TravelLimit { joint, .. }
+            | Self::Hits { joint, .. }
+            | Self::MeetsPad { joint, .. }
+            | Self::LeavesPad { joint, .. } => Some(&mechanism.joints[joint.index()].name),
+            Self::User(_, name) | Self::LoadJumps(name) => Some(name),
+            Self::Start | Self::Slips | Self::Locks | Self::Jams { .. } => None,
+        }
+    }
+
+    /// The contact whose normal force, or whose preload gap, has come to its end.
+    pub(in crate::motion) fn vanishing_contact(&self) -> Option<ContactId> {
+        match self {
+            Self::NormalForceZero(contact) | Self::PreloadGapEnds(contact, _) => Some(*contact),
+            _ => None,
+        }
+    }
+
+    /// Whether the phase cannot simply go on.
+    pub(in crate::motion) fn ends_phase(&self) -> bool {
+        !matches!(self, Self::User(..) | Self::LeavesPad { .. })
+    }
+}

@@ -1,0 +1,7 @@
+//! What is told of a motion: a report (`report.rs`) and its text (`text.rs`), a table (`series.rs`), and the tree of all branches
+//! (`tree.rs`).
+
+pub(in crate::motion) mod report;
+pub(in crate::motion) mod series;
+pub(in crate::motion) mod text;
+pub(in crate::motion) mod tree;
