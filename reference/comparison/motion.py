@@ -3,7 +3,7 @@
 
     python3 -m venv venv && venv/bin/pip install exudyn numpy
     cargo build --release
-    venv/bin/python reference/comparison/motion.py        writes docs/src/comparison-motion.md
+    venv/bin/python reference/comparison/motion.py        writes the table of "Motion" in docs/src/comparison.md
 
 Both codes start from the same state (models/slider-crank.toml with gas = 0, T = 0) and are compared at t = 0.2 s with
 reference/slider-crank-motion.toml, an independent integration with a relative tolerance of 1e-13. Exudyn has no joint whose
@@ -143,7 +143,10 @@ def main():
     for name, error, speed in rows:
         told = ("does not converge", "") if error is None else (f"{error:.1e}", f"{speed:.2g}")
         lines.append(f"| {name} | {told[0]} | {told[1]} |")
-    (TOP / "docs/src/comparison-motion.md").write_text("\n".join(lines) + "\n")
+    page = TOP / "docs/src/comparison.md"
+    before, rest = page.read_text().split(lines[0] + "\n")
+    after = rest[rest.index("\n\n") :]
+    page.write_text(before + "\n".join(lines) + after)
     return 0
 
 

@@ -113,7 +113,11 @@ def markdown(data, families):
     quick = " with `--quick`" if data["quick"] else ""
     return f"""<!-- Written by reference/comparison/compare.py{quick}; do not edit. -->
 
-### The machine
+# Tables of the comparison
+
+How long each code took; [Comparison with other codes](comparison.md) says what is compared, and how.
+
+## The machine
 
 | | |
 |---|---|
@@ -121,23 +125,23 @@ def markdown(data, families):
 | threads | {data['threads']} |
 | load average at the start | {data['load']:.2f} |
 
-### Time to all solutions
+## Time to all solutions
 
 Limit of the search and of HiGHS: {data['limit']:.0f} s. *Slanted*: extrapolated. –: not tried.
 
 {all_solutions(data['results'])}
 
-### Nanoseconds for each pattern
+## Nanoseconds for each pattern
 
 *Slanted*: measured on a part of the patterns (LU), or extrapolated from a smaller instance (lcp_enum).
 
 {per_pattern(data['results'])}
 
-### The largest instance
+## The largest instance
 
 {largest(data['largest'], families, data['ladder_limit'])}
 
-### Disagreements
+## Disagreements
 
 {disagreements(data['results'])}
 """

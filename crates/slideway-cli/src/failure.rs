@@ -121,31 +121,31 @@ impl Failure {
             Self::StageCount { stages, most } => {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
-            Self::OutputExists { path } => format!("`{}` exists already", path.display()),
+            Self::OutputExists { path } => format!("`{}` already exists", path.display()),
             Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
             Self::FileFormat { path, .. } => {
-                format!("the ending of `{}` names no known format", path.display())
+                format!("the extension of `{}` is not a known format", path.display())
             }
-            Self::Unfinished { path } => format!("an unfinished sweep is in the way: `{}`", path.display()),
+            Self::Unfinished { path } => format!("there is an unfinished sweep: `{}`", path.display()),
             Self::InUse { path } => format!("another sweep is writing `{}`", path.display()),
             Self::Damaged { path } => {
                 format!("`{}` was changed since the sweep was interrupted", path.display())
             }
             Self::NothingToResume { path } => {
-                format!("there is no sweep to go on with: `{}` is missing", path.display())
+                format!("there is no sweep to resume: `{}` is missing", path.display())
             }
             Self::AnotherSweep { path, command } => {
                 format!("`{}` belongs to another sweep: `{command}`", path.display())
             }
             Self::UnknownEnding { path } => {
-                format!("the ending of `{}` does not tell the form of the table", path.display())
+                format!("the extension of `{}` does not determine the form of the table", path.display())
             }
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
             Self::NoLine => {
                 "a plot needs one varied quantity with ascending values, and no samples".to_owned()
             }
-            Self::NothingToPlot => "the model has nothing of the quantity that is to be plotted".to_owned(),
+            Self::NothingToPlot => "the model has no such quantity to plot".to_owned(),
             Self::Halted { halt, path: None } => {
                 format!("{} before there was an answer; nothing is written", halt.in_words())
             }
@@ -161,22 +161,22 @@ impl Failure {
                 format!("{} after {done} of {points} points", halt.in_words())
             }
             Self::MotionInterrupted { path } => {
-                format!("interrupted; the table of the motion until then is in `{}`", path.display())
+                format!("interrupted; the table of the motion so far is in `{}`", path.display())
             }
             Self::OverwritesInput { path } => {
-                format!("the output would take the place of its input `{}`", path.display())
+                format!("the output would overwrite its input `{}`", path.display())
             }
             Self::CannotWrite { path, error } | Self::CannotGoOn { path, error } => {
                 format!("`{}` cannot be written: {}", path.display(), reason(error))
             }
             #[cfg(not(feature = "parquet"))]
-            Self::WithoutParquet => "this program was built without Parquet files".to_owned(),
+            Self::WithoutParquet => "this program was built without support for Parquet files".to_owned(),
             Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
-            Self::BinaryOnTerminal => "an .npz archive is not for a terminal".to_owned(),
+            Self::BinaryOnTerminal => "an .npz archive cannot be written to a terminal".to_owned(),
             Self::SeriesFormat { path } => {
-                format!("`{}` names no form of a time series", path.display())
+                format!("`{}` is not the name of a time series", path.display())
             }
             Self::TooManyRows { rows, most } => {
                 format!("the table would have {rows:.1e} rows; at most {most:.0e} are written")
@@ -203,10 +203,10 @@ impl Failure {
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
             Self::SeriesFormat { .. } => {
-                Some(format!("possible endings: {}", SeriesFormat::ENDINGS.join(", ")))
+                Some(format!("possible extensions: {}", SeriesFormat::ENDINGS.join(", ")))
             }
             Self::CannotGoOn { .. } => {
-                Some("what is done is kept: make room, and the same command with --resume goes on".to_owned())
+                Some("the finished part is kept: make room, then repeat the command with --resume".to_owned())
             }
             #[cfg(not(feature = "parquet"))]
             Self::WithoutParquet => Some(
@@ -217,35 +217,35 @@ impl Failure {
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
-            Self::FileFormat { known, .. } => Some(format!("possible endings: {}", known.join(", "))),
+            Self::FileFormat { known, .. } => Some(format!("possible extensions: {}", known.join(", "))),
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
             Self::Unfinished { .. } => {
-                Some("go on with it by --resume, or begin anew with --force".to_owned())
+                Some("continue it with --resume, or start over with --force".to_owned())
             }
             Self::InUse { .. } => Some("wait until it ends, or choose another name".to_owned()),
-            Self::Damaged { .. } => Some("begin anew with --force".to_owned()),
-            Self::NothingToResume { .. } => Some("leave --resume out".to_owned()),
+            Self::Damaged { .. } => Some("start over with --force".to_owned()),
+            Self::NothingToResume { .. } => Some("omit --resume".to_owned()),
             Self::AnotherSweep { .. } => Some(
-                "repeat that command with --resume and the same model, or begin anew with --force".to_owned(),
+                "repeat that command with --resume and the same model, or start over with --force".to_owned(),
             ),
             Self::UnknownEnding { .. } => {
                 let forms = TableFormat::value_variants().iter().filter_map(ValueEnum::to_possible_value);
                 let endings: Vec<String> = forms.map(|form| format!(".{}", form.get_name())).collect();
-                Some(format!("possible endings: {}; or say it with --format", endings.join(", ")))
+                Some(format!("possible extensions: {}; or use --format", endings.join(", ")))
             }
             Self::NoLine => {
-                Some("vary one quantity, or leave --plot out; `slideway map` shows two quantities".to_owned())
+                Some("vary one quantity, or omit --plot; `slideway map` shows two quantities".to_owned())
             }
             Self::NoStream => Some("name a file with --output, or use --format csv".to_owned()),
-            Self::MotionInterrupted { .. } => {
-                Some("--time-limit ends a motion early with its files under their names".to_owned())
-            }
-            Self::Halted { halt: Halt::TimeLimit(_), .. } => Some(
-                "a longer --time-limit, or a question that takes less work, such as a smaller range"
+            Self::MotionInterrupted { .. } => Some(
+                "--time-limit also ends a motion early, but writes its files under their own names"
                     .to_owned(),
             ),
+            Self::Halted { halt: Halt::TimeLimit(_), .. } => {
+                Some("allow more time with --time-limit, or ask for less, such as a smaller range".to_owned())
+            }
             Self::Unswept { path: Some(_), .. } => {
-                Some("the same command with --resume goes on from there".to_owned())
+                Some("the same command with --resume continues from there".to_owned())
             }
             _ => None,
         }

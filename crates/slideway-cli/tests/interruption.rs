@@ -132,7 +132,7 @@ fn an_interrupted_search_tells_what_it_has_found() {
     let mut told = String::new();
     child.stdout.take().unwrap().read_to_string(&mut told).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(told.contains("ended by a time limit or on request"), "{told}");
+    assert!(told.contains("stopped by a time limit or on request"), "{told}");
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn slow_points_that_are_done_are_kept() {
 fn a_tolerance_below_the_accuracy_of_numbers_is_refused() {
     let run = slideway(&["simulate", "models/drawer.toml", "--until", "10ms", "--tolerance", "1e-30"]);
     assert_eq!(run.code, 2);
-    let told = "the tolerance 1e-30 is less than what numbers resolve";
+    let told = "the tolerance 1e-30 is finer than floating point resolves";
     assert!(run.stderr.contains(told) && run.stdout.is_empty(), "{}{}", run.stdout, run.stderr);
     // Twice the machine epsilon, 2^-52: positions of the drawer are no greater than its size.
     let run = slideway(&["simulate", "models/drawer.toml", "--until", "10ms", "--tolerance", "4.5e-16"]);

@@ -74,7 +74,7 @@ fn files_are_not_overwritten() {
         assert_eq!(refused.status.code(), Some(2), "{file}");
         let message = String::from_utf8(refused.stderr).unwrap();
         assert!(
-            message.contains(&format!("`{file}` exists already")) && message.contains("--force"),
+            message.contains(&format!("`{file}` already exists")) && message.contains("--force"),
             "{message}"
         );
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");

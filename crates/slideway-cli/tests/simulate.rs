@@ -89,7 +89,7 @@ fn a_state_that_cannot_be_assembled_is_refused() {
 #[test]
 fn files_without_a_known_ending_are_refused() {
     let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--output", "motion.xls"]);
-    assert_tells(&message, &["`motion.xls` names no form of a time series", ".csv"]);
+    assert_tells(&message, &["`motion.xls` is not the name of a time series", ".csv"]);
     let message = refused(&["simulate", OSCILLATOR, "--until", "1s", "--animate", "motion.mp4"]);
     assert_tells(&message, &[".html, .svg, .gif"]);
     let message =
@@ -153,7 +153,7 @@ fn a_gif_moves_and_does_not_depend_on_the_threads() {
 
     let (refused, kept) = made("motion.gif", "1");
     assert_eq!(refused.status.code(), Some(2));
-    assert_tells(&String::from_utf8(refused.stderr).unwrap(), &["motion.gif` exists already", "--force"]);
+    assert_tells(&String::from_utf8(refused.stderr).unwrap(), &["motion.gif` already exists", "--force"]);
     assert_eq!(kept, bytes);
 }
 
@@ -176,7 +176,7 @@ fn a_load_without_a_value_ends_the_motion_and_keeps_what_was_computed() {
     let arguments = ["simulate", "-", "--until", "2s", "--output", file.to_str().unwrap()];
     let Run { code, stdout, .. } = slideway_reading(&arguments, model.as_bytes());
     assert_eq!(code, 2);
-    assert_tells(&stdout, &["It ends at 1.3 s", "In the end: x = "]);
+    assert_tells(&stdout, &["It ends at 1.3 s", "At the end: x = "]);
     let rows = std::fs::read_to_string(&file).unwrap();
     let last: f64 = rows.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
     assert!((last - 1.3).abs() < 1e-6, "{last}");
@@ -187,7 +187,7 @@ fn a_load_without_a_value_ends_the_motion_and_keeps_what_was_computed() {
 fn the_step_limit_is_told_with_the_state() {
     let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--max-steps", "20"]);
     assert_eq!(run.code, 3);
-    assert_tells(&run.stdout, &["after the 20 steps that were permitted", "In the end: x = "]);
+    assert_tells(&run.stdout, &["after the 20 steps that were permitted", "At the end: x = "]);
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
     let path = file.to_str().unwrap();
     let run = slideway(&["simulate", KLEPP, "--until", "1e6 s", "--time-limit", "300ms", "--output", path]);
     assert_eq!(run.code, 3, "{}", run.stderr);
-    assert_tells(&run.stdout, &["It was interrupted at ", "In the end: q = "]);
+    assert_tells(&run.stdout, &["It was interrupted at ", "At the end: q = "]);
     assert!(std::fs::read_to_string(&file).unwrap().lines().count() > 1);
 }
 
@@ -219,8 +219,8 @@ fn an_interrupted_motion_keeps_its_table_beside() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert_tells(&String::from_utf8(output.stdout).unwrap(), &["It was interrupted at ", "In the end: q = "]);
-    assert_tells(&said, &["the table of the motion until then is in", "motion.csv.partial"]);
+    assert_tells(&String::from_utf8(output.stdout).unwrap(), &["It was interrupted at ", "At the end: q = "]);
+    assert_tells(&said, &["the table of the motion so far is in", "motion.csv.partial"]);
     assert!(!file.exists() && !plot.exists());
     let partial = folder.path().join("motion.csv.partial");
     assert!(std::fs::read_to_string(partial).unwrap().lines().count() > 1);
@@ -230,7 +230,7 @@ fn an_interrupted_motion_keeps_its_table_beside() {
 fn a_normal_force_beyond_its_limit_ends_the_motion() {
     let run = slideway(&["simulate", KLEPP, "--until", "1s", "--max-reaction", "10"]);
     assert_eq!(run.code, 1, "{}", run.stderr);
-    assert_tells(&run.stdout, &["the normal force of upper has reached its limit", "In the end: q = "]);
+    assert_tells(&run.stdout, &["the normal force of upper has reached its limit", "At the end: q = "]);
 }
 
 /// What is refused, in full: exit code, message, place and help.
@@ -265,7 +265,7 @@ fn early_ends_in_words() {
 fn a_branch_that_does_not_exist_is_told() {
     let run = slideway(&["simulate", OSCILLATOR, "--until", "3s", "--branch", "7"]);
     assert_eq!(run.code, 2);
-    assert_tells(&run.stdout, &["the branch that was wanted", "does not exist"]);
+    assert_tells(&run.stdout, &["the branch requested", "does not exist"]);
 }
 
 #[test]

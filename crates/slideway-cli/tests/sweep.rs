@@ -161,7 +161,7 @@ fn an_interrupted_sweep_goes_on_with_the_same_bytes() {
         let mut said = String::new();
         child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
         assert_eq!(code, Some(130), "{said}");
-        assert!(said.contains("--resume goes on"), "{said}");
+        assert!(said.contains("--resume continues"), "{said}");
         assert!(partial.exists() && !target.exists());
 
         // Another command, and the same one without --resume, are refused.
@@ -195,12 +195,12 @@ fn what_exists_is_not_overwritten() {
     fs::write(&path, "mine").unwrap();
     let arguments = ["sweep", DRAWER, "--vary", "mu=0.1,0.2", "--output", &name];
     let run = slideway(&arguments);
-    assert!(run.code == 2 && run.stderr.contains("exists already"), "{}", run.stderr);
+    assert!(run.code == 2 && run.stderr.contains("already exists"), "{}", run.stderr);
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert_eq!(slideway(&[&arguments[..], &["--force"]].concat()).code, 0);
     assert!(fs::read_to_string(&path).unwrap().contains("normal_force.guide.front"));
     let nothing = slideway(&[&arguments[..], &["--force", "--resume"]].concat());
-    assert!(nothing.code == 2 && nothing.stderr.contains("no sweep to go on with"), "{}", nothing.stderr);
+    assert!(nothing.code == 2 && nothing.stderr.contains("no sweep to resume"), "{}", nothing.stderr);
 }
 
 /// A sweep that has written so many bytes, and takes long enough to be stopped.
@@ -323,7 +323,7 @@ fn links_are_followed_and_two_outputs_do_not_share_a_file() {
     }
     let words = ["check", "model.toml", "--force", "--output", "./model.toml"];
     let output = command(&words).current_dir(folder.path()).output().unwrap();
-    assert!(String::from_utf8(output.stderr).unwrap().contains("would take the place of its input"));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("would overwrite its input"));
 }
 
 /// A file whose name has an end of line does not break the comments of a table.
@@ -387,7 +387,7 @@ fn a_table_that_does_not_fit_is_kept_and_goes_on() {
         let said = String::from_utf8(run.stderr).unwrap();
         assert_eq!(run.status.code(), Some(2), "{ending}: {said}");
         assert!(said.contains(".partial` cannot be written: file too large"), "{ending}: {said}");
-        assert!(said.contains("--resume goes on"), "{ending}: {said}");
+        assert!(said.contains("repeat the command with --resume"), "{ending}: {said}");
         assert_eq!(
             names(&folder),
             [format!("table.{ending}.partial"), format!("table.{ending}.partial.state")]
@@ -440,7 +440,7 @@ fn parquet_files_need_their_feature() {
     for arguments in [&simulate[..], &sweep] {
         let run = slideway(arguments);
         assert_eq!(run.code, 2);
-        assert!(run.stderr.contains("built without Parquet"), "{}", run.stderr);
+        assert!(run.stderr.contains("built without support for Parquet"), "{}", run.stderr);
         assert!(run.stderr.contains("cargo build --release --features parquet"), "{}", run.stderr);
     }
     assert_eq!(names(&folder), [""; 0]);
@@ -514,12 +514,12 @@ fn bad_arguments_are_told() {
         (&["--vary", "mu=0..0.8"], "how many values"),
         (&["--vary", "mu=0..abc:3"], "unknown name `abc`"),
         (&["--vary", "mu=0..1:3", "--vary", "mu=0,1"], "varied twice"),
-        (&["--vary", "mu=0..1:3", "--output", "table.xlsx"], "does not tell the form"),
+        (&["--vary", "mu=0..1:3", "--output", "table.xlsx"], "does not determine the form"),
         (&["--vary", "mu=0..1:3", "--format", "npz"], "only be written to a file"),
         (&["--vary", "mu=normal(0.3, 0.1)"], "no samples"),
         (&["--vary", "mu=0.5..0.5:11"], "empty"),
         (&["--vary", "mu=0..1:3", "--vary", "a=0,0.1", "--plot", "plot.svg"], "one varied quantity"),
-        (&["--vary", "mu=0..1:3", "--plot", "plot.gif"], "names no known format"),
+        (&["--vary", "mu=0..1:3", "--plot", "plot.gif"], "is not a known format"),
     ];
     for (arguments, part) in cases {
         let run = slideway(&[&["sweep", DRAWER], arguments].concat());
@@ -567,7 +567,7 @@ fn no_command_writes_over_its_input() {
         let output = command(&words).current_dir(folder.path()).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{words:?}: {said}");
-        assert!(said.contains("would take the place of its input"), "{words:?}: {said}");
+        assert!(said.contains("would overwrite its input"), "{words:?}: {said}");
         assert_eq!(std::fs::read_to_string(&file).unwrap(), content, "{words:?}");
     }
 }

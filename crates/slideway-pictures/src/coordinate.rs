@@ -10,7 +10,7 @@ const NONE: &str = "\u{ffff}";
 /// A picture with a place or a size that is infinite or undefined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error(
-    "a place or a size in it is infinite or undefined: some number is too large or too small to be drawn"
+    "a position or a size in it is infinite or undefined: some number is too large or too small to be drawn"
 )]
 pub struct NotFinite;
 

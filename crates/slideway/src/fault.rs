@@ -183,7 +183,7 @@ pub enum FaultKind {
     // The text as a whole.
     #[error("the model file is empty")]
     Empty,
-    #[error("the model file is not UTF-8 text: the byte 0x{byte:02X} is no part of a character here")]
+    #[error("the model file is not UTF-8 text: the byte 0x{byte:02X} is not part of a character here")]
     NotUtf8 { byte: u8 },
     #[error("the model file is larger than {} MiB, too large for a model", limit >> 20)]
     TooLarge { limit: u64 },
@@ -197,7 +197,7 @@ pub enum FaultKind {
     MissingKey { key: String, table: String },
     #[error("`{table}` has no `type`")]
     MissingType { table: String, known: Vec<String> },
-    #[error("`{section}` holds tables, each with a name in its heading")]
+    #[error("`{section}` contains tables, each with a name in its heading")]
     NoHeading { section: String },
     #[error("`{place}` cannot be \"{word}\"")]
     UnknownWord { place: String, word: String, nearest: Option<String>, known: Vec<String> },
@@ -237,15 +237,15 @@ pub enum FaultKind {
     DependsOnSlidingSpeed { what: String },
     #[error("at the sliding speed {speed} m/s: {fault}")]
     AtSlidingSpeed { speed: f64, fault: Box<FaultKind> },
-    #[error("parameters refer to each other in a circle: {}", cycle.join(" -> "))]
+    #[error("parameters refer to each other circularly: {}", cycle.join(" -> "))]
     CircularParameters { cycle: Vec<String> },
     #[error("{what} must be {wanted}, but is {value}")]
     OutOfRange { what: String, wanted: &'static str, value: f64 },
     #[error(
-        "the tolerance {tolerance:e} is less than what numbers resolve: positions of this mechanism are rounded to {least:.1e} of its size"
+        "the tolerance {tolerance:e} is finer than floating point resolves: positions of this mechanism are rounded to {least:.1e} of its size"
     )]
     ToleranceTooSmall { tolerance: f64, least: f64 },
-    #[error("`{text}` is no value or range of {name}")]
+    #[error("`{text}` is not a value or range of {name}")]
     MalformedRange { text: String, name: String },
     #[error("{what} needs a range: {name}=FROM..TO")]
     RangeNeeded { what: String, name: String },
@@ -259,22 +259,24 @@ pub enum FaultKind {
     TooManyModes { contacts: usize, limit: u64 },
     #[error("the range of {what} is reversed: it goes from {from} down to {to}")]
     ReversedRange { what: String, from: f64, to: f64 },
-    #[error("the table {name} has {arguments} arguments and {values} values; it needs as many, at least one")]
+    #[error(
+        "the table {name} has {arguments} arguments and {values} values; it needs equal numbers of both, at least one"
+    )]
     TableLengths { name: String, arguments: usize, values: usize },
-    #[error("the arguments of the table {name} fall at number {row}")]
+    #[error("the arguments of the table {name} decrease at number {row}")]
     TableFalls { name: String, row: usize },
-    #[error("a table holds constant numbers, none that depend on the time")]
+    #[error("a table contains constants only, nothing that depends on time")]
     TableOfTime,
     #[error("{what} is not a finite number")]
     NotFinite { what: String },
-    #[error("the loads or drives grow beyond all bounds")]
+    #[error("the loads or drives grow without bound")]
     LoadsWithoutBounds,
     #[error("the impact of {} on the stops can have several outcomes", joints.join(" and "))]
     SeveralImpacts { joints: Vec<String> },
     #[error("the impact of {} on the stops could not be decided: a linear program was not solved", joints.join(" and "))]
     UnsolvedImpact { joints: Vec<String> },
     #[error(
-        "the impact of {} on the stop has no impulse: friction wedges what moves in its guide before",
+        "the impact of {} on the stop has no possible impulse: friction wedges the moving block in its guide first",
         joints.join(" and ")
     )]
     ImpactWedges { joints: Vec<String> },
@@ -288,11 +290,11 @@ pub enum FaultKind {
     // Topology.
     #[error("the model has no bodies")]
     NoBodies,
-    #[error("the model has {bodies} bodies; at most {limit} are taken")]
+    #[error("the model has {bodies} bodies; at most {limit} are accepted")]
     TooManyBodies { bodies: usize, limit: usize },
     #[error("{joint} joins {body} to itself")]
     SelfJoint { joint: String, body: String },
-    #[error("{joint} doubles {other}: the same joint of the same bodies")]
+    #[error("{joint} duplicates {other}: the same joint of the same bodies")]
     DoubledJoint { joint: String, other: String },
     #[error("{} not connected to ground by any joint", are(bodies))]
     FloatingBodies { bodies: Vec<String> },
@@ -307,7 +309,7 @@ pub enum FaultKind {
     Axis { text: String, problem: AxisProblem },
 
     // Degrees of freedom and coordinates.
-    #[error("the structure is redundant: {} in excess, so the reactions are indeterminate", constraints(*excess))]
+    #[error("the structure is statically indeterminate: {} redundant", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
     #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
     SingularPosition { lost: usize, joints: Vec<String> },
@@ -321,7 +323,7 @@ pub enum FaultKind {
     // Assembly of the state.
     #[error("the mechanism cannot be assembled in this state: {} by {gap}", opening(joint, loop_joints))]
     NotAssembled { joint: String, loop_joints: Vec<String>, gap: String, reached: Option<String> },
-    #[error("{state} is too far from the drawing: {steps} steps came as far as {reached}")]
+    #[error("{state} is too far from the drawing: {steps} steps only reached {reached}")]
     TooFar { state: String, reached: String, steps: usize },
     #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
     NotFollowed { state: String, reached: String, steps: usize },
@@ -355,9 +357,9 @@ pub enum FaultKind {
     ZeroSlidingVelocity { contacts: Vec<String>, coordinates: Vec<String>, at_rest: bool },
 
     // Standstill.
-    #[error("there is nothing of the load {load} at rest, so no factor changes it")]
+    #[error("the load {load} vanishes at rest, so no factor changes it")]
     NoLoadAtRest { load: String },
-    #[error("`{parameter}` is no parameter of static friction alone")]
+    #[error("`{parameter}` is not a parameter of static friction alone")]
     NotOnlyFriction { parameter: String },
     #[error("the joints and contacts have {} states; at most {limit} are tried", counted(*states))]
     TooManyStates { states: u64, limit: u64 },
@@ -367,31 +369,29 @@ pub enum FaultKind {
     // Motion.
     #[error("the motion cannot begin in the contact mode `{wanted}`")]
     ContradictoryPhase { wanted: String, possible: Vec<String> },
-    #[error("`{text}` is no contact mode: it needs one of + - 0 = for each of {}", contacts.join(", "))]
+    #[error("`{text}` is not a contact mode: it needs one of + - 0 = for each of {}", contacts.join(", "))]
     MalformedMode { text: String, contacts: Vec<String> },
     #[error("the end of the simulation, {end} s, is not after its start, {start} s")]
     NothingToSimulate { start: f64, end: f64 },
 
     // Design and drives.
-    #[error("a margin at rest needs the load that it concerns")]
+    #[error("a margin at rest needs a load")]
     LoadNeeded { known: Vec<String> },
-    #[error("the load {load} has no part in a margin against locking")]
+    #[error("the load {load} plays no part in a margin against locking")]
     LoadUnused { load: String },
     #[error("whether {load} is held could not be decided")]
     UndecidedAtRest { load: String },
     #[error("the limits of {modes} contact modes could not be computed")]
     LimitsNotComputed { modes: usize },
-    #[error(
-        "a guided slider is between its faces, and how its state goes on with the friction is not followed"
-    )]
+    #[error("a guided slider is between its faces, and how its state changes with friction is not followed")]
     BetweenFaces,
-    #[error("at rest there is no direction of motion to be reversed")]
+    #[error("at rest there is no direction of motion to reverse")]
     NoDirectionAtRest,
     #[error("the model has no drives, so no effort is unknown")]
     NoDrives { coordinate: Option<String> },
 
     // Search for the modes.
-    #[error("{contacts} contacts with friction are more than the {limit} that can be dealt with")]
+    #[error("{contacts} contacts with friction are more than the {limit} that can be handled")]
     TooManyContacts { contacts: usize, limit: usize },
     #[error("{quantity} is too large or too small to compute with")]
     Overflow { quantity: String },
@@ -434,17 +434,17 @@ impl FaultKind {
                 Some(coordinate_hint(*degrees_of_freedom, *chosen, undetermined))
             }
             Self::Redundant { joints, suggestion, .. } => Some(match suggestion {
-                Some(suggestion) => format!("the excess lies among {}; {suggestion}", joints.join(", ")),
-                None => format!("the excess lies among {}", joints.join(", ")),
+                Some(suggestion) => format!("the redundancy lies among {}; {suggestion}", joints.join(", ")),
+                None => format!("the redundancy lies among {}", joints.join(", ")),
             }),
             Self::SeveralOwners { point, owners } => {
                 Some(format!("say which one: \"{}.{point}\"", owners.first().map_or("body", String::as_str)))
             }
             Self::NotAssembled { reached: Some(reached), .. } => {
-                Some(format!("on the way from the drawing it can be assembled as far as {reached}"))
+                Some(format!("on the path from the drawing it can be assembled up to {reached}"))
             }
             Self::ContradictoryPhase { possible, .. } if possible.is_empty() => {
-                Some("it can begin in no mode: `slideway solve` says why".to_owned())
+                Some("it cannot begin in any mode: `slideway solve` says why".to_owned())
             }
             Self::ContradictoryPhase { possible, .. } => {
                 let modes: Vec<String> = possible.iter().map(|mode| format!("`{mode}`")).collect();
@@ -453,7 +453,7 @@ impl FaultKind {
             Self::ZeroSlidingVelocity { coordinates, at_rest: true, .. } => Some(velocity_hint(coordinates)),
             Self::LoadNeeded { known } => Some(format!("name it with --load: {}", known.join(", "))),
             Self::LoadUnused { load } => Some(format!(
-                "with `--against self-locking` or `--against hold` the load {load} at rest is looked at"
+                "with `--against self-locking` or `--against hold` the load {load} is considered at rest"
             )),
             Self::NoDrives { coordinate } => Some(drive_hint(coordinate.as_deref().unwrap_or("q"))),
             _ => self.fixed_hint().map(str::to_owned),
@@ -469,7 +469,7 @@ impl FaultKind {
                 Some("write `mu = 0` for a contact without friction")
             }
             Self::WrongDimension { .. } => Some(
-                "plain numbers are in SI units (m, kg, s, N, rad) where they stand alone, and pure numbers in products",
+                "plain numbers are in SI units (m, kg, s, N, rad) on their own, and pure numbers in products",
             ),
             Self::DependsOnMotion { .. } => {
                 Some("only loads and drives may depend on coordinates, rates and the time t")
@@ -478,39 +478,39 @@ impl FaultKind {
                 "only the kinetic coefficient `mu` may depend on it; a force that grows with the velocity is a damper, or a load with `rate(q)`",
             ),
             Self::AtSlidingSpeed { .. } => Some(
-                "a coefficient of friction has to be finite and not negative at every speed that occurs, zero included",
+                "a coefficient of friction must be finite and not negative at every speed that occurs, including zero",
             ),
-            Self::StaticBelowKinetic { .. } => Some("leave `mu_static` out to make it equal to `mu`"),
+            Self::StaticBelowKinetic { .. } => Some("omit `mu_static` to make it equal to `mu`"),
             Self::SeveralImpacts { .. } => {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some(
-                "draw it in a neighbouring position; from a drawing that is not singular --at can lead past this one",
+                "draw it in a nearby position; from a drawing that is not singular, --at can lead past this one",
             ),
-            Self::TooFar { .. } => Some("draw the mechanism nearer to this state"),
+            Self::TooFar { .. } => Some("draw the mechanism closer to this state"),
             Self::NotFollowed { .. } => Some(
-                "that is a dead centre of the coordinates or a place where branches meet: draw the mechanism beyond it, or choose coordinates that go on there",
+                "this is a dead centre of the coordinates or a point where branches meet: draw the mechanism beyond it, or choose coordinates that continue there",
             ),
             Self::NoFreedom => Some("a mechanism needs at least one motion; remove a joint or constraint"),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
             Self::OverlapVanished { .. } => {
-                Some("the block has left its guide; choose --at nearer to the drawing")
+                Some("the block has left its guide; choose --at closer to the drawing")
             }
             Self::MotionWithoutInertia { .. } => {
-                Some("give the bodies that move a mass, or prescribe the motion with a drive")
+                Some("give a mass to the bodies that move, or prescribe the motion with a drive")
             }
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
-            Self::NoDirectionAtRest => Some("leave out --both-directions"),
+            Self::NoDirectionAtRest => Some("omit --both-directions"),
             Self::ZeroSlidingVelocity { .. } => Some(
                 "sliding just stops or reverses in this position: move the mechanism a little with --at, or change its rates",
             ),
             Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
             Self::Overflow { .. } | Self::IllConditioned { .. } => {
-                Some("look for lengths, masses, forces or coefficients of absurd magnitude")
+                Some("check for lengths, masses, forces or coefficients of absurd magnitude")
             }
             Self::MissingKey { key, .. } if key == "bodies" || key == "joints" => {
                 Some("start from a model of the gallery: `slideway models` lists it")
@@ -523,7 +523,7 @@ impl FaultKind {
             Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
-                "friction coefficients must grow in proportion to it, or by a constant more, and nothing else may depend on it",
+                "friction coefficients must be linear functions of it, and nothing else may depend on it",
             ),
             Self::TooManyContacts { .. } | Self::TooManyStates { .. } => {
                 Some("a guided slider or a pin in a slot has one contact where a block slider has two")

@@ -83,6 +83,41 @@ fn sections_of_the_theory_that_comments_cite_exist() {
     assert!(cited > 50, "the sources cite the theory");
 }
 
+/// The constants of a page's tables: the section's module, the name and the value of each.
+fn constants(page: &str) -> Vec<[&str; 3]> {
+    let mut found = Vec::new();
+    for section in page.split("\n## `").skip(1) {
+        let module = section.split('`').next().unwrap();
+        for row in section.lines().filter(|line| line.starts_with("| `")) {
+            let cells: Vec<&str> = row.split('|').map(|cell| cell.trim().trim_matches('`')).collect();
+            found.push([module, cells[1], cells[2]]);
+        }
+    }
+    found
+}
+
+#[test]
+fn tolerances_of_the_book_are_those_of_the_sources() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let page = fs::read_to_string(top.join("docs/src/tolerances.md")).unwrap();
+    let constants = constants(&page);
+    assert!(constants.len() > 50, "the page has tables");
+    for [module, name, value] in constants {
+        let folder = match module {
+            "slideway-modes" => "crates/slideway-modes/src".to_owned(),
+            _ => format!("crates/slideway/src/{module}"),
+        };
+        let paths = sources(&top.join(&folder));
+        let defines = |path: &PathBuf| {
+            let text = fs::read_to_string(path).unwrap();
+            text.lines().any(|line| {
+                line.contains(&format!("const {name}: ")) && line.ends_with(&format!(" = {value};"))
+            })
+        };
+        assert!(paths.iter().any(defines), "{folder} has no constant {name} of value {value}");
+    }
+}
+
 #[test]
 fn the_book_promises_nothing() {
     let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src");

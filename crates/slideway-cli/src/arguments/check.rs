@@ -11,7 +11,7 @@ Examples:
 
 Exit codes:
   0  the model is sound: `slideway solve` accepts it
-  2  faulty input, or a finding for which `slideway solve` would refuse it";
+  2  invalid input, or a finding that makes `slideway solve` reject it";
 
 /// Arguments of `slideway check`.
 #[derive(Debug, Args)]

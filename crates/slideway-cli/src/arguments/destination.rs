@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 /// Where the answer goes.
 #[derive(Debug, Args)]
 pub(crate) struct Destination {
-    /// Write to this file instead of standard output; the file is written whole or not at all.
+    /// Write to this file instead of standard output; it is written completely or not at all.
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Overwrite output files that exist.
+    /// Overwrite existing output files.
     #[arg(long)]
     pub(crate) force: bool,
 }

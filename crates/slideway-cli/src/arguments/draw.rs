@@ -13,11 +13,11 @@ Examples:
 
 Exit codes:
   0    done
-  2    faulty input: the model, the settings, the files or the arguments
+  2    invalid input: the model, the settings, the files or the arguments
   3    nothing was found within --time-limit
   130  interrupted (Ctrl-C)
 
-What was found until the time limit or the interruption is drawn, and the drawing says that it is partial.";
+What was found before the time limit or the interruption is drawn, and the drawing says that it is partial.";
 
 /// Arguments of `slideway draw`.
 #[derive(Debug, Args)]
@@ -25,7 +25,7 @@ pub(crate) struct DrawArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// Which solutions: a number, `all` beside the mechanism, or `none` for the mechanism alone. Default: all there are.
+    /// Which solutions: a number, `all` beside the mechanism, or `none` for the mechanism alone. Default: all.
     #[arg(long, value_name = "N|all|none", value_parser = which)]
     pub(crate) solution: Option<Which>,
 

@@ -6,19 +6,19 @@ use slideway::drive::GREATEST_ROWS;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway drive drawer.toml                            the push that it needs, and its efficiency
+  slideway drive drawer.toml                            the push it needs, and the efficiency
   slideway drive drawer.toml --vary mu                  the push over friction
   slideway drive drawer.toml --vary L=\"0.2 m..0.5 m\" --rows 21
   slideway drive screw.toml --vary friction=0..3
 
 The efficiency is the power without friction over the power with friction, at the same motion;
-where the load pushes and the drives brake it is the inverse. Without a range the same is varied as
-by `slideway size`.
+if the load pushes and the drives brake, it is the inverse. Without a range, the default is that of
+`slideway size`.
 
 Exit codes:
   0    done
   1    no effort moves it as in the model: friction locks it
-  2    faulty input: the model has no drives, the settings, the name or the range, the arguments
+  2    invalid input: the model has no drives, the settings, the name or the range, the arguments
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -28,7 +28,7 @@ pub(crate) struct DriveArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// Tabulate the efforts over a parameter, a coordinate, or `friction`, the factor of all coefficients of friction.
+    /// Tabulate the efforts over a parameter, a coordinate, or `friction`, a factor on all coefficients of friction.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: Option<String>,
 

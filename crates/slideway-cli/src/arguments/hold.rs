@@ -11,14 +11,14 @@ Examples:
   slideway hold cam-follower.toml --load cam
   slideway hold slider-crank.toml --at phi=\"0 deg\" --load gas
 
-The rates of the model are taken as zero. With --load NAME the load is multiplied by a factor, 1 being the load of the
-model; all that is told besides holds for the factor 1. The name of a drive stands for its effort, counted in N or N m,
-and all that is told besides holds without it. A load comes before a drive of the same name.
+The rates of the model are set to zero. With --load NAME the load is multiplied by a factor, 1 being the load of the
+model; everything else is reported for the factor 1. The name of a drive stands for its effort in N or N m,
+and everything else is reported without it. A load takes precedence over a drive of the same name.
 
 Exit codes:
   0    it can stay at rest
   1    it cannot stay at rest
-  2    faulty input: the model, the settings, the files or the arguments
+  2    invalid input: the model, the settings, the files or the arguments
   3    unknown: no state of rest was found, but not every state could be decided; or
        not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
@@ -29,12 +29,12 @@ pub(crate) struct HoldArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// Multiply this load by a factor, and say which factors are held.
+    /// Multiply this load by a factor, and report which factors are held.
     #[arg(long, value_name = "NAME")]
     pub(crate) load: Option<String>,
 
-    /// Find the value of this parameter of static friction from which on the load is held however great it is;
-    /// without it, the factor of all static coefficients.
+    /// Find the value of this static friction parameter at which the load is held however great it is;
+    /// by default, the factor on all static coefficients.
     #[arg(long, value_name = "NAME", requires = "load")]
     pub(crate) vary: Option<String>,
 
@@ -59,6 +59,6 @@ pub(crate) enum Drives {
     /// They are absent.
     #[default]
     Release,
-    /// They hold their coordinates, with whatever effort it takes.
+    /// They hold their coordinates with whatever effort that takes.
     Hold,
 }

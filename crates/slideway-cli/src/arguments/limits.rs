@@ -16,7 +16,7 @@ Examples:
 
 Exit codes:
   0    done
-  2    faulty input: the model, the settings, the name or the range, the arguments
+  2    invalid input: the model, the settings, the name or the range, the arguments
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -26,11 +26,11 @@ pub(crate) struct LimitsArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// What to vary: a parameter, a coordinate, or `friction` for the factor of all coefficients of friction.
+    /// What to vary: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: String,
 
-    /// Look at motion in the opposite direction, too.
+    /// Examine motion in the opposite direction, too.
     #[arg(long)]
     pub(crate) both_directions: bool,
 
@@ -38,7 +38,7 @@ pub(crate) struct LimitsArguments {
     #[arg(long, value_name = "N", value_parser = positive)]
     pub(crate) max_reaction: Option<f64>,
 
-    /// Certified searches that may be made in each direction to prove numbers of solutions; 0 proves nothing.
+    /// Certified searches spent in each direction on proving numbers of solutions; 0 proves nothing.
     #[arg(long, value_name = "COUNT", default_value_t = EFFORT)]
     pub(crate) effort: u64,
 

@@ -14,7 +14,7 @@ Examples:
 
 Exit codes:
   0    done
-  2    faulty input: the model, the settings, the names or the ranges, the arguments
+  2    invalid input: the model, the settings, the names or the ranges, the arguments
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -24,15 +24,15 @@ pub(crate) struct MapArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// From left to right: a parameter, a coordinate, or `friction` for the factor of all coefficients of friction.
+    /// From left to right: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction.
     #[arg(long, value_name = "NAME=FROM..TO")]
     pub(crate) x: String,
 
-    /// From bottom to top, likewise.
+    /// From bottom to top: the same choices.
     #[arg(long, value_name = "NAME=FROM..TO")]
     pub(crate) y: String,
 
-    /// What the colours tell.
+    /// What the colours show.
     #[arg(long, value_enum, default_value_t, alias = "color-by")]
     pub(crate) colour_by: MapColours,
 
@@ -51,7 +51,7 @@ pub(crate) struct MapArguments {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) theme: PictureTheme,
 
-    /// The file; its ending says in which format (.svg, .png or .json).
+    /// The file; its extension selects the format (.svg, .png or .json).
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: PathBuf,
 
@@ -68,9 +68,9 @@ pub(crate) enum MapColours {
     Solutions,
     /// The set of contact modes that have a solution.
     Modes,
-    /// The factor by which all friction may grow before there are no or several solutions.
+    /// The factor by which all friction may grow before there is no solution or more than one.
     Margin,
-    /// Whether it can move as in the model, and the other way.
+    /// Whether it can move as in the model, and in the opposite direction.
     Jam,
 }
 

@@ -49,7 +49,7 @@ use std::borrow::Cow;
 
 /// All solutions of planar mechanisms with dry friction in sliding joints.
 ///
-/// Friction can lock a sliding mechanism, or leave it several ways to move. slideway tries every contact mode and
+/// Friction can lock a sliding mechanism or leave it several ways to move. slideway tries every contact mode and
 /// lists all solutions: forces, accelerations, and on which side each slider touches its guide.
 #[derive(Debug, Parser)]
 #[command(name = "slideway", version, max_term_width = 100, after_help = AFTER_HELP)]
@@ -85,17 +85,17 @@ Examples:
   slideway solve drawer.toml                    all solutions of its kinetic problem
   slideway solve drawer.toml --set mu=0.7       with more friction
   slideway limits drawer.toml --vary mu         at which friction it jams
-  slideway size drawer.toml --vary L --margin 2 how long its guide has to be
-  slideway drive drawer.toml                    which push it needs, with which efficiency
+  slideway size drawer.toml --vary L --margin 2 how long its guide must be
+  slideway drive drawer.toml                    what push it needs, and the efficiency
   slideway map drawer.toml --x mu=0..1 --y a=0..0.5 --output map.svg    over a plane
   slideway hold drawer.toml                     whether it stays at rest
-  slideway simulate drawer.toml --until 1s      its motion in time
+  slideway simulate drawer.toml --until 1s      its motion over time
   slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
   slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
-  slideway modes problem.json                   all solutions of an LCP or the like
+  slideway modes problem.json                   all solutions of an LCP or similar
 
-Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 faulty input,
+Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 invalid input,
 3 undecided or out of time, 130 interrupted.";
 
 /// What to do.
@@ -104,13 +104,13 @@ pub(crate) enum Command {
     /// Find all solutions of a mechanism in its state
     #[command(after_help = solve::HELP)]
     Solve(SolveArguments),
-    /// Say for which friction, load or size each contact mode exists, and where it locks
+    /// Find for which friction, load or size each contact mode exists, and where it locks
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
-    /// Find the size at which a wanted margin against locking is just met
+    /// Find the dimension that gives a wanted margin against locking
     #[command(after_help = size::HELP)]
     Size(SizeArguments),
-    /// Say which force or torque each drive needs against friction
+    /// Find the force or torque each drive needs to overcome friction
     #[command(after_help = drive::HELP)]
     Drive(DriveArguments),
     /// Map the plane of two quantities by its solutions, contact modes or margins
@@ -119,22 +119,22 @@ pub(crate) enum Command {
     /// Compute all solutions at every point of a grid, or for random samples, into a table
     #[command(after_help = sweep::HELP)]
     Sweep(SweepArguments),
-    /// Say what a model consists of and whether it is sound
+    /// Show what a model consists of and whether it is sound
     #[command(after_help = check::HELP)]
     Check(CheckArguments),
-    /// Say whether a mechanism stays at rest, and how it begins to move if not
+    /// Decide whether a mechanism stays at rest, and how it begins to move if not
     #[command(after_help = hold::HELP)]
     Hold(HoldArguments),
-    /// Follow a mechanism in time through sliding, sticking, changes of contact mode and jamming
+    /// Simulate a mechanism over time through sliding, sticking, changes of contact mode and jamming
     #[command(after_help = simulate::HELP)]
     Simulate(SimulateArguments),
-    /// Draw a mechanism and its solutions to a picture, SVG or PNG
+    /// Draw a mechanism and its solutions as SVG or PNG
     #[command(after_help = draw::HELP)]
     Draw(DrawArguments),
-    /// Write a page (HTML) with the model, its drawing, solutions and limits, to mail or print
+    /// Write an HTML page with the model, its drawing, solutions and limits, to mail or print
     #[command(after_help = report::HELP)]
     Report(ReportArguments),
-    /// Find all solutions of an LCP or the like, given by its matrices
+    /// Find all solutions of an LCP or a similar problem, given by its matrices
     #[command(after_help = modes::HELP)]
     Modes(ModesArguments),
     /// List the gallery of models, or write one of them

@@ -12,7 +12,7 @@ pub(crate) struct ModelArguments {
     #[arg(value_name = "MODEL")]
     pub(crate) file: PathBuf,
 
-    /// Give a parameter another value: a number, a quantity with a unit, or an expression of parameters.
+    /// Set a parameter: a number, a quantity with a unit, or an expression in parameters.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
 
@@ -20,7 +20,7 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "COORDINATE=VALUE")]
     at: Vec<String>,
 
-    /// Give a coordinate this rate of change.
+    /// Set the rate of change of a coordinate.
     #[arg(long, value_name = "COORDINATE=VALUE")]
     rate: Vec<String>,
 

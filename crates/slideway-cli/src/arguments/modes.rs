@@ -10,9 +10,9 @@ Types of problems and their arrays:
   ave    A, B, b    A x + B |x| = b
   hlcp   A, B, q    A w - B z = q, w >= 0, z >= 0, w_k z_k = 0
   modes  columns_positive, columns_negative, right_hand_side,
-         perhaps jumps_positive, jumps_negative
+         optionally jumps_positive, jumps_negative
 
-As JSON, a matrix being a list of rows:
+As JSON, with matrices as lists of rows:
   {\"type\": \"lcp\", \"M\": [[2, 1], [1, 2]], \"q\": [-1, 1]}
 or as a NumPy archive, written by numpy.savez(\"problem.npz\", M=M, q=q).
 
@@ -25,9 +25,9 @@ Examples:
 Exit codes:
   0    solutions were found: one, several, infinitely many, or a state in a preload gap
   1    no solution, and the search was complete
-  2    faulty input: the problem, the files or the arguments
+  2    invalid input: the problem, the files or the arguments
   3    unknown: nothing was found, but the search was not complete
-  130  interrupted (Ctrl-C): what was found until then is told";
+  130  interrupted (Ctrl-C): the solutions found so far are printed";
 
 /// Arguments of `slideway modes`.
 #[derive(Debug, Args)]
@@ -36,11 +36,11 @@ pub(crate) struct ModesArguments {
     #[arg(value_name = "PROBLEM")]
     pub(crate) file: PathBuf,
 
-    /// Form of the answer; without it the ending of the output file tells (.json, .npz), else text.
+    /// Form of the answer; by default that of the output file's extension (.json, .npz), else text.
     #[arg(long, value_enum)]
     format: Option<ModesFormat>,
 
-    /// List also what is part of a larger continuum: its ends and its faces.
+    /// Also list what is part of a larger continuum: its ends and faces.
     #[arg(long)]
     pub(crate) all_faces: bool,
 

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// A plot beside the answer.
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
-    /// Draw a plot, too; its ending says in which format (.svg or .png).
+    /// Draw a plot, too; its extension selects the format (.svg or .png).
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 

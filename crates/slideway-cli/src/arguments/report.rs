@@ -11,7 +11,7 @@ Examples:
 
 Exit codes:
   0    done
-  2    faulty input: the model, the settings, the name or the range, the files or the arguments
+  2    invalid input: the model, the settings, the name or the range, the files or the arguments
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -21,8 +21,8 @@ pub(crate) struct ReportArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// For which values of this modes exist: a parameter, a coordinate, or `friction`. May be given several times.
-    /// Default: `friction`, the factor of all coefficients of friction.
+    /// Quantity for the limits: a parameter, a coordinate, or `friction`. May be repeated.
+    /// Default: `friction`, a factor on all coefficients of friction.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: Vec<String>,
 

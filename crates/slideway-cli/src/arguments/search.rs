@@ -7,15 +7,15 @@ use slideway::modes::{Limits, SearchOptions};
 /// What a search for solutions may cost, and how much of it is told.
 #[derive(Debug, Args)]
 pub(crate) struct SearchArguments {
-    /// List at most so many solutions; all are counted.
+    /// List at most N solutions; all are counted.
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub(crate) max_solutions: usize,
 
-    /// End the search after so many nodes; the answer is then partial.
+    /// End the search after N nodes; the answer is then partial.
     #[arg(long, value_name = "N")]
     max_nodes: Option<u64>,
 
-    /// End the search once a group of contacts or unknowns has so many solutions; the answer is then partial.
+    /// End the search once a group of contacts or unknowns has N solutions; the answer is then partial.
     #[arg(long, value_name = "N", default_value_t = Limits::default().solutions)]
     max_found: usize,
 

@@ -14,15 +14,15 @@ Examples:
   slideway simulate klepp-2002-spring.toml --until 1s --set mu_1=0.6 --all-branches
 
 Exit codes:
-  0    followed to the end, to an event that ends it, or to a limit of travel
-  1    friction locks the mechanism: it cannot go on
-  2    faulty input: the model, the settings, the arguments, or a value that a load does not have at some time
-  3    not followed to the end: too many steps or events, no time left, or what follows cannot be decided
+  0    reached the end time, an event that ends the motion, or a limit of travel
+  1    friction locks the mechanism: it cannot continue
+  2    invalid input: the model, the settings, the arguments, or a load without a value at some time
+  3    not finished: too many steps or events, no time left, or what follows cannot be decided
   130  interrupted (Ctrl-C)
 
-What was computed until then is told and written in any case, unless the motion cannot begin. If it is
-interrupted, the table goes to FILE.partial and no pictures are made.
---output writes the motion as a table beside what is told; the ending of the file says in which form.";
+In all cases the motion computed so far is printed and written, unless it cannot begin. After an
+interruption, the table goes to FILE.partial and no pictures are made.
+--output writes the motion as a table in addition to the log; its extension selects the form.";
 
 /// Arguments of `slideway simulate`.
 #[derive(Debug, Args)]
@@ -30,19 +30,19 @@ pub(crate) struct SimulateArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// The time at which it ends, such as 10s, `500 ms` or an expression of parameters.
+    /// End time, such as 10s, `500 ms` or an expression in parameters.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) until: String,
 
-    /// The contact mode to begin with: + or - (sign of the normal force), 0 (preload gap) or = (sticks) for each contact.
+    /// The initial contact mode: + or - (sign of the normal force), 0 (preload gap) or = (sticks) for each contact.
     #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
     pub(crate) mode: Option<String>,
 
-    /// Which of several possible modes is taken at each decision, counted from 1; the preferred one behind the last.
+    /// Which of several possible modes to take at each decision, counted from 1; after the last, the preferred one.
     #[arg(long, value_name = "N,M,...", value_delimiter = ',', value_parser = branch)]
     pub(crate) branch: Vec<usize>,
 
-    /// Which of several possible modes is preferred: by the rule of the book, or the one in which the fewest joints stick.
+    /// Which of several possible modes to prefer: by the rule of the book, or the one in which the fewest joints stick.
     #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
     pub(crate) prefer: Preference,
 
@@ -50,7 +50,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long)]
     pub(crate) all_branches: bool,
 
-    /// How many motions --all-branches follows at most.
+    /// The most motions that --all-branches follows.
     #[arg(long, value_name = "N", default_value = "32", value_parser = count, requires = "all_branches")]
     pub(crate) max_motions: usize,
 
@@ -58,53 +58,53 @@ pub(crate) struct SimulateArguments {
     #[command(flatten)]
     pub(crate) destination: Destination,
 
-    /// Step of the table, such as 1ms; the steps of the solver without it.
+    /// Step of the table, such as 1ms; by default the steps of the solver.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) step: Option<String>,
 
     #[command(flatten)]
     pub(crate) plot: PlotArguments,
 
-    /// Plot the rate of each coordinate over its value instead.
+    /// Plot the rate of each coordinate over its value.
     #[arg(long, requires = "plot")]
     pub(crate) phase_portrait: bool,
 
-    /// Draw the mechanism moving, contact modes exaggerated: FILE.html, FILE.svg, or FILE.gif for mails and slides. At most 25 frames for each second and 400 in all; a GIF has at most 1000 pixels on each side.
+    /// Animate the mechanism, with exaggerated contact modes: FILE.html, FILE.svg, or FILE.gif for mail and slides. At most 25 frames per second and 400 in all; a GIF has at most 1000 pixels on each side.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
 
-    /// How many seconds of the animation one second of the motion takes.
+    /// Seconds of animation for each second of motion.
     #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "animate")]
     pub(crate) slow_motion: Option<f64>,
 
-    /// Tell all events, also of long logs.
+    /// Print all events, even of long logs.
     #[arg(long)]
     pub(crate) all_events: bool,
 
-    /// Relative error that each step is permitted.
+    /// Relative error permitted in each step.
     #[arg(long, value_name = "ERROR", default_value = "1e-8", value_parser = positive)]
     pub(crate) tolerance: f64,
 
-    /// The longest step of the solver; a thousandth of the time without it.
+    /// The longest step of the solver; by default a thousandth of the duration.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) longest_step: Option<String>,
 
-    /// It ends after so many steps of the solver.
+    /// End after N steps of the solver.
     #[arg(long, value_name = "N", default_value = "1000000", value_parser = count)]
     pub(crate) max_steps: usize,
 
-    /// It ends after so many events.
+    /// End after N events.
     #[arg(long, value_name = "N", default_value = "100000", value_parser = count)]
     pub(crate) max_events: usize,
 
-    /// The mechanism counts as locked where a normal force exceeds this (N).
+    /// The mechanism counts as locked if a normal force exceeds this (N).
     #[arg(long, value_name = "N", value_parser = positive)]
     pub(crate) max_reaction: Option<f64>,
 
     #[command(flatten)]
     pub(crate) time: TimeArguments,
 
-    /// Form of what is told.
+    /// Form of the report.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
 }
@@ -112,7 +112,7 @@ pub(crate) struct SimulateArguments {
 /// Which of several possible modes is preferred.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Preference {
-    /// What continues the motion; else sticking before sliding, attainable before unattainable.
+    /// What continues the motion; otherwise sticking before sliding, attainable before unattainable.
     #[default]
     Rule,
     /// The mode in which the fewest joints stick.

@@ -8,23 +8,23 @@ use slideway::size;
 
 pub(super) const HELP: &str = "\
 Examples:
-  slideway size drawer.toml --vary L --margin 2                how long the guide has to be
+  slideway size drawer.toml --vary L --margin 2                how long the guide must be
   slideway size drawer.toml --vary a --margin 1.5 --both-directions
   slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
   slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
 
 The margin against locking is the factor by which all kinetic friction may grow before there is no
-solution. At rest it concerns a load, or the effort of a drive: against self-locking it is the
-factor by which static friction may grow before the load is held however great it is; with
-`--against hold` the load has to be held, and it is the factor by which static friction may be
-smaller. Without a range a coefficient of friction goes from 0 to 1 or twice its value, `friction`
-from 0 to 10, any other parameter from a fifth of its value to five times it.
+solution. At rest it concerns a load, or the effort of a drive. Against self-locking it is the
+factor by which static friction may grow before the load is held however great it is. With
+`--against hold` the load must be held, and it is the factor by which static friction may be
+divided. Without a range, a coefficient of friction goes from 0 to 1 or twice its value, `friction`
+from 0 to 10, any other parameter from a fifth of its value to five times its value.
 
 Exit codes:
   0    the margin is met somewhere in the range
   1    it is met nowhere in the range
-  2    faulty input: the model, the settings, the name or the range, the arguments
+  2    invalid input: the model, the settings, the name or the range, the arguments
   3    not done within --time-limit: nothing is written
   130  interrupted (Ctrl-C): nothing is written";
 
@@ -34,11 +34,11 @@ pub(crate) struct SizeArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// What to size: a parameter, a coordinate, or `friction` for the factor of all coefficients of friction.
+    /// What to size: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: String,
 
-    /// The wanted margin: a factor of friction.
+    /// The wanted margin: a factor on friction.
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub(crate) margin: f64,
 
@@ -46,11 +46,11 @@ pub(crate) struct SizeArguments {
     #[arg(long, value_enum, default_value_t)]
     against: Against,
 
-    /// The load, or the drive whose effort is meant, of a margin at rest.
+    /// The load, or the drive whose effort is the load, for a margin at rest.
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
 
-    /// Take the smaller margin of both directions of motion.
+    /// Use the smaller margin of both directions of motion.
     #[arg(long)]
     pub(crate) both_directions: bool,
 
@@ -73,7 +73,7 @@ enum Against {
     Locking,
     /// Self-locking at rest under the load.
     SelfLocking,
-    /// Slipping at rest: the load has to be held however great it is.
+    /// Slipping at rest: the load must be held however great it is.
     Hold,
 }
 

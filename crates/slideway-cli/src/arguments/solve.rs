@@ -13,11 +13,11 @@ Examples:
   slideway models drawer | slideway solve -
 
 Exit codes:
-  0    solved: one solution, several, infinitely many, or a state with the preload between the faces
+  0    solved: one solution, several, infinitely many, or a state in a preload gap
   1    no solution: friction locks the mechanism
-  2    faulty input: the model, the settings, the files or the arguments
+  2    invalid input: the model, the settings, the files or the arguments
   3    unknown: nothing was found, but not every contact mode could be decided
-  130  interrupted (Ctrl-C): what was found until then is told";
+  130  interrupted (Ctrl-C): the solutions found so far are printed";
 
 /// Arguments of `slideway solve`.
 #[derive(Debug, Args)]

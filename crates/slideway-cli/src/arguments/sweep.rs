@@ -6,11 +6,11 @@ use clap::{Args, ValueEnum};
 use slideway::sweep::{Sampling, Spread, SweepOptions};
 
 pub(super) const HELP: &str = "\
-What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for the factor of all
+What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for a factor on all
 coefficients of friction, or `time`. Values:
   mu=0..0.8:801            801 evenly spaced values, both ends included
   mu=0.01..1:50:log        evenly spaced logarithms
-  mu=0.1,0.2,0.5           as they are listed
+  mu=0.1,0.2,0.5           these values
 and with --samples:
   mu=0.1..0.5              uniform
   mu=\"uniform(0.1, 0.5)\"
@@ -26,11 +26,11 @@ Examples:
 
 Exit codes:
   0    done
-  2    faulty input: the model, the settings, the axes, the files or the arguments
+  2    invalid input: the model, the settings, the axes, the files or the arguments
   3    not done within --time-limit
   130  interrupted (Ctrl-C)
 
-What is done until the time limit or the interruption is kept beside --output; --resume goes on.";
+After a time limit or an interruption the finished part is kept beside --output; --resume continues.";
 
 /// Arguments of `slideway sweep`.
 #[derive(Debug, Args)]
@@ -38,19 +38,19 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// What to vary, and its values; may be given several times, the last one varying fastest.
+    /// What to vary, and its values; may be repeated, the last one varying fastest.
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     vary: Vec<String>,
 
-    /// Draw so many samples instead of a grid.
+    /// Draw N random samples instead of a grid.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     samples: Option<u64>,
 
-    /// How samples are spread.
+    /// How samples are distributed.
     #[arg(long, value_enum, default_value_t, requires = "samples")]
     sampling: SamplingKind,
 
-    /// Another seed gives other samples, the same one the same.
+    /// Seed of the samples: the same seed gives the same samples.
     #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "samples")]
     seed: u64,
 
@@ -61,11 +61,11 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     more: MoreColumns,
 
-    /// Go on with a sweep that was interrupted.
+    /// Continue an interrupted sweep.
     #[arg(long, requires = "output")]
     pub(crate) resume: bool,
 
-    /// Form of the table; without it the ending of the output file tells, else CSV.
+    /// Form of the table; by default that of the output file's extension, else CSV.
     #[arg(long, value_enum)]
     pub(crate) format: Option<TableFormat>,
 
@@ -86,11 +86,11 @@ pub(crate) struct SweepArguments {
 /// Columns that are left out unless they are asked for.
 #[derive(Debug, Args)]
 struct MoreColumns {
-    /// Tell of each solution whether a mechanism with slightly elastic guides settles on it; --plot implies it.
+    /// Report for each solution whether a mechanism with slightly elastic guides settles on it; --plot implies this.
     #[arg(long)]
     attainability: bool,
 
-    /// Tell accelerations of bodies and hinge forces, too.
+    /// Include accelerations of bodies and hinge forces.
     #[arg(long)]
     all_columns: bool,
 }
@@ -113,13 +113,13 @@ impl SweepArguments {
     }
 }
 
-/// How samples are spread.
+/// How samples are distributed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 enum SamplingKind {
     /// Independent of one another.
     #[default]
     Random,
-    /// The sequence of Halton, shifted at random: more even, so that shares converge faster.
+    /// A randomly shifted Halton sequence: more even, so that shares converge faster.
     Halton,
 }
 

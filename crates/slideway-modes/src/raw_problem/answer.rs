@@ -117,14 +117,14 @@ fn open(result: &SearchResult, options: &SearchOptions) -> Vec<String> {
         Completeness::NotProven => vec![not_proven(&result.groups)],
         Completeness::Unexamined => {
             vec![format!(
-                "singular patterns were not examined: more than {} of a group of unknowns, or too many corners",
+                "singular patterns were not examined: more than {} in a group of unknowns, or too many corners",
                 options.limits.singular
             )]
         }
         Completeness::Partial(reason) => {
             let groups = result.groups.iter().filter(|group| group.shares.unexplored > 0.0).count();
             let reason = match reason {
-                StopReason::Cancelled => "the search was ended by a time limit or on request".to_owned(),
+                StopReason::Cancelled => "the search was stopped by a time limit or on request".to_owned(),
                 StopReason::SolutionLimit => {
                     format!("the limit of {} solutions of a group of unknowns", options.limits.solutions)
                         + " was reached (--max-found)"

@@ -75,7 +75,7 @@ pub enum RawFault {
         message: String,
     },
     /// A number that JSON cannot write.
-    #[error("line {line}: `{word}` is no number of a problem")]
+    #[error("line {line}: `{word}` is not a valid number")]
     NotFiniteWord {
         /// Line of the word, from 1.
         line: usize,
@@ -113,7 +113,7 @@ pub enum RawFault {
         kind: RawKind,
     },
     /// No type is given, and the names are not those of one type.
-    #[error("the type of the problem is missing, and cannot be told from the names {}", listed(present))]
+    #[error("the type of the problem is missing, and cannot be inferred from the names {}", listed(present))]
     MissingType {
         /// The names that are given.
         present: Vec<String>,
@@ -203,7 +203,7 @@ pub enum RawFault {
         reason: String,
     },
     /// A file in the archive is no array.
-    #[error("`{key}` in the .npz archive is no NumPy array: {reason}")]
+    #[error("`{key}` in the .npz archive is not a NumPy array: {reason}")]
     Npy {
         /// The name.
         key: String,

@@ -141,7 +141,7 @@ impl<'b> Npy<'b> {
         }
         .ok_or("it ends within its header")?;
         let (header, data) = rest.split_at_checked(length).ok_or("it ends within its header")?;
-        let header = std::str::from_utf8(header).map_err(|_| "its header is no text")?;
+        let header = std::str::from_utf8(header).map_err(|_| "its header is not text")?;
         Self::with_header(header, data).ok_or("its header cannot be read")
     }
 

@@ -198,7 +198,7 @@ pub(crate) fn answer(report: &Report) -> String {
         Status::One => "One solution.".to_owned(),
         Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
         Status::Continuum => "Infinitely many solutions.".to_owned(),
-        Status::PreloadGap => "No solution, but a state with the preload between the faces.".to_owned(),
+        Status::PreloadGap => "No solution, but a state in a preload gap.".to_owned(),
         Status::Unknown => "No solution was found, but not every contact mode could be decided.".to_owned(),
     };
     let partial = if report.partial { " The search ended early: there may be more." } else { "" };

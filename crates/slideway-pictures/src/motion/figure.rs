@@ -40,7 +40,7 @@ pub fn motion_figure(history: &History) -> Figure {
     let energies = [
         ("kinetic energy", "energy.kinetic"),
         ("potential energy", "energy.potential"),
-        ("taken by friction", "energy.friction"),
+        ("dissipated by friction", "energy.friction"),
         ("work of loads", "energy.loads"),
         ("work of drives", "energy.drives"),
         ("lost in impulses", "energy.impulses"),
@@ -192,7 +192,7 @@ fn bands(history: &History, first: usize) -> Vec<Band> {
         let meaning = if is_one {
             format!("mode {}", signs(&pattern))
         } else {
-            "modes too short to be told apart".to_owned()
+            "modes too short to be distinguished".to_owned()
         };
         let to = group[group.len() - 1].to;
         if let Some(last) = bands.last_mut().filter(|last| last.meaning == meaning) {

@@ -28,9 +28,7 @@ pub enum GifFault {
     #[error("there is nothing to show")]
     NoFrame,
     /// A frame would stand too long.
-    #[error(
-        "each frame would stand for {frame_time:.0} s, and a GIF can say 655 s at most; less slow motion helps"
-    )]
+    #[error("each frame would last {frame_time:.0} s, but a GIF allows at most 655 s; use less slow motion")]
     Slow {
         /// Seconds between two frames.
         frame_time: f64,
@@ -39,7 +37,7 @@ pub enum GifFault {
     #[error(transparent)]
     Raster(#[from] RasterFault),
     /// The callback broke.
-    #[error("it was ended before it was done")]
+    #[error("it was interrupted before it was finished")]
     Ended,
     /// The frames cannot be packed.
     #[error("the frames cannot be packed as GIF: {0}")]

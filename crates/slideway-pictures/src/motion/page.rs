@@ -325,11 +325,11 @@ fn common(animation: &Animation) -> Vec<usize> {
 fn speed(animation: &Animation) -> String {
     let factor = animation.slow_motion;
     if factor == 1.0 {
-        "As fast as it is".to_owned()
+        "In real time".to_owned()
     } else if factor > 1.0 {
-        format!("{} times slower than it is", tenths(factor))
+        format!("{} times slower than real time", tenths(factor))
     } else {
-        format!("{} times faster than it is", tenths(1.0 / factor))
+        format!("{} times faster than real time", tenths(1.0 / factor))
     }
 }
 

@@ -27,7 +27,7 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
         panels.push(builder.panel(report, title, unit, direction));
         if let Some((reversed, found)) = opposite {
             let direction = (&*reversed.modes, &**found, &*reversed.counts, &*reversed.without_mode_problem);
-            panels.push(builder.panel(report, "Moving the other way", unit, direction));
+            panels.push(builder.panel(report, "Moving in the opposite direction", unit, direction));
         }
     }
     Figure {
@@ -135,7 +135,7 @@ fn mode_name(mode: &ModeLimits, stroke: Stroke) -> String {
     let meaning = match stroke {
         Stroke::Solid => "",
         Stroke::Dashed => " (threshold, not attainable)",
-        Stroke::Dotted => " (preload between the faces)",
+        Stroke::Dotted => " (preload gap)",
         Stroke::DashDotted => " (attainable only with damping, or undecided)",
     };
     format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))

@@ -431,7 +431,7 @@ fn name(branch: &Drawn, stroke: Stroke) -> String {
     let meaning = match stroke {
         Stroke::Solid => "",
         Stroke::Dashed => " (threshold, not attainable)",
-        Stroke::Dotted => " (preload between the faces)",
+        Stroke::Dotted => " (preload gap)",
         Stroke::DashDotted => " (attainable only with damping, or undecided)",
     };
     format!("branch {}:\u{a0}{}{meaning}", branch.number, patterns.join(", then "))

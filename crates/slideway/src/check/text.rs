@@ -68,7 +68,7 @@ impl Text<'_> {
             count(mobility.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
         ));
         let determinacy = if mobility.determinate {
-            "Determinate: no constraint is in excess.".to_owned()
+            "Statically determinate: no constraint is redundant.".to_owned()
         } else {
             let excess = mobility.constraints - mobility.independent;
             let excess = count(excess, "constraint is", "constraints are");
@@ -76,7 +76,7 @@ impl Text<'_> {
             if mobility.singular_position {
                 format!("Singular position: {excess} lost there, among {joints}.")
             } else {
-                format!("Indeterminate: {excess} in excess, among {joints}.")
+                format!("Statically indeterminate: {excess} redundant, among {joints}.")
             }
         };
         self.line(&determinacy);
@@ -94,14 +94,14 @@ impl Text<'_> {
                 self.line(&format!("  {motion}"));
             }
             if report.condition.is_some() {
-                self.line("  The drives prescribe them, so that the equations can be solved all the same.");
+                self.line("  The drives prescribe them, so the equations can be solved nevertheless.");
             }
         }
         if let Some(condition) = report.condition {
             self.line(&format!("Condition of the kinetic equations: {}.", number(condition)));
         }
         if !report.assembled {
-            self.line("What is told here holds for the drawing, not for the state.");
+            self.line("These results hold for the drawing, not for the state.");
         }
     }
 
@@ -156,7 +156,7 @@ impl Text<'_> {
                 let told = match stop {
                     None => continue,
                     Some(Stop::Impact { restitution }) => {
-                        format!("a stop with the restitution {}", number(restitution))
+                        format!("a stop with restitution {}", number(restitution))
                     }
                     Some(Stop::Pad { stiffness, damping }) => {
                         let [stiffness, damping] = [stiffness, damping].map(number);

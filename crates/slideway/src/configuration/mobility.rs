@@ -232,9 +232,9 @@ impl Change {
         let joint = &mechanism.joints[self.joint().index()];
         match (self, &joint.kind) {
             (Self::ToPin(_), JointKind::Slider(slider)) if slider.kind == SliderKind::Guided => {
-                format!("make {} a pin in a slot in place of a guided slider", joint.name)
+                format!("make {} a pin in a slot instead of a guided slider", joint.name)
             }
-            (Self::ToPin(_), _) => format!("make {} a pin in a slot in place of a block slider", joint.name),
+            (Self::ToPin(_), _) => format!("make {} a pin in a slot instead of a block slider", joint.name),
             (Self::Remove(_), _) => format!("remove {}", joint.name),
         }
     }

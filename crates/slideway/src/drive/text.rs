@@ -42,7 +42,7 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
 }
 
 fn moving(direction: &str) -> &'static str {
-    if direction == "model" { "Moving as in the model" } else { "Moving the other way" }
+    if direction == "model" { "Moving as in the model" } else { "Moving in the opposite direction" }
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
@@ -65,7 +65,7 @@ fn outcome(report: &DriveReport, direction: &DriveDirection, locked: &str) -> St
             let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
             format!("{}; {}", needs.join(", "), efficiency_in_words(only.efficiency))
         }
-        (several, _) => format!("{} states are possible, each with efforts of its own", several.len()),
+        (several, _) => format!("{} states are possible, each with its own efforts", several.len()),
     }
 }
 
@@ -78,7 +78,7 @@ fn efficiency_in_words(efficiency: Efficiency) -> String {
         (EfficiencyKind::HeldByFriction, _) => {
             "without friction the load would push, but friction holds it".to_owned()
         }
-        (EfficiencyKind::NoPower, _) => "without friction the motion takes no power".to_owned(),
+        (EfficiencyKind::NoPower, _) => "without friction the motion needs no power".to_owned(),
         _ => "without friction the drives would push, with it they brake".to_owned(),
     }
 }

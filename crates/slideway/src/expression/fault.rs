@@ -84,7 +84,7 @@ pub enum ExpressionFaultKind {
     #[error("this `(` is never closed")]
     UnclosedParenthesis,
     /// A `)` that closes nothing.
-    #[error("this `)` closes nothing")]
+    #[error("this `)` has no matching `(`")]
     UnmatchedParenthesis,
     /// A name that is neither reserved nor one of the model's.
     #[error("unknown name `{name}`")]
@@ -157,7 +157,7 @@ pub enum ExpressionFaultKind {
     #[error("the exponent of a unit must be a whole number between -127 and 127")]
     UnitExponent,
     /// A sum, difference, comparison or the like of two dimensions.
-    #[error("`{operation}` joins {left} and {right}")]
+    #[error("`{operation}` cannot combine {left} and {right}")]
     DimensionMismatch {
         /// The operator or function.
         operation: &'static str,
@@ -175,7 +175,7 @@ pub enum ExpressionFaultKind {
         found: Dimension,
     },
     /// A table asked for the value at something of another dimension.
-    #[error("the table `{table}` wants {wanted}, not {found}")]
+    #[error("the table `{table}` expects {wanted}, not {found}")]
     TableArgument {
         /// The table.
         table: String,
@@ -191,7 +191,7 @@ pub enum ExpressionFaultKind {
         found: Dimension,
     },
     /// A power or root of a quantity that has no dimension.
-    #[error("{base} to the power {exponent} has no dimension that makes sense")]
+    #[error("{base} to the power {exponent} has no meaningful dimension")]
     FractionalPower {
         /// Dimension of the base.
         base: Dimension,
@@ -291,7 +291,7 @@ fn unit_hint(unit: &str, nearest: &[&str], is_name: bool) -> Option<String> {
     }
     let exponent = unit.strip_prefix(['e', 'E']);
     if exponent.is_some_and(|digits| digits.chars().all(|digit| digit.is_ascii_digit())) {
-        return Some("an exponent needs digits, and no blank before it, as in `1e3`".to_owned());
+        return Some("an exponent needs digits, and no space before it, as in `1e3`".to_owned());
     }
     if nearest.is_empty() {
         return None;

@@ -11,9 +11,9 @@ pub enum AxisProblem {
     Malformed,
     #[error("it does not say how many values there are")]
     NoCount,
-    #[error("`{text}` is no number of values from 2 on")]
+    #[error("`{text}` is not a number of values (2 or more)")]
     Count { text: String },
-    #[error("`{text}` is no spacing")]
+    #[error("`{text}` is not a spacing")]
     Spacing { text: String },
     #[error("the range is empty: it begins and ends at {from}")]
     Empty { from: f64 },
@@ -57,15 +57,13 @@ impl AxisProblem {
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::Malformed => "for instance `mu=0..0.8:801`, `mu=0.1,0.2,0.5` or `mu=normal(0.3, 0.05)`",
-            Self::NoCount => "write it behind the range, for instance `mu=0..0.8:801`",
+            Self::NoCount => "write it after the range, for instance `mu=0..0.8:801`",
             Self::Spacing { .. } => "evenly spaced values are usual; `:log` spaces them logarithmically",
             Self::Empty { .. } => "for one value write NAME=VALUE",
             Self::Reversed { .. } => "write the smaller value first",
-            Self::NotPositive { .. } => "leave `:log` out, or begin above zero",
+            Self::NotPositive { .. } => "omit `:log`, or begin above zero",
             Self::WithoutSamples => "say how many, for instance `--samples 10000`",
-            Self::GridWithSamples => {
-                "leave the number of values out: FROM..TO; without --samples it is a grid"
-            }
+            Self::GridWithSamples => "omit the number of values: FROM..TO; without --samples it is a grid",
             Self::Value { hint, .. } => return hint.clone(),
             _ => return None,
         };

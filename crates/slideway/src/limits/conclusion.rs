@@ -24,12 +24,12 @@ pub(super) fn conclusion(
     }
     let pieces = joined.into_iter().map(|piece| piece.sentence(name, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
-        let sentence = |at: &f64| {
-            format!("At {name} = {} there is{way} a state with the preload between the faces.", precise(*at))
-        };
+        let sentence =
+            |at: &f64| format!("At {name} = {} there is{way} a state in a preload gap.", precise(*at));
         direction.between_faces_at.iter().map(sentence).collect()
     };
-    let other = reversed.map_or(Vec::new(), |reversed| single(reversed, ", moving the other way,"));
+    let other =
+        reversed.map_or(Vec::new(), |reversed| single(reversed, ", moving in the opposite direction,"));
     pieces.chain(single(forwards, "")).chain(other).collect()
 }
 
@@ -63,7 +63,7 @@ fn one_direction(counts: &[CountLimits], locked: &str) -> Vec<Piece> {
         let without = format!("no solution: {locked}");
         let verdict = match (count.solutions, count.preload_gap_states) {
             (0, 0) => &without,
-            (0, _) => "no solution, but a state with the preload between the faces",
+            (0, _) => "no solution, but a state in a preload gap",
             (1, _) => "one solution",
             (2, _) => "two solutions",
             (3, _) => "three solutions",
@@ -87,10 +87,12 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &
         };
         let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
         let verdict = match (one, other) {
-            (true, true) => "it can move in both directions, so that it can oscillate".to_owned(),
-            (true, false) => format!("it can only move as in the model; the other way {locked}"),
+            (true, true) => "it can move in both directions, so it can oscillate".to_owned(),
+            (true, false) => format!("it can only move as in the model; in the opposite direction {locked}"),
             (false, true) => {
-                format!("it can only move against the direction of the model; the other way {locked}")
+                format!(
+                    "it can only move against the direction of the model; in the opposite direction {locked}"
+                )
             }
             (false, false) => format!("{locked} in both directions"),
         };

@@ -8,7 +8,7 @@ use crate::report::precise;
 pub(crate) fn guarantee(found: &Found) -> String {
     let mut sentences = vec![match found.method {
         Method::ClosedForm => {
-            "The mode problem depends linearly on it, so that all ends are zeros of determinants.".to_owned()
+            "The mode problem depends linearly on it, so all ends are zeros of determinants.".to_owned()
         }
         Method::Same { at_rest: false } => "The mode problem does not depend on it.".to_owned(),
         Method::Same { at_rest: true } => {
@@ -16,7 +16,7 @@ pub(crate) fn guarantee(found: &Found) -> String {
                 .to_owned()
         }
         Method::Bracketing => format!(
-            "{} values were tried, and what changes between them was bisected to machine precision; ends nearer to each other than {:.1e} are one.",
+            "{} values were tried, and changes between them were bisected to machine precision; ends closer to each other than {:.1e} are one.",
             found.tried.len(),
             found.same_end
         ),
@@ -27,15 +27,15 @@ pub(crate) fn guarantee(found: &Found) -> String {
         SingleValues::Impossible => {}
         SingleValues::At(_) => {
             sentences.push(format!(
-                "{single} told where `solve` finds them at these zeros, in rounded numbers; beside other preload-gap states they are left out."
+                "{single} reported where `solve` finds them at these zeros, in rounded numbers; beside other preload-gap states they are omitted."
             ));
         }
-        SingleValues::LeftOut => sentences.push(format!("{single} left out.")),
+        SingleValues::LeftOut => sentences.push(format!("{single} omitted.")),
     }
     let left_out = found.existence.singular_throughout.len() + found.existence.not_computed.len();
     if left_out > 0 {
         sentences.push(format!(
-            "{left_out} modes are left out: their determinant vanishes throughout, or eigenvalues could not be computed."
+            "{left_out} modes are omitted: their determinant vanishes throughout, or eigenvalues could not be computed."
         ));
     }
     sentences.join(" ")
@@ -69,7 +69,7 @@ fn knowledge(found: &Found) -> Option<String> {
     }
     let mut parts = Vec::new();
     if is_proven {
-        parts.push("the numbers of solutions are proven where that is said".to_owned());
+        parts.push("the numbers of solutions are proven where stated".to_owned());
     }
     let they = if is_proven { "elsewhere they" } else { "the numbers of solutions" };
     if is_any(Elsewhere::ClosedForm) {
@@ -77,7 +77,7 @@ fn knowledge(found: &Found) -> Option<String> {
     }
     if spacing > 0.0 {
         parts.push(format!(
-            "{they} were found at values up to {} apart: a mode that comes and goes between two of them may be missed",
+            "{they} were found at values up to {} apart: a mode that appears and disappears between two of them may be missed",
             precise(spacing)
         ));
     }

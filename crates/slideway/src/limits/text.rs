@@ -14,7 +14,7 @@ pub fn to_text(report: &LimitsReport, style: Style) -> String {
     text.direction("", (&report.modes, &report.counts, &report.without_mode_problem));
     if let Some(reversed) = &report.reversed {
         let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
-        text.direction(", moving the other way", parts);
+        text.direction(", moving in the opposite direction", parts);
     }
     text.text()
 }
@@ -63,7 +63,7 @@ pub(crate) fn no_answer([from, to]: [f64; 2], reason: &str) -> String {
         [from, to] if from == to => format!("At {from}"),
         [from, to] => format!("From {from} to {to}"),
     };
-    format!("  {place} there is no answer, which is no locking: {reason}.")
+    format!("  {place} there is no answer, which does not count as locking: {reason}.")
 }
 
 fn mode_row(mode: &ModeLimits) -> Vec<String> {
@@ -126,7 +126,7 @@ fn known(count: &CountLimits) -> String {
         Some([from, to]) => {
             let further = match count.proven.len() {
                 1 => String::new(),
-                many => format!(" and in {}", count_of(many - 1, "shorter stretch", "shorter stretches")),
+                many => format!(" and in {}", count_of(many - 1, "shorter interval", "shorter intervals")),
             };
             format!("proven from {} to {}{further}, else {rest}", precise(*from), precise(*to))
         }

@@ -19,7 +19,7 @@ const PATTERNS: u64 = 1 << 12;
 #[derive(Debug, Clone, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum ClassMeaning {
-    /// There is neither a solution nor a state with the preload between the faces.
+    /// There is neither a solution nor a state in a preload gap.
     Locked,
     /// So many solutions, and states with the preload between the faces.
     Solutions {

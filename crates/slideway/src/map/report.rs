@@ -162,14 +162,14 @@ pub(super) fn report(
 
 fn guarantee(raster: &Raster<ClassKey>, is_bilinear: bool) -> String {
     let source = if is_bilinear {
-        "The mode problem depends bilinearly on both, so that its numbers were interpolated."
+        "The mode problem depends bilinearly on both, so its numbers were interpolated."
     } else {
         "The mechanism was assembled at every point."
     };
     let missed = match raster.grid.probe {
         1 => "Every pixel was solved.".to_owned(),
         probe => format!(
-            "Probes every {probe} pixels and midway between them: regions that lie between probes and touch no boundary that was found are missed."
+            "Probes every {probe} pixels and midway between them: regions that lie between probes and touch no known boundary are missed."
         ),
     };
     format!("{source} {missed}")
@@ -208,15 +208,15 @@ fn words(meaning: &ClassMeaning, locked: &str) -> String {
         ClassMeaning::Margin { from, to: None } => {
             format!("one solution; friction may grow more than {} times", precise(*from))
         }
-        ClassMeaning::Moves { as_in_model: true, opposite: true } => "can move both ways".to_owned(),
+        ClassMeaning::Moves { as_in_model: true, opposite: true } => "can move in both directions".to_owned(),
         ClassMeaning::Moves { as_in_model: true, opposite: false } => {
-            format!("can move as in the model only; the other way {locked}")
+            format!("can only move as in the model; in the opposite direction {locked}")
         }
         ClassMeaning::Moves { as_in_model: false, opposite: true } => {
-            "can move against the direction of the model only".to_owned()
+            "can only move against the direction of the model".to_owned()
         }
         ClassMeaning::Moves { as_in_model: false, opposite: false } => {
-            format!("{locked} both ways")
+            format!("{locked} in both directions")
         }
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),

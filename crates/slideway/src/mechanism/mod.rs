@@ -44,7 +44,7 @@ pub struct Mechanism<T = f64> {
     pub coordinates: Vec<Coordinate<T>>,
     /// What a motion is watched for.
     pub events: Vec<Event<T>>,
-    /// The greatest distance between two of its places (m), as a unit of length; 1 if they all coincide.
+    /// The diagonal of the rectangle around its points (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
     parameters: Vec<T>,
     formulas: Arc<Vec<Formula>>,

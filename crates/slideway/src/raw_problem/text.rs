@@ -50,7 +50,7 @@ impl Text<'_> {
         let verdict = match report.status {
             Status::None => "No solution.".to_owned(),
             Status::Unknown if report.partial => {
-                "Nothing found, but not every pattern of signs could be dealt with.".to_owned()
+                "Nothing found, but not every sign pattern could be decided.".to_owned()
             }
             Status::Unknown => "Nothing found, but that is not proven.".to_owned(),
             Status::Continuum => {
@@ -86,7 +86,7 @@ impl Text<'_> {
             self.line(&if *answer == "none" {
                 format!("Within {rounding} there is none, either: proven.")
             } else {
-                format!("Whether there is one within {rounding} is open.")
+                format!("Whether there is one within {rounding} is undecided.")
             });
             return;
         };
@@ -99,7 +99,7 @@ impl Text<'_> {
     fn faces(&mut self, single: &str) {
         let report = self.report;
         if report.count != "0" {
-            self.line(&format!("{single} besides."));
+            self.line(&format!("{single} as well."));
         }
         let faces = &report.faces;
         let kinds = [

@@ -94,18 +94,16 @@ impl Text<'_> {
             Status::Several => format!("{} solutions, each in its own contact mode.", report.count),
             Status::Continuum => "Infinitely many solutions: a mode with vanishing determinant.".to_owned(),
             Status::PreloadGap if report.partial || !report.undecided_modes.is_empty() => {
-                "A state with the preload between the faces; whether a contact mode has a solution is open."
-                    .to_owned()
+                "A state in a preload gap; whether a contact mode has a solution is undecided.".to_owned()
             }
             Status::PreloadGap => {
-                "No contact mode has a solution, but a state with the preload between the faces has."
-                    .to_owned()
+                "No contact mode has a solution, but there is a state in a preload gap.".to_owned()
             }
             Status::Unknown if report.partial => {
                 "Nothing found, but not every pattern could be decided.".to_owned()
             }
             Status::Unknown => {
-                "On the boundary: whether there is a solution cannot be told within rounding.".to_owned()
+                "On the boundary: whether there is a solution cannot be decided within rounding.".to_owned()
             }
         };
         self.status(report.status, &verdict);
@@ -121,7 +119,7 @@ impl Text<'_> {
         };
         self.line(&format!("{search} {proof}"));
         for group in &report.jammed_groups {
-            self.line(&format!("What has no solution by itself: {}.", group.join(", ")));
+            self.line(&format!("Contacts without a solution on their own: {}.", group.join(", ")));
         }
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
@@ -141,7 +139,7 @@ impl Text<'_> {
                 self.line(&format!("  On the boundary between modes: {are} about to change side."));
             }
             if let Some(are) = guided_in_gap {
-                self.line(&format!("  On the boundary: only as long as {are} exactly without normal force."));
+                self.line(&format!("  On the boundary: only while {are} exactly without normal force."));
             }
         } else if solution.certificate == CertificateKind::OnBoundary {
             self.line("  On the boundary within rounding: a normal force or the determinant may be zero.");
@@ -192,9 +190,13 @@ impl Text<'_> {
         let mut parts = Vec::new();
         // Solutions may come back where friction is greater still.
         let beyond = |factor: f64| match margins.solutions_again {
-            None => format!("beyond {} times", number(factor)),
+            None => format!("beyond a factor of {}", number(factor)),
             Some(again) => {
-                format!("just beyond {} times, but again from {} times on", number(factor), number(again))
+                format!(
+                    "just beyond a factor of {}, but again from {} upwards",
+                    number(factor),
+                    number(again)
+                )
             }
         };
         match (margins.no_solution, margins.another_count) {
@@ -203,24 +205,30 @@ impl Text<'_> {
                 parts.push(format!("there is no solution {}", beyond(jams)));
             }
             (jams, changes) => {
-                let text =
-                    |factor: f64| format!("another number of solutions beyond {} times", number(factor));
+                let text = |factor: f64| {
+                    format!("the number of solutions changes beyond a factor of {}", number(factor))
+                };
                 parts.extend(changes.map(text));
                 parts.extend(jams.map(|factor| format!("none {}", beyond(factor))));
             }
         }
         if parts.is_empty() && self.report.status != Status::None {
-            parts.push("the number of solutions stays however much it grows".to_owned());
+            parts.push("the number of solutions never changes".to_owned());
         }
         if let Some(critical) = &margins.critical_contact {
             let (contact, factor) = (&critical.contact, number(critical.factor));
-            parts.push(format!("{contact} alone matters most, {factor} times"));
+            parts.push(format!("{contact} is the most critical single contact, with a factor of {factor}"));
         }
         match margins.uniqueness {
-            Some(factor) if factor < 1.0 => parts
-                .push(format!("some other load has none or several already beyond {} times", number(factor))),
+            Some(factor) if factor < 1.0 => parts.push(format!(
+                "some other load has no solution or several already beyond a factor of {}",
+                number(factor)
+            )),
             Some(factor) => {
-                parts.push(format!("every load has exactly one up to {} times", number(factor)));
+                parts.push(format!(
+                    "every load has exactly one solution up to a factor of {}",
+                    number(factor)
+                ));
             }
             None => {}
         }
@@ -248,7 +256,7 @@ impl Text<'_> {
         };
         self.line(&format!("  {solutions}, proven with {}.", count(uncertainty.parts, "part", "parts")));
         for reason in &uncertainty.open {
-            self.line(&format!("  Not all values could be dealt with: {reason}."));
+            self.line(&format!("  Not all values could be decided: {reason}."));
         }
         let rows: Vec<Vec<String>> =
             uncertainty.modes.iter().map(|mode| uncertain_row(self.report, mode)).collect();
@@ -295,7 +303,7 @@ impl Text<'_> {
         for rejection in &self.report.rejected {
             self.line("");
             self.line(&format!(
-                "Rejected: signs {}. {} would tip: it needs a couple of {} N m, its pressure gives at most {} N m.",
+                "Rejected: signs {}. {} would tip: it needs a couple of {} N m, but its face provides at most {} N m.",
                 spaced(&rejection.pattern),
                 rejection.joint,
                 number(rejection.couple.abs()),
@@ -322,8 +330,7 @@ impl Text<'_> {
             return;
         }
         self.line("");
-        let heading =
-            "The modes that come closest to locking (a determinant at zero is where friction locks a mode)";
+        let heading = "The modes closest to locking (friction locks a mode where its determinant is zero)";
         self.headline(heading);
         let rows: Vec<Vec<String>> = self.report.closest_modes.iter().map(closest_row).collect();
         self.lines(&table(&["signs", "contact mode", "determinant", ""], &rows, 2));
@@ -364,7 +371,7 @@ fn tried(counts: &PatternSummary) -> String {
 /// "the mode ends at 1.1 times the friction: locking"
 fn margin_in_words(margin: &ModeMargin) -> String {
     let Some(factor) = margin.factor else {
-        return "the mode lasts however much friction grows".to_owned();
+        return "the mode persists however much friction grows".to_owned();
     };
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {

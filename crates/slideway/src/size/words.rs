@@ -17,7 +17,7 @@ pub(super) struct Words<'r> {
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize) -> String {
     let step = (to - from) / steps as f64;
     format!(
-        "{} evenly spaced values were tried, and where the margin passes the wanted one between them was bisected to machine precision; dips and humps between them were followed to their extremum. Only a jump of the margin there and back, or a second dip, within two steps of {} may be missed.",
+        "{} evenly spaced values were tried; crossings of the wanted margin between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump of the margin there and back, or a second dip, within two steps of {} may be missed.",
         steps + 1,
         number(step)
     )
@@ -31,7 +31,7 @@ impl Words<'_> {
         let report = self.report;
         for gap in &report.without_position {
             sentences.push(format!(
-                "From {} to {} the question has no answer, which is no locking: {}.",
+                "From {} to {} there is no answer, which does not count as locking: {}.",
                 quantity(report, gap.from),
                 quantity(report, gap.to),
                 gap.reason
@@ -75,8 +75,8 @@ impl Words<'_> {
         let bare = precise(interval.from);
         match (interval.from_is, interval.to_is) {
             ("range", "range") => format!("anything from {bare} to {to}"),
-            (_, "range") => format!("at least {from} (looked at up to {to})"),
-            ("range", _) => format!("at most {to} (looked at down to {from})"),
+            (_, "range") => format!("at least {from} (examined up to {to})"),
+            ("range", _) => format!("at most {to} (examined down to {from})"),
             _ if interval.from == interval.to => format!("{from} alone"),
             _ => format!("from {bare} to {to}"),
         }

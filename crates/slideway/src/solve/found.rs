@@ -34,7 +34,7 @@ impl Found<'_> {
                 Some("singular modes were not examined, because there are too many of them".to_owned())
             }
             Completeness::Partial(StopReason::Cancelled) => {
-                Some("the search was ended by a time limit or on request".to_owned())
+                Some("the search was stopped by a time limit or on request".to_owned())
             }
             Completeness::Partial(reason) => Some(reason.to_string()),
         };

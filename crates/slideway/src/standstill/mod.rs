@@ -82,7 +82,7 @@ pub struct HoldOptions {
     pub hold_drives: bool,
 }
 
-/// Whether a mechanism stays at rest in its position; the rates of the model are taken as zero.
+/// Whether a mechanism stays at rest in its position; the rates of the model are set to zero.
 ///
 /// # Errors
 /// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is zero, a

@@ -31,7 +31,7 @@ impl Text<'_> {
             self.headline(title);
         }
         let values = report.state.iter().map(|c| format!("{} = {} {}", c.name, number(c.value), c.unit));
-        let rates = if report.rates_ignored { "; the rates of the model are taken as zero" } else { "" };
+        let rates = if report.rates_ignored { "; the rates of the model are set to zero" } else { "" };
         self.line(&format!("At rest at {}{rates}", values.collect::<Vec<_>>().join(", ")));
         if let Some(steps) = report.steps_from_drawing {
             self.line(&followed(steps));
@@ -53,12 +53,12 @@ impl Text<'_> {
             Verdict::HoldsUntilPushed => (
                 AnsiColor::Green,
                 format!(
-                    "It holds. Once pushed it goes on sliding, as kinetic friction is below static: {ways}."
+                    "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
                 ),
             ),
             Verdict::HoldsOrSlips => (
                 AnsiColor::Yellow,
-                format!("It can hold, and it can begin to slide, too: {ways} of sliding besides rest."),
+                format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest."),
             ),
             Verdict::Moves => {
                 (AnsiColor::Red, format!("It does not hold: {ways} in which it begins to move."))
@@ -71,7 +71,7 @@ impl Text<'_> {
         };
         self.painted(colour.on_default().bold(), &words, "");
         if !self.report.motions_without_inertia.is_empty() {
-            self.line("How it begins to move is not known, as these motions have no inertia:");
+            self.line("How it begins to move is not determined, since these motions have no inertia:");
             for motion in &self.report.motions_without_inertia {
                 self.line(&format!("  {motion}"));
             }
@@ -217,7 +217,7 @@ fn held_in_words(load: &LoadReport) -> Vec<String> {
     lines.push(if load.self_locking {
         "Self-locking: no load is too great.".to_owned()
     } else {
-        "Not self-locking: it gives way to a load that is great enough.".to_owned()
+        "Not self-locking: a sufficiently large load moves it.".to_owned()
     });
     lines
 }

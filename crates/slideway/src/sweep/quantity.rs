@@ -119,7 +119,7 @@ fn factor(text: &str) -> Result<f64, AxisProblem> {
         Ok(value) if value < 0.0 => Err(AxisProblem::NegativeFriction { value }),
         Ok(value) if value.is_finite() => Ok(value),
         _ => {
-            let message = format!("`{}` is no factor of friction, a plain number", text.trim());
+            let message = format!("`{}` is not a factor of friction, which is a plain number", text.trim());
             Err(AxisProblem::Value { message, hint: None })
         }
     }

@@ -12,7 +12,7 @@ pub enum PointStatus {
     Several,
     /// Infinitely many.
     Continuum,
-    /// No solution, but a state with the preload between the faces.
+    /// No solution, but a state in a preload gap.
     PreloadGap,
     /// Nothing was found, but not every pattern could be decided.
     Unknown,

@@ -51,7 +51,7 @@ impl Page<'_, SweepState> {
         }
         let without = format!("no solution: {}", locked(sweep.plan.model.has_guided_sliders()));
         for (status, what) in [
-            (PointStatus::PreloadGap, "no solution, but a state with the preload between the faces"),
+            (PointStatus::PreloadGap, "no solution, but a state in a preload gap"),
             (PointStatus::None, &without),
             (PointStatus::Unknown, "undecided"),
             (PointStatus::NoPosition, "no position"),
@@ -85,14 +85,14 @@ impl Page<'_, SweepState> {
         ));
         let unsolved = self.report.tally.points - self.report.tally.solved();
         if unsolved > 0 {
-            self.line(&format!("  Samples that could not be solved ({unsolved}) are left out of it."));
+            self.line(&format!("  Samples that could not be solved ({unsolved}) are not counted."));
         }
     }
 
     fn remarks(&mut self, sweep: &Sweep) {
         for (name, part) in sweep.cut_off() {
             self.line(&format!(
-                "  Friction is never negative: {} % of the distribution of {name} lay below zero and was left out.",
+                "  Friction is never negative: {} % of the distribution of {name} lay below zero and was cut off.",
                 number(100.0 * part)
             ));
         }

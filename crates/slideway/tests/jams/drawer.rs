@@ -89,7 +89,7 @@ fn the_drawer_jams_where_its_spring_is_slack() {
     let lost = energy_lost(event).unwrap();
     assert!((lost - energy).abs() < 1e-7 * energy, "{lost} {energy}");
     assert_eq!(event.successors.len(), 1, "{:?}", event.successors);
-    assert!(event.words.contains("it jams: an impulse stops it and takes 2.9"), "{}", event.words);
+    assert!(event.words.contains("it jams: an impulse stops it and dissipates 2.9"), "{}", event.words);
     assert!(event.words.ends_with("guide stops and sticks"), "{}", event.words);
     let last = history.reader().at(1.0).unwrap().configuration;
     assert!(last.rates[0].abs() < 1e-15, "{:?}", last.rates);

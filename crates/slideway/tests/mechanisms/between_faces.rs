@@ -171,14 +171,14 @@ fn limits_tell_single_values() {
             }
         }
         let told =
-            report.conclusion.iter().filter(|sentence| sentence.contains("a state with the preload")).count();
+            report.conclusion.iter().filter(|sentence| sentence.contains("a state in a preload gap")).count();
         assert_eq!(told, 2 * expected.len(), "{:?}", report.conclusion);
     }
     // Where values are bracketed they are left out, and that is said.
     let bracketed =
         limits_of(&slope.with(&parameters(&[("T", "0.1 N")])).expect("sound"), "a=10 deg..50 deg");
     assert!(bracketed.between_faces_at.is_empty());
-    assert!(bracketed.guarantee.contains("are left out"), "{}", bracketed.guarantee);
+    assert!(bracketed.guarantee.contains("are omitted"), "{}", bracketed.guarantee);
 }
 
 /// N = 0 along the slope, whatever the moment: the state exists for |M| < F h/2 = 0.6 N m, far less than the distance of the values

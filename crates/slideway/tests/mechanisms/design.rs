@@ -83,7 +83,7 @@ fn drawer_limit_margin_and_guide_length() {
     assert_close(report.present.margin.expect("finite"), length / (2.0 * a * mu), 0.0, 1e-13);
     assert_eq!(
         report.conclusion[0],
-        "For a margin of 2 against locking: L at least 0.36 m (looked at up to 2 m)."
+        "For a margin of 2 against locking: L at least 0.36 m (examined up to 2 m)."
     );
 }
 

@@ -98,7 +98,10 @@ fn the_paper_s_conclusion_for_both_directions() {
     let report = limits(&model, &options).expect("sound");
     let [both, one] = &report.conclusion[..] else { panic!("{:?}", report.conclusion) };
     assert!(both.contains("0 to 0.45265396") && both.contains("oscillate"), "{both}");
-    assert!(one.contains("0.45265396 to 0.8") && one.contains("the other way friction locks it"), "{one}");
+    assert!(
+        one.contains("0.45265396 to 0.8") && one.contains("in the opposite direction friction locks it"),
+        "{one}"
+    );
 }
 
 /// Klepp (2002), section 7: mu_1b and mu_1a, where a reaction reaches a limit on this side and beyond mu_1*.

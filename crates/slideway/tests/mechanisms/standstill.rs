@@ -525,9 +525,9 @@ fn sticking_and_slipping_joints_coexist() {
 
 #[rstest]
 #[case(options("Q"), "there is no load named `Q`")]
-#[case(options("spring"), "there is nothing of the load spring at rest, so no factor changes it")]
+#[case(options("spring"), "the load spring vanishes at rest, so no factor changes it")]
 #[case(HoldOptions { vary: Some("mu_9".to_owned()), ..options("P") }, "there is no parameter named `mu_9`")]
-#[case(HoldOptions { vary: Some("alpha".to_owned()), ..options("P") }, "`alpha` is no parameter of static friction alone")]
+#[case(HoldOptions { vary: Some("alpha".to_owned()), ..options("P") }, "`alpha` is not a parameter of static friction alone")]
 fn faulty_questions_are_refused(#[case] options: HoldOptions, #[case] message: &str) {
     let model = model("klepp-2002").with(&parameters(&[("P", "1 N")])).expect("sound settings");
     let faults = hold(&model, &options).expect_err("refused");

@@ -65,10 +65,10 @@ fn faults_of_tables_are_told_with_their_places() {
     let cases = [
         ("argument = [0, 1]\nvalue = [0]", "the table push has 2 arguments and 1 values"),
         ("argument = []\nvalue = []", "the table push has 0 arguments and 0 values"),
-        ("argument = [0, 2, 1]\nvalue = [0, 1, 2]", "the arguments of the table push fall at number 3"),
+        ("argument = [0, 2, 1]\nvalue = [0, 1, 2]", "the arguments of the table push decrease at number 3"),
         ("argument = [\"0 s\", \"1 m\"]\nvalue = [0, 1]", "a length where a time is expected"),
-        ("argument = [\"0 m\", \"1 m\"]\nvalue = [0, 1]", "the table `push` wants a length, not a time"),
-        ("argument = [\"0 s\", \"t\"]\nvalue = [0, 1]", "a table holds constant numbers"),
+        ("argument = [\"0 m\", \"1 m\"]\nvalue = [0, 1]", "the table `push` expects a length, not a time"),
+        ("argument = [\"0 s\", \"t\"]\nvalue = [0, 1]", "a table contains constants only"),
         ("argument = [\"0 s\", \"T\"]\nvalue = [0, 1]", "unknown name `T`"),
         ("argument = [\"0 s\", \"1 s\"]\nvalue = [\"0 kg\", \"1 kg\"]", "a mass where a force is expected"),
     ];
@@ -107,7 +107,7 @@ stops = true
     let value = mechanism.quantity(mechanism.events[0].zero_of, &[0.75], &[0.0], 0.0);
     assert_eq!(value.unwrap(), 0.25);
     let faulty = Model::parse(&sledge("[events.odd]\nzero_of = \"x + rate(x)\"\n")).unwrap_err();
-    assert_eq!(faulty.to_string(), "`+` joins a length and a velocity");
+    assert_eq!(faulty.to_string(), "`+` cannot combine a length and a velocity");
     let range = Model::parse(&sledge("[events.odd]\nzero_of = \"1..2\"\n")).unwrap_err();
     assert!(!range.to_string().is_empty());
 }

@@ -12,7 +12,7 @@ use crate::solve::mode_in_words;
 use nalgebra::Vector2;
 
 /// The words of an event that changes nothing.
-pub(in crate::motion) const NOTHING: &str = "it goes on as before";
+pub(in crate::motion) const NOTHING: &str = "it continues as before";
 
 /// Something that happened at an instant.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +74,7 @@ impl Words<'_> {
             },
             Cause::Slips => match after {
                 Some(_) => return None,
-                None => "what sticks can stick no longer".to_owned(),
+                None => "the sticking joints can no longer stick".to_owned(),
             },
             Cause::Locks => "the contact mode locks: its determinant vanishes".to_owned(),
             Cause::ReactionLimit(contact) => {
@@ -89,7 +89,7 @@ impl Words<'_> {
                 let hits =
                     format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
                 match energy_lost {
-                    Some(energy) => format!("{hits}, which takes {} J", number(*energy)),
+                    Some(energy) => format!("{hits}, which dissipates {} J", number(*energy)),
                     None => format!("{hits} in the same impact"),
                 }
             }
@@ -102,7 +102,7 @@ impl Words<'_> {
             Cause::LoadJumps(name) => format!("{name} jumps"),
             Cause::User(_, name) => format!("{name} passes zero"),
             Cause::Jams { energy_lost } => {
-                format!("it jams: an impulse stops it and takes {} J", number(*energy_lost))
+                format!("it jams: an impulse stops it and dissipates {} J", number(*energy_lost))
             }
         };
         Some(told)
@@ -136,7 +136,7 @@ impl Words<'_> {
                     if changed {
                         format!("{name} changes side: it {}", self.mode("is now", *joint, after))
                     } else if stops {
-                        format!("{name} stands for an instant and slides on")
+                        format!("{name} stops for an instant and slides on")
                     } else {
                         return None;
                     }

@@ -261,7 +261,7 @@ fn hints(history: &History) -> Vec<String> {
     loads.dedup();
     let hint = |load: String| {
         format!(
-            "{load} jumps where a rate passes zero, as friction does, but has no state of rest: where the motion stops it takes ever shorter steps. Give the joint its own friction (`mu`, `mu_static`, preload) instead."
+            "{load} jumps where a rate passes zero, as friction does, but has no state of rest: where the motion stops, steps become ever shorter. Give the joint its own friction (`mu`, `mu_static`, preload) instead."
         )
     };
     let mut hints: Vec<String> = loads.into_iter().map(hint).collect();
@@ -269,7 +269,7 @@ fn hints(history: &History) -> Vec<String> {
         let name = |contact: &ContactId| mechanism.contacts[contact.index()].name.to_string();
         let names: Vec<String> = history.undetermined.iter().map(name).collect();
         hints.push(format!(
-            "the normal forces of {} are not determined while joints stick: how contacts share the friction is open, and the limit of the normal forces does not see them then.",
+            "the normal forces of {} are indeterminate while joints stick, since they depend on how contacts share the friction; the limit on normal forces is not checked for them then.",
             names.join(", ")
         ));
     }
@@ -374,7 +374,7 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
         End::ReactionLimit(id) => {
             let contact = &mechanism.contacts[id.index()].name;
             let words = format!(
-                "It ends at {time} s: the normal force of {contact} has reached its limit, so that the mechanism counts as locked."
+                "It ends at {time} s: the normal force of {contact} has reached its limit, so the mechanism counts as locked."
             );
             ("reaction_limit", words)
         }
@@ -385,13 +385,13 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
         End::NoSuchBranch { branching } => (
             "no_such_branch",
             format!(
-                "It ends at {time} s: the branch that was wanted at decision {branching} does not exist there."
+                "It ends at {time} s: the branch requested at decision {branching} does not exist there."
             ),
         ),
         End::Tips(id) => (
             "tips",
             format!(
-                "It ends at {time} s: {} tips in its guide, of which a guided slider has no state.",
+                "It ends at {time} s: {} tips in its guide, which a guided slider cannot represent.",
                 joint(id)
             ),
         ),
@@ -401,7 +401,7 @@ fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, 
         ),
         End::Jammed => {
             let words = format!(
-                "It ends at {time} s: it jams, and no impulse leads to a state in which it can go on."
+                "It ends at {time} s: it jams, and no impulse leads to a state in which it can continue."
             );
             ("jammed", words)
         }
@@ -444,13 +444,15 @@ fn finished(history: &History, time: &str) -> String {
     match history.phases.last() {
         Some(interval) if at_rest(interval) => {
             let from = number(interval.from);
-            format!("At {time} s the time is over; since {from} s all sliding joints have stuck.{jams}")
+            format!(
+                "At {time} s the end is reached; all sliding joints have been sticking since {from} s.{jams}"
+            )
         }
         _ => {
             let bodies = 3 * history.mechanism.bodies.len();
             let moves = history.last.1[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
             let told = if moves { "it is still moving" } else { "nothing moves" };
-            format!("At {time} s the time is over; {told}.{jams}")
+            format!("At {time} s the end is reached; {told}.{jams}")
         }
     }
 }

@@ -101,13 +101,13 @@ impl Page<'_, SimulateReport> {
     }
 
     fn last_state(&mut self) {
-        self.state("In the end", &self.report.last);
+        self.state("At the end", &self.report.last);
     }
 
     fn events(&mut self, all: bool) {
         let events = &self.report.events;
         self.line("");
-        self.headline(&format!("What happens (modes of {})", self.report.contacts.join(", ")));
+        self.headline(&format!("Events (modes of {})", self.report.contacts.join(", ")));
         let all = all || events.len() <= FIRST + LAST;
         let (first, last) = if all { (events.len(), events.len()) } else { (FIRST, events.len() - LAST) };
         let shown = || events[..first].iter().chain(&events[last..]);
@@ -116,7 +116,7 @@ impl Page<'_, SimulateReport> {
         events[..first].iter().for_each(|event| self.event(event, widths));
         if !all {
             let left_out = count(last - first, "event is", "events are");
-            self.line(&format!("  ... {left_out} left out here; --all-events tells all of them"));
+            self.line(&format!("  ... {left_out} omitted here; --all-events prints all of them"));
             events[last..].iter().for_each(|event| self.event(event, widths));
         }
     }
@@ -127,7 +127,7 @@ impl Page<'_, SimulateReport> {
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
             let jump = if branch.continues { "" } else { ", with a jump" };
             let text = format!(
-                "could also go on as {}{jump}{} (branch {})",
+                "could also continue as {}{jump}{} (branch {})",
                 spaced(&branch.mode),
                 verdict(branch.attainable),
                 branch.number
@@ -136,7 +136,7 @@ impl Page<'_, SimulateReport> {
         }
         if event.branches_left_out {
             let text =
-                "there may be further ways to go on, in which fewer joints stick: not all states were tried";
+                "there may be further continuations in which fewer joints stick: not all states were tried";
             self.line(&format!("  {:time$}   {:mode$}     {text}", "", ""));
         }
     }
@@ -155,7 +155,7 @@ impl Page<'_, SimulateReport> {
                 rows.push(row(&format!("{what} {name}"), vec![String::new(), number(*value)]));
             }
         };
-        add("taken by the friction of", &energy.friction);
+        add("dissipated by friction at", &energy.friction);
         add("work of", &energy.loads);
         add("work of", &energy.drives);
         if energy.impulses != 0.0 {
@@ -169,20 +169,20 @@ impl Page<'_, SimulateReport> {
         self.line("");
         let (error, part) = (report.energy.error, report.energy.relative_error);
         self.line(&match part {
-            _ if error == 0.0 => "The balance of energy closes.".to_owned(),
+            _ if error == 0.0 => "The energy balance closes.".to_owned(),
             Some(part) => {
-                format!("The balance of energy closes to {error:.1e} J, {part:.1e} of the greatest of them.")
+                format!("The energy balance closes to {error:.1e} J, {part:.1e} of the greatest term.")
             }
-            None => format!("The balance of energy closes to {error:.1e} J."),
+            None => format!("The energy balance closes to {error:.1e} J."),
         });
         self.line(&format!(
-            "Joints were off by at most {:.1e} of the size of the mechanism before each correction.",
+            "Joints had drifted by at most {:.1e} of the size of the mechanism before each correction.",
             report.position_drift
         ));
         let statistics = &report.statistics;
         if let Some(sampled) = &statistics.sampled {
             self.line(&format!(
-                "For {} s in all joints stuck under loads that change with time without a proof that they could: it was looked at four \
+                "For a total of {} s joints stuck under loads that change with time without a proof that they can: this was checked four \
                  times in each step, the longest of {} s.",
                 number(sampled.time),
                 number(sampled.longest_step)
