@@ -139,6 +139,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.watch.magnitudes.velocity
     }
 
+    /// Forces below this are rounding beside the greatest so far (N).
+    pub(super) fn rounding(&self) -> f64 {
+        self.watch.rounding()
+    }
+
     /// The time in which the greatest velocity so far goes through the mechanism (s).
     pub(super) fn time_scale(&self) -> f64 {
         self.equations.mechanism.size / self.greatest_velocity()

@@ -73,7 +73,7 @@ fn fast(
         if *stopped { 0.0 } else { velocity.signum() }
     };
     let signs: Vec<f64> = sliding_joints(mechanism).iter().zip(stopped).map(sign).collect();
-    continuations(&Instant { mechanism, configuration, signs: &signs, zero: &[], previous })
+    continuations(&Instant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous })
 }
 
 /// What the states came to that were compared.
