@@ -72,6 +72,8 @@ mod system;
 mod units;
 mod vanishing;
 
+#[cfg(test)]
+pub(super) use assessment::ASSESSED;
 pub(super) use determined::determined_normal_forces;
 pub(super) use holding::Holding;
 pub use holding::Outlook;
