@@ -7,6 +7,7 @@ use crate::ids::JointId;
 use crate::model::Model;
 use crate::motion::decision::{Impact, impact};
 use crate::motion::{Cause, End, History, SimulateOptions, simulate};
+use std::fmt::Write as _;
 
 fn run(text: &str, duration: f64) -> History {
     simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(duration)).unwrap()
@@ -276,7 +277,8 @@ rate = {}
     );
     for (index, joint) in drawers.iter().enumerate() {
         let number = index + 1;
-        text += &format!(
+        write!(
+            text,
             r#"
 [bodies.drawer_{number}]
 mass = {}
@@ -295,7 +297,8 @@ slide = "rail_{number}"
 rate = {}
 "#,
             masses[1], rates[number]
-        );
+        )
+        .unwrap();
     }
     text
 }
