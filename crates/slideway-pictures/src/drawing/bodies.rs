@@ -37,6 +37,7 @@ impl Painter<'_> {
         for body in order {
             self.links(body);
         }
+        self.pads();
         self.centres_of_mass();
     }
 
@@ -48,6 +49,7 @@ impl Painter<'_> {
         for slide in self.sliders.clone().into_iter().flatten() {
             if slide.inner().0 == frame && slide.kind != SliderKind::Pin {
                 parts.push(slide.core());
+                parts.extend(slide.collars());
             }
             if slide.outer().0 == frame && slide.around {
                 parts.push(slide.housing());

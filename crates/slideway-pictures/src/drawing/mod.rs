@@ -16,6 +16,7 @@ mod outline;
 mod scene;
 mod sheet;
 mod sliders;
+mod stops;
 pub mod svg;
 mod view;
 

@@ -35,6 +35,8 @@ pub enum Class {
     Spring,
     /// A damper.
     Damper,
+    /// A pad at an end of a travel.
+    Pad,
     /// Outline of the symbol of a centre of mass.
     MassRing,
     /// Dark quarters of the symbol of a centre of mass.

@@ -2,6 +2,7 @@
 
 use super::outline::{Local, capsule};
 use super::scene::{Class, Point};
+use super::stops::{EndStop, reach_along};
 use super::{Painter, View};
 use slideway::configuration::Configuration;
 use slideway::ids::{Frame, JointId};
@@ -15,7 +16,7 @@ pub(super) const PIN: f64 = 5.5;
 /// Half the space between a block and its walls where no contact mode is shown.
 const NO_PLAY: f64 = 1.0;
 /// Thickness of the walls of a slot in a body.
-const WALL: f64 = 6.0;
+pub(super) const WALL: f64 = 6.0;
 
 /// A sliding joint in drawing units.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +35,8 @@ pub(super) struct Slide {
     pub(super) guide_reach: [f64; 2],
     /// Which ends of the guide, rear and front, are open: the block leaves it there.
     pub(super) open: [bool; 2],
+    /// What stands at the least and at the greatest displacement.
+    pub(super) stops: [Option<EndStop>; 2],
     /// Drawn distance of the rubbing faces.
     pub(super) height: f64,
     /// Play on either side.
@@ -62,6 +65,11 @@ impl Slide {
     /// Half the width of the free space in the outer part.
     pub(super) fn half_channel(&self) -> f64 {
         0.5 * self.height + self.gap
+    }
+
+    /// Half the width of what stands across the guide at its ends.
+    pub(super) fn half_end(&self) -> f64 {
+        if self.around { 0.5 * self.height + 9.0 } else { self.half_channel() }
     }
 
     /// The outline of the outer part, with its walls.
@@ -152,11 +160,16 @@ impl Painter<'_> {
             block_reach: [-rear[0], front[0]],
             guide_reach: [-rear[1], front[1]],
             open,
+            stops: [None; 2],
             height,
             gap,
         };
         if is_pin {
             self.fill_plate(&mut slide);
+        }
+        slide.stops = self.end_stops(joint, slider, &slide);
+        for (end, stop) in slide.guide_reach.iter_mut().zip(slide.stops) {
+            *end = stop.map_or(*end, |stop| stop.wall);
         }
         slide
     }
@@ -178,20 +191,7 @@ impl Painter<'_> {
         let Some(body) = slide.guide_frame.body() else { return };
         let Some(Shape::Rectangle(_)) = self.mechanism.bodies[body.index()].shape else { return };
         let Some(plate) = self.plate(body) else { return };
-        let local = slide.guide;
-        let mut reach: Option<[f64; 2]> = None;
-        for index in 0..plate.len() {
-            let (from, to) = (plate[index], plate[(index + 1) % plate.len()]);
-            let [before, after] = [from, to].map(|corner| (corner - local.origin).dot(&local.across));
-            if (before > 0.0) == (after > 0.0) {
-                continue;
-            }
-            let crossing = from + (to - from) * (before / (before - after));
-            let along = (crossing - local.origin).dot(&local.along);
-            reach =
-                Some(reach.map_or([along; 2], |[least, greatest]| [least.min(along), greatest.max(along)]));
-        }
-        if let Some([least, greatest]) = reach
+        if let Some([least, greatest]) = reach_along(&plate, &slide.guide)
             && least + INSET < slide.guide_reach[0] + 32.0
             && greatest - INSET > slide.guide_reach[1] - 32.0
         {
@@ -251,6 +251,11 @@ impl Painter<'_> {
             self.line(Class::Wall, vec![start, end]);
             self.hatching(start, end);
         }
+        for (side, stop) in [-1.0, 1.0].into_iter().zip(slide.stops) {
+            if let Some(stop) = stop {
+                self.end_wall(&slide.guide, stop.wall, side * stop.half);
+            }
+        }
     }
 
     fn fixed_core(&mut self, slide: &Slide) {
@@ -258,12 +263,9 @@ impl Painter<'_> {
         let half = 0.5 * slide.height;
         self.area(Class::Fixed, slide.core());
         if slide.around {
-            let reach = half + 9.0;
-            for (end, side) in [(from, -reach), (to, reach)] {
-                let (start, stop) = (local.at(end, side), local.at(end, -side));
-                self.line(Class::Wall, vec![start, stop]);
-                self.hatching(start, stop);
-            }
+            let reach = slide.half_end();
+            self.end_wall(&local, from, -reach);
+            self.end_wall(&local, to, reach);
         } else {
             let inset = half.min(6.0);
             let mut at = from + inset;

@@ -156,6 +156,7 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Hinge => "s-hinge",
         Class::Spring => "s-spring",
         Class::Damper => "s-damper",
+        Class::Pad => "s-pad",
         Class::MassRing => "s-mass-ring",
         Class::Mass => "s-mass",
         Class::Reaction => "s-reaction",
@@ -239,7 +240,7 @@ pub fn rules(colour: &Colour) -> String {
     rule(".s-fixed", format!("fill: {background}; {}", pen(ink, 1.6)));
     rule(".s-body-edge", format!("fill: {body}; {}", pen(ink, 3.0)));
     rule(".s-body", format!("fill: {body};"));
-    rule(".s-slot", format!("fill: {background}; {}", pen(ink, 1.3)));
+    rule(".s-slot, .s-pad", format!("fill: {background}; {}", pen(ink, 1.3)));
     rule(".s-edge", format!("fill: none; {}", pen(ink, 1.5)));
     rule(".s-pin", format!("fill: {muted}; {}", pen(ink, 1.6)));
     rule(".s-hinge", format!("fill: {background}; {}", pen(ink, 1.8)));

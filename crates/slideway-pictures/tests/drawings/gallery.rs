@@ -11,7 +11,7 @@ use slideway_pictures::theme::{DARK, LIGHT};
 
 /// The models at several positions: settings of coordinates by name.
 fn cases() -> Vec<(String, Case)> {
-    let elsewhere: [(&str, &[(&str, &str)]); 9] = [
+    let elsewhere: [(&str, &[(&str, &str)]); 10] = [
         ("cam-follower", &[("lift", "20 mm")]),
         ("drawer", &[("x", "0.15 m")]),
         ("elliptic-trammel", &[("theta", "100 deg")]),
@@ -20,6 +20,7 @@ fn cases() -> Vec<(String, Case)> {
         ("sleeve-on-arm", &[("phi", "130 deg"), ("s", "0.6 m")]),
         ("slider-crank", &[("phi", "-75 deg")]),
         ("slider-crank", &[("phi", "179.99 deg")]),
+        ("soft-closing-drawer", &[("x", "-50 mm")]),
         ("telescopic-boom", &[("s_1", "0.3 m"), ("s_3", "-0.4 m")]),
     ];
     let drawn = slideway::gallery::MODELS

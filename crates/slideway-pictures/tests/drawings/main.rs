@@ -11,6 +11,7 @@ mod random_mechanisms;
 mod gallery;
 mod random;
 mod raster;
+mod stops;
 
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;

@@ -5,7 +5,6 @@ use crate::answers::{assert_close, coordinate_acceleration, mode, model, only, r
 use nalgebra::DVector;
 use proptest::prelude::*;
 use rstest::rstest;
-use serde::Deserialize;
 use slideway::configuration::Configuration;
 use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
@@ -13,56 +12,10 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{Report, Solution, Status};
 
-const REFERENCE: &str = include_str!("../../../../reference/klepp-2002.toml");
+#[path = "../../../slideway-modes/tests/klepp_example/reference.rs"]
+mod numbers;
 
-#[derive(Deserialize)]
-struct Reference {
-    parameters: Parameters,
-    printed: Vec<Printed>,
-    intervals: Vec<Intervals>,
-}
-
-#[derive(Deserialize)]
-struct Parameters {
-    alpha_deg: f64,
-    b_over_l: f64,
-    h_over_l: f64,
-    mu_2: f64,
-    mu_3: f64,
-}
-
-#[derive(Deserialize)]
-struct Printed {
-    mu_1: f64,
-    #[serde(rename = "F0")]
-    preload: [f64; 3],
-    velocity: f64,
-    solutions: Vec<PrintedSolution>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "PascalCase")]
-struct PrintedSolution {
-    n: [f64; 3],
-    f: [f64; 3],
-    #[serde(rename = "F_total")]
-    f_total: f64,
-}
-
-#[derive(Deserialize)]
-struct Intervals {
-    #[serde(rename = "F0")]
-    preload: [f64; 3],
-    velocity: f64,
-    modes: Vec<Interval>,
-}
-
-#[derive(Deserialize)]
-struct Interval {
-    signs: String,
-    from: f64,
-    to: f64,
-}
+use numbers::{Interval, Intervals, Parameters, Reference};
 
 /// Mass, gravity and length of the bar; the conclusions do not depend on them.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +28,7 @@ struct Scale {
 const EARTH: Scale = Scale { mass: 1.0, gravity: 9.81, length: 1.0 };
 
 fn reference() -> Reference {
-    toml::from_str(REFERENCE).unwrap()
+    numbers::reference().unwrap()
 }
 
 /// The settings of a case: friction of contact 1, preloads in units of m g, sign of the velocity.

@@ -101,6 +101,12 @@ impl Assessment {
     }
 }
 
+#[cfg(test)]
+thread_local! {
+    /// How many patterns have been assessed on this thread.
+    pub(in crate::motion) static ASSESSED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
 /// A phase at an instant, with the sides of its sticking contacts that leave most slack; nothing if its equations
 /// contradict each other for all of them. No further sides are tried in a group once an admissible state has a margin that is
 /// enough.
@@ -157,6 +163,8 @@ fn assess_sides(
     question: &Question<'_>,
     (phase, group): (Phase, &Group),
 ) -> Result<Option<Assessment>, Unsolved> {
+    #[cfg(test)]
+    ASSESSED.set(ASSESSED.get() + 1);
     System::new(instant, question, &phase, group).map(|system| assess_system(&system)).transpose()
 }
 

@@ -80,6 +80,12 @@ impl<'m> Holding<'m> {
         Ok(margin)
     }
 
+    /// The unit of force of its margins (N), where all joints belong together.
+    #[cfg(test)]
+    pub(crate) fn unit(&self) -> f64 {
+        self.instant.joints[0].units.force
+    }
+
     /// What is known of a span of time.
     ///
     /// # Errors

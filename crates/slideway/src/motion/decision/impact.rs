@@ -49,9 +49,10 @@ pub struct Blow {
 /// round within the impact. Of several possible answers the one with the greatest margin is taken. Coefficients of friction
 /// are those of the velocities before.
 ///
-/// Stops that are reached together act together: first all velocities towards them fall to zero in proportion, then all
-/// rise to `-e v`. A stop may also be without impulse, if the others take its joint away from it at least as fast,
-/// so that `P_i >= 0` and `w_i >= -e_i v_i` are complementary (J. J. Moreau). Every choice of the stops that push is tried.
+/// Stops that are reached together act together: the velocities `v_i` towards them go to `-e_i v_i` in proportion. A stop may also be
+/// without impulse, if the others take its joint away from it at least as fast: `P_i >= 0` and `-w_i >= e_i v_i` for the velocity
+/// `w_i` afterwards are complementary (J. J. Moreau). Without friction that is a linear complementarity problem with one
+/// outcome, which takes `sum_i P_i (1 - e_i) v_i/2` of kinetic energy. Every choice of the stops that push is tried.
 ///
 /// # Errors
 /// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are tried, an impact
@@ -167,25 +168,16 @@ impl Process<'_> {
             impulses: vec![0.0; self.hits.len()],
         };
         let before = course.velocities.clone();
-        let compressed = self.targets(|_| Some(0.0));
-        let restored =
-            self.targets(|hit| (hit.restitution > 0.0).then(|| -hit.restitution * before[hit.joint]));
-        for targets in [compressed, restored] {
-            if !self.follow(&mut course, &targets, unsolved)? {
-                return Ok(None);
-            }
+        let pushed = self.hits.iter().zip(self.pushes).filter(|(_, pushes)| **pushes);
+        let target = |(hit, _): (&Hit, _)| (hit.joint, -hit.restitution * before[hit.joint]);
+        if !self.follow(&mut course, &pushed.map(target).collect::<Vec<_>>(), unsolved)? {
+            return Ok(None);
         }
         let leaves = |hit: &Hit| {
             let (before, after) = (before[hit.joint], course.velocities[hit.joint]);
             -before.signum() * after >= hit.restitution * before.abs() - AT_REST * self.impulses.speed
         };
         Ok(self.hits.iter().all(leaves).then_some(course))
-    }
-
-    /// The joints whose stops push, with the velocities that they are to have.
-    fn targets(&self, target: impl Fn(&Hit) -> Option<f64>) -> Vec<(usize, f64)> {
-        let pushed = self.hits.iter().zip(self.pushes).filter(|(_, pushes)| **pushes);
-        pushed.filter_map(|(hit, _)| Some((hit.joint, target(hit)?))).collect()
     }
 
     /// Follows an impact until joints have their velocities, in proportion; `false` if no impulse leads there. Every part but the last
@@ -271,8 +263,8 @@ impl Process<'_> {
         for (joint, (velocity, change)) in velocities.iter().zip(changes).enumerate() {
             let part = -velocity / change;
             let rubs = self.impulses.instant.joints[joint].has_friction;
-            let is_pushed = targets.iter().any(|(pushed, _)| *pushed == joint);
-            if !is_pushed && rubs && *velocity != 0.0 && part >= 0.0 && part < first.0 {
+            let ends_there = targets.contains(&(joint, 0.0));
+            if !ends_there && rubs && *velocity != 0.0 && part >= 0.0 && part < first.0 {
                 first = (part, Some(joint));
             }
         }

@@ -70,6 +70,23 @@ impl<'m> Instant<'m> {
         Self::of(mechanism, (configuration, equations), Least::Now(scale))
     }
 
+    /// The same in units of at least this force (N): where all forces vanish at once, as at a dead centre without loads, what rounding has
+    /// left of them does not count.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn in_units_of_at_least(
+        self,
+        force: f64,
+        configuration: &Configuration,
+    ) -> Result<Self, Faults> {
+        if self.joints.iter().all(|joint| joint.units.force >= force) {
+            return Ok(self);
+        }
+        let least: Vec<f64> = self.least_forces.iter().map(|least| least.max(force)).collect();
+        Self::of(self.mechanism, (configuration, self.equations), Least::Before(&least))
+    }
+
     /// The mechanism a little later, with the same least units and the same difference from the loads.
     ///
     /// # Errors

@@ -29,7 +29,8 @@
 //!
 //! # Accuracy
 //! Slacks are in units of the greatest force (load, preload or inertia) on the bodies that joints connect with one another (where there is
-//! none, of what the loads come to within the time in which they take them through the size of the mechanism), or of
+//! none, of what the loads come to within the time in which they take them through the size of the mechanism; within a motion of at least
+//! what counts as rounding beside its greatest force), or of
 //! the acceleration that it gives the greatest of their masses. A slack below 1e-8 counts as zero, one below -1e-8 as violated; derivatives count as zero below 1e-6
 //! per unit of the time in which the mechanism moves through its own length, second derivatives below 2e-3.
 //!
@@ -73,6 +74,8 @@ pub(super) mod thorough;
 mod units;
 mod vanishing;
 
+#[cfg(test)]
+pub(super) use assessment::ASSESSED;
 pub(super) use determined::determined_normal_forces;
 pub use impact::{Blow, Impact, impact};
 pub use jam::{Impulse, Jam, jam};

@@ -18,6 +18,8 @@ pub struct Instant<'a> {
     pub signs: &'a [f64],
     /// Contacts whose normal force has just reached zero, or whose preload gap ends: that is exactly so.
     pub zero: &'a [ContactId],
+    /// What rounding leaves of the greatest forces so far where they vanish (N).
+    pub rounding: f64,
     /// The phase that has just ended; nothing at the start and after an impulse.
     pub previous: Option<&'a Phase>,
 }

@@ -114,7 +114,8 @@ pub fn successors(
         velocity => velocity.signum(),
     };
     let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
-    let event = rules::Instant { mechanism, configuration, signs: &signs, zero: &[], previous };
+    let event =
+        rules::Instant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous };
     at(instant, &event, Detail::Everything)
 }
 
@@ -127,6 +128,7 @@ pub fn successors(
 /// As [`successors`].
 pub(crate) fn continuations(event: &rules::Instant<'_>) -> Result<Successors, Faults> {
     let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
+    let instant = instant.in_units_of_at_least(event.rounding, event.configuration)?;
     at(instant, event, Detail::Order)
 }
 

@@ -223,6 +223,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 configuration: &configuration,
                 signs: &signs,
                 zero: &zero,
+                rounding: self.smooth.rounding(),
                 previous: previous.as_ref(),
             };
             let mut successors = self.decisions.successors(&instant)?;

@@ -77,7 +77,8 @@ fn flies(
     let Some(index) = joints.iter().position(|joint| *joint == hit.joint) else { return Ok(true) };
     let signs: Vec<f64> =
         velocities.iter().map(|velocity| if *velocity == 0.0 { 0.0 } else { velocity.signum() }).collect();
-    let instant = Instant { mechanism, configuration: after, signs: &signs, zero: &[], previous: None };
+    let instant =
+        Instant { mechanism, configuration: after, signs: &signs, zero: &[], rounding: 0.0, previous: None };
     let Some(next) = decisions.successors(&instant)?.list.into_iter().next() else { return Ok(true) };
     let Some(state) = phase_state(mechanism, after, &next.phase)? else { return Ok(true) };
     let towards = state.sliding_accelerations[index] * if hit.greatest { 1.0 } else { -1.0 };

@@ -253,9 +253,14 @@ impl<'o> Watch<'o> {
         })
     }
 
+    /// Forces below this are rounding (N).
+    pub(in crate::motion) fn rounding(&self) -> f64 {
+        FORCE_TOLERANCE * self.magnitudes.force
+    }
+
     /// Values within this of zero count as zero.
     pub(in crate::motion) fn tolerance(&self, watched: Watched, equations: &Equations<'_>) -> f64 {
-        let force = FORCE_TOLERANCE * self.magnitudes.force;
+        let force = self.rounding();
         match watched {
             Watched::NormalForce(_)
             | Watched::Between(..)

@@ -7,6 +7,7 @@ use crate::ids::JointId;
 use crate::model::Model;
 use crate::motion::decision::{Impact, impact};
 use crate::motion::{Cause, End, History, SimulateOptions, simulate};
+use std::fmt::Write as _;
 
 fn run(text: &str, duration: f64) -> History {
     simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(duration)).unwrap()
@@ -147,20 +148,10 @@ rate = "2 m/s"
     close(&impulses(&found), &[0.0, 4.0 * 2.0 * 1.75], 1e-9);
 }
 
-/// Two sliders joined by a massless rod, as in a trammel: a of 1 kg at (L c, 0) on a level guide, b of 2 kg at (0, L s) on an upright one, friction
-/// mu at both. Compression S of the rod presses a down with S s and b to the left with S c. While a moves outwards and b down friction
-/// at b helps S and friction at a helps the stop; with v' = -1 for a and c/s for b
-///
-/// ```text
-/// m_b c/s = S (s + mu c)      P_1 = m_a + S (c - mu s)
-/// ```
-///
-/// for each m/s until a stands, and afterwards, both moving the other way, with the opposite sign of mu. P = v P_1(mu) + e v P_1(-mu).
-#[test]
-fn friction_acts_at_both_ends_of_a_rod() {
-    let text = |mu: f64| {
-        format!(
-            r#"
+/// Two sliders joined by a massless rod, as in a trammel; more of the upright one.
+fn trammel(mu: f64, upright: &str) -> String {
+    format!(
+        r#"
 [points]
 A = [0.8, 0]
 B = [0, 0.6]
@@ -193,6 +184,7 @@ at = "B"
 along = "90 deg"
 length = "0.1 m"
 mu = {mu:?}
+{upright}
 [joints.to_a]
 type = "hinge"
 between = ["rod.A", "a.A"]
@@ -203,19 +195,190 @@ between = ["rod.B", "b.B"]
 slide = "level"
 rate = "3 m/s"
 "#
-        )
-    };
+    )
+}
+
+/// Two sliders joined by a massless rod, as in a trammel: a of 1 kg at (L c, 0) on a level guide, b of 2 kg at (0, L s) on an upright one, friction
+/// mu at both. Compression S of the rod presses a down with S s and b to the left with S c. While a moves outwards and b down friction
+/// at b helps S and friction at a helps the stop; with v' = -1 for a and c/s for b
+///
+/// ```text
+/// m_b c/s = S (s + mu c)      P_1 = m_a + S (c - mu s)
+/// ```
+///
+/// for each m/s until a stands, and afterwards, both moving the other way, with the opposite sign of mu. P = v P_1(mu) + e v P_1(-mu).
+#[test]
+fn friction_acts_at_both_ends_of_a_rod() {
     let (c, s, v, e) = (0.8, 0.6, 3.0, 0.5);
     for mu in [0.0, 0.1, 0.3, 0.6] {
         let of_unit = |mu: f64| 1.0 + 2.0 * (c / s) * (c - mu * s) / (s + mu * c);
-        let found = impact_of(&text(mu), &[("level", e)]);
+        let found = impact_of(&trammel(mu, ""), &[("level", e)]);
         close(&impulses(&found), &[v * of_unit(mu) + e * v * of_unit(-mu)], 1e-9);
         close(&found.after.rates, &[-e * v], 1e-12);
         let kinetic = 0.5 * (1.0 + 2.0 * (c / s) * (c / s)) * v * v;
         assert!((found.blows[0].energy_lost - kinetic * (1.0 - e * e)).abs() < 1e-9);
     }
     // With mu > s/c friction at b holds the rod: it is strut enough that a cannot come back.
-    let mechanism = mechanism_of(&text(0.8));
+    let mechanism = mechanism_of(&trammel(0.8, ""));
     let configuration = Configuration::new(&mechanism).unwrap();
     assert!(impact(&mechanism, &configuration, &[(JointId(0), e)]).is_err());
+}
+
+/// The same with a stop for b, too, reached at the same instant. Both velocities hang together, so that the greater restitution wins and the other
+/// stop gives no impulse. While b is stopped the rod pulls with T at a, which friction helps until a stands:
+///
+/// ```text
+/// m_a = T (c + mu s)      P_1 = m_b c/s + T (s - mu c)      P = v P_1(mu) + e v P_1(-mu)
+/// ```
+#[test]
+fn of_two_coupled_stops_the_one_with_the_greater_restitution_pushes() {
+    let (c, s, v, e) = (0.8, 0.6, 3.0, 0.5);
+    for mu in [0.0, 0.1, 0.3] {
+        let text = trammel(mu, "travel = [\"0 m\", \"0.5 m\"]\nstop = { restitution = 0.5 }");
+        let of_unit = |mu: f64| 2.0 * c / s + (s - mu * c) / (c + mu * s);
+        let found = impact_of(&text, &[("level", 0.2), ("upright", e)]);
+        close(&impulses(&found), &[0.0, v * of_unit(mu) + e * v * of_unit(-mu)], 1e-9);
+        close(&found.after.rates, &[-e * v], 1e-12);
+        // With the same restitution only the motion is determined.
+        close(&impact_of(&text, &[("level", e), ("upright", e)]).after.rates, &[-e * v], 1e-12);
+    }
+}
+
+/// A carriage of mass M on a level guide and two drawers of mass m on it, one upside down above the other, with these keys of their joints; their mass centres
+/// are `c` away from their rails, on opposite sides.
+fn carriage(masses: [f64; 2], c: f64, drawers: [&str; 2], rates: [f64; 3]) -> String {
+    let mut text = format!(
+        r#"
+[points]
+C = [0, 0]
+R_1 = [0, 0.5]
+R_2 = [0, -0.5]
+S_1 = [0, {}]
+S_2 = [0, {}]
+[bodies.carriage]
+mass = {}
+centre_of_mass = "C"
+moment_of_inertia = 1
+[joints.wheels]
+type = "block_slider"
+block = "carriage"
+at = "C"
+along = 0
+length = 4
+mu = 0
+[coordinates.x]
+slide = "wheels"
+rate = {}
+"#,
+        0.5 + c,
+        -0.5 - c,
+        masses[0],
+        rates[0]
+    );
+    for (index, joint) in drawers.iter().enumerate() {
+        let number = index + 1;
+        write!(
+            text,
+            r#"
+[bodies.drawer_{number}]
+mass = {}
+centre_of_mass = "S_{number}"
+moment_of_inertia = 1
+[joints.rail_{number}]
+type = "block_slider"
+block = "drawer_{number}"
+guide = "carriage"
+at = "R_{number}"
+along = 0
+length = 0.5
+{joint}
+[coordinates.s_{number}]
+slide = "rail_{number}"
+rate = {}
+"#,
+            masses[1], rates[number]
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// Two drawers of mass m reach stops on their carriage of mass M at the same instant. Without friction the impulses P_1, P_2 push the drawers back
+/// and the carriage on; with v_i the velocities of the drawers against it
+///
+/// ```text
+/// -dv_1 = (1/m + 1/M) P_1 + 1/M P_2        -dv_2 = 1/M P_1 + (1/m + 1/M) P_2
+/// 0 <= P_i    complementary to    -v_i' - e_i v_i >= 0        v_i' = v_i + dv_i
+/// ```
+///
+/// With both pushing P_1 = m ((1 + m/M) a_1 - m/M a_2)/(1 + 2 m/M), a_i = (1 + e_i) v_i, and likewise P_2. Where that is negative for the second,
+/// the carriage is taken away from it fast enough by the first: P_1 = a_1/(1/m + 1/M), P_2 = 0.
+#[test]
+fn two_drawers_on_a_carriage_reach_their_stops_together() {
+    let stop = "mu = 0\ntravel = [-3, 0]\nstop = { restitution = 0 }";
+    let mut alone = 0;
+    for (large, m) in [(1.0, 4.0), (5.0, 2.0), (0.5, 8.0)] {
+        for (v, e) in [([2.0, 2.0], [0.5, 0.5]), ([2.0, 2.0], [1.0, 0.0]), ([1.0, 3.0], [0.2, 0.9])] {
+            let found = impact_of(
+                &carriage([large, m], 0.0, [stop, stop], [0.7, v[0], v[1]]),
+                &[("rail_1", e[0]), ("rail_2", e[1])],
+            );
+            let a = [0, 1].map(|i: usize| (1.0 + e[i]) * v[i]);
+            let together = |own: f64, other: f64| {
+                m * ((1.0 + m / large) * own - m / large * other) / (1.0 + 2.0 * m / large)
+            };
+            let mut expected = [together(a[0], a[1]), together(a[1], a[0])];
+            for i in 0..2 {
+                if expected[1 - i] < 0.0 {
+                    alone += 1;
+                    expected[1 - i] = 0.0;
+                    expected[i] = a[i] / (1.0 / m + 1.0 / large);
+                    assert!(expected[i] / large - v[1 - i] >= e[1 - i] * v[1 - i]);
+                    break;
+                }
+            }
+            let pushed = (expected[0] + expected[1]) / large;
+            let after = [0, 1].map(|i: usize| v[i] - expected[i] / m - pushed);
+            close(&impulses(&found), &expected, 1e-9);
+            close(&found.after.rates, &[0.7 + pushed, after[0], after[1]], 1e-9);
+        }
+    }
+    assert!(alone >= 3, "{alone}");
+}
+
+/// The same with friction: the mass centres of the drawers are c from their rails, so that the front and rear contacts, L apart, are pressed by m |dv| c/L
+/// each while a drawer is slowed down by dv. With kappa = 2 mu c/L friction kappa m |dv| helps the stop until the drawer stands, and works
+/// against it while it comes back:
+///
+/// ```text
+/// P = m v/(1 + 2 m/M) ((1 - kappa) + e (1 + kappa))
+/// ```
+///
+/// because with equal drawers (and by symmetry no moment on the carriage) m dv = -m v/(1 + 2 m/M) until they stand.
+#[test]
+fn friction_acts_while_two_equal_drawers_are_stopped() {
+    let (large, m, c, v, e) = (3.0, 2.0, 0.2, 1.5, 0.6);
+    for mu in [0.0, 0.2, 0.5, 1.0] {
+        let stop = format!("mu = {mu:?}\ntravel = [-3, 0]\nstop = {{ restitution = {e} }}");
+        let text = carriage([large, m], c, [&stop, &stop], [0.0, v, v]);
+        let found = impact_of(&text, &[("rail_1", e), ("rail_2", e)]);
+        let kappa = 2.0 * mu * c / 0.5;
+        let reduced = m / (1.0 + 2.0 * m / large);
+        let impulse = reduced * v * ((1.0 - kappa) + e * (1.0 + kappa));
+        close(&impulses(&found), &[impulse, impulse], 1e-9);
+        let carriage_after = 2.0 * reduced * v * (1.0 + e) / large;
+        close(&found.after.rates, &[carriage_after, -e * v, -e * v], 1e-9);
+        assert!((found.blows[0].energy_lost - reduced * v * v * (1.0 - e * e)).abs() < 1e-9);
+    }
+    // In motion: both are hit in one event, 0.3 m further on.
+    let stop = "mu = 0.2\ntravel = [-3, 0.3]\nstop = { restitution = 0.6 }";
+    let history = run(&carriage([large, m], c, [stop, stop], [0.0, v, v]), 0.4);
+    assert_eq!(history.end, End::Finished);
+    let told: Vec<&Cause> = history.events.iter().flat_map(|event| &event.causes).collect();
+    let hits = told.iter().filter(|cause| matches!(cause, Cause::Hits { .. })).count();
+    assert_eq!(hits, 2, "{told:?}");
+    assert!((history.events[1].time - 0.3 / v).abs() < 1e-9, "{}", history.events[1].time);
+    let rates = &history.reader().at(0.4).unwrap().configuration.rates;
+    let reduced = m / (1.0 + 2.0 * m / large);
+    close(rates, &[2.0 * reduced * v * (1.0 + e) / large, -e * v, -e * v], 1e-8);
 }

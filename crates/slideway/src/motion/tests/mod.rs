@@ -33,16 +33,20 @@ fn mechanism_of(text: &str) -> Mechanism {
     Mechanism::new(&Model::parse(text).unwrap()).unwrap()
 }
 
-fn run(text: &str, options: &SimulateOptions) -> History {
+/// A motion, decided in two ways.
+fn both(text: &str, options: &SimulateOptions) -> [History; 2] {
     let mechanism = mechanism_of(text);
     let configuration = Configuration::new(&mechanism).unwrap();
     let with = |decisions: &mut dyn Decisions| {
         simulate_with(&mechanism, &configuration, options, decisions, &mut |_| ControlFlow::Continue(()))
             .unwrap()
     };
-    let history = with(&mut Thorough);
-    // Two ways to decide lead to one motion.
-    let other = with(&mut simple::TryAll);
+    [with(&mut Thorough), with(&mut simple::TryAll)]
+}
+
+/// A motion; two ways to decide lead to it.
+fn run(text: &str, options: &SimulateOptions) -> History {
+    let [history, other] = both(text, options);
     assert_eq!(history.end, other.end);
     assert_eq!(history.events.len(), other.events.len());
     for (one, other) in history.events.iter().zip(&other.events) {

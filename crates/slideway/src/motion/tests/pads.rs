@@ -2,6 +2,7 @@
 
 use super::models::{block, stacked, with_stop};
 use crate::fault::FaultKind;
+use crate::limits::{LimitsOptions, limits};
 use crate::model::{Model, Settings};
 use crate::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
 use crate::solve::solve;
@@ -320,4 +321,57 @@ fn a_reversal_without_friction_is_told_by_the_next_event() {
     let told = words(&history).join("\n");
     assert!(told.contains("guide has reversed since the last event"), "{told}");
     assert!(!told.contains("guide reverses"), "{told}");
+}
+
+/// A block of 2 kg whose mass centre is c = L = 0.2 m above its guide slides into a pad of k = 5000 N/m and damping b at 1 m/s. The balance of moments
+/// about the middle of the guide is `(N_front - N_rear) L/2 = m a c` with the deceleration `m a = k d + b d' + mu m g` while both are pressed
+/// down, so that the rear end changes side where `m a = m g L/(2 c)`, that is `k d + b d' = m g (1/2 - mu) = 8 N`.
+#[test]
+fn limits_know_where_a_pad_tips_a_block() {
+    let text = |damping: f64| {
+        let stop = format!("{{ greatest = {{ stiffness = \"k\", damping = {damping:?} }} }}");
+        with_stop(&block("0.1", "rate = 1", ""), &stop)
+            .replace("W = [-3, 0]", "W = [0, 0.2]\n[parameters]\nk = \"5000 N/m\"")
+            .replace("centre_of_mass = \"C\"", "centre_of_mass = \"W\"")
+            .replace("points = [\"C\"]", "points = [\"C\", \"W\"]")
+    };
+    let changes = |model: &Model, vary: &str| {
+        let options = LimitsOptions { effort: 0, ..LimitsOptions::of(vary) };
+        let report = limits(model, &options).unwrap();
+        let counts: Vec<usize> = report.counts.iter().map(|count| count.solutions).collect();
+        assert_eq!(counts, [1], "{vary}");
+        let modes: Vec<&str> = report.modes.iter().map(|mode| mode.pattern.as_str()).collect();
+        assert_eq!(modes, ["++", "+-"], "{vary}");
+        report.modes[0].to.unwrap()
+    };
+    // 1.6 mm deep; with damping b d' = 2 N it is 1.2 mm, with 20 N where the force jumps.
+    for (damping, place) in [(0.0, 1.0016), (2.0, 1.0012), (20.0, 1.0)] {
+        let model = Model::parse(&text(damping)).unwrap();
+        let found = changes(&model, "x=0.9..1.01");
+        assert!((found - place).abs() < 1e-12, "{damping} {found}");
+    }
+    // At 2 mm of depth it is a stiffness of 4 kN/m, or of 3 kN/m with 2 N of damping.
+    for (damping, stiffness) in [(0.0, 4000.0), (2.0, 3000.0)] {
+        let model = Model::parse(&text(damping)).unwrap();
+        let there = model.with(&Settings::default().position("x", "1.002 m")).unwrap();
+        let found = changes(&there, "k=100 N/m..10000 N/m");
+        assert!((found - stiffness).abs() < 1e-6, "{damping} {found}");
+    }
+}
+
+/// At rest in the pad friction mu m g = 2 N holds it against k d: at 0.5 mm against 0.8 times 2.5 N, at 0.2 mm against twice 1 N.
+#[test]
+fn hold_knows_by_which_factor_a_pad_is_held() {
+    let text = with_stop(&block("0.1", "", ""), "{ greatest = { stiffness = 5000, damping = 10 } }");
+    for (depth, factor) in [(5e-4, 0.8), (2e-4, 2.0)] {
+        let settings = Settings::default().position("x", &format!("{} m", 1.0 + depth));
+        let model = Model::parse(&text).unwrap().with(&settings).unwrap();
+        let options = HoldOptions { load: Some("guide.greatest_pad".to_owned()), ..HoldOptions::default() };
+        let report = hold(&model, &options).unwrap();
+        assert_eq!(report.holds, factor > 1.0);
+        let held = &report.load.unwrap().held;
+        assert_eq!(held.len(), 1, "{held:?}");
+        let [from, to] = [held[0].least, held[0].greatest].map(Option::unwrap);
+        assert!((from + factor).abs() < 1e-9 && (to - factor).abs() < 1e-9, "{from} {to}");
+    }
 }

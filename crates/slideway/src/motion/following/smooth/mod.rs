@@ -128,6 +128,11 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.watch.magnitudes.velocity
     }
 
+    /// Forces below this are rounding beside the greatest so far (N).
+    pub(in crate::motion) fn rounding(&self) -> f64 {
+        self.watch.rounding()
+    }
+
     /// The time in which the greatest velocity so far goes through the mechanism (s).
     pub(in crate::motion) fn time_scale(&self) -> f64 {
         self.equations.mechanism.size / self.greatest_velocity()
