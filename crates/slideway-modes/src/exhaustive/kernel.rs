@@ -397,7 +397,7 @@ pub(super) struct Equation {
 }
 
 impl Equation {
-    /// The unknown at the pivot.
+    /// The unknown at the pivot; its error is infinite where the pivot may be zero.
     pub(super) fn solve(&self, coefficients: impl Iterator<Item = f64>, unknowns: &[Unknown]) -> Unknown {
         let (mut value, mut size) = (self.load, self.load.abs());
         let mut error = self.bound;
@@ -408,7 +408,11 @@ impl Equation {
         }
         error += (unknowns.len() as f64 + 4.0) * UNIT * size;
         let y = value / self.pivot;
-        let error = (error + y.abs() * self.bound) / (self.pivot.abs() - self.bound) + 8.0 * UNIT * y.abs();
+        let certain = self.pivot.abs() - self.bound;
+        if certain <= 0.0 || certain.is_nan() {
+            return Unknown { value: y, error: f64::INFINITY };
+        }
+        let error = (error + y.abs() * self.bound) / certain + 8.0 * UNIT * y.abs();
         Unknown { value: y, error: error * ROUNDED_UP + f64::MIN_POSITIVE }
     }
 }

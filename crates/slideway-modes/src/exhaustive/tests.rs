@@ -69,6 +69,14 @@ fn back_substitution_is_wrong_by_its_bound_at_most() {
     }
 }
 
+#[test]
+fn an_unknown_whose_pivot_may_be_zero_may_be_anything() {
+    for bound in [1.0, 2.0, f64::INFINITY] {
+        let equation = Equation { load: -1.0, pivot: 1.0, bound };
+        assert_eq!(equation.solve(std::iter::empty(), &[]).error, f64::INFINITY);
+    }
+}
+
 fn determinant(m: [[f64; 3]; 3]) -> f64 {
     let minor = |i: usize, j: usize| m[1][i] * m[2][j] - m[1][j] * m[2][i];
     m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1)
