@@ -73,6 +73,8 @@ pub(super) struct Kernel {
     instructions: Instructions,
     /// Places that the kernel decides.
     places: usize,
+    /// How many of them, above those of Cramer's rule, hold contacts whose negative side has no solution.
+    padded: u32,
     levels: Vec<Level>,
     pivots: Vec<Pivot>,
     origins: Vec<Origin>,
@@ -95,6 +97,7 @@ impl Kernel {
         Self {
             instructions: layout.instructions,
             places,
+            padded: layout.padding().saturating_sub(CRAMER) as u32,
             levels: (0..=places).map(level).collect(),
             pivots: vec![pivot; places],
             origins: vec![Origin::default(); LANES],
@@ -155,7 +158,7 @@ impl Kernel {
     /// Visits all patterns of the kernel's places. From one to the next, only the lowest places are decided anew.
     #[inline(always)]
     fn descend<const FUSED: bool>(&mut self) {
-        for index in 0..1_usize << (self.places - CRAMER) {
+        for index in (0..1_usize << (self.places - CRAMER)).step_by(1 << self.padded) {
             let anew = if index == 0 { self.places - CRAMER } else { index.trailing_zeros() as usize + 1 };
             for place in (CRAMER..CRAMER + anew).rev() {
                 let side = index >> (place - CRAMER) & 1;

@@ -34,6 +34,11 @@ impl Layout {
         Self { padding, order, plain, instructions }
     }
 
+    /// Places below those of the problem's own contacts.
+    pub(super) fn padding(&self) -> usize {
+        self.padding
+    }
+
     pub(super) fn places(&self) -> usize {
         self.padding + self.order.len()
     }

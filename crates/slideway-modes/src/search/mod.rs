@@ -64,7 +64,6 @@ mod propagation;
 mod relaxation;
 mod report;
 mod result;
-mod sieve;
 mod simplex;
 mod states;
 #[cfg(test)]
