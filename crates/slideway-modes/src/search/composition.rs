@@ -9,10 +9,9 @@ use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
 use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
-use crate::certificate::{Interval, ProblemView};
-use crate::problem::Side;
-use crate::scaling::patterns_of;
-use crate::solutions::{Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern};
+use crate::interval::Interval;
+use crate::problem::{ContactState, ProblemView, Side, SolutionSet, patterns_of};
+use crate::solutions::{Certificate, SingularMode, Solutions, UndecidedPattern};
 
 /// A problem of so few patterns is not split into groups, so that the outcome of each is known.
 const WHOLE_UP_TO: u64 = 64;

@@ -6,8 +6,7 @@ use super::monitor::Monitor;
 use super::report::PatternShares;
 use super::tree::TreeReport;
 use crate::exhaustive::screen;
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// Decides all patterns in the order of enumeration, but for those that [`screen`] proves to have no solution. Without
 /// `certify` each is solved within tolerances.
