@@ -7,9 +7,9 @@ use crate::problem::{ContactState, ModeProblem, ScaledProblem};
 use crate::solutions::{Limits, Solutions};
 
 /// A pivot below this fraction of its column's largest entry makes the patterns below suspect.
-const SUSPECT_PIVOT: f64 = 1e-7;
+pub(crate) const SUSPECT_PIVOT: f64 = 1e-7;
 /// Negative values within this fraction of their terms' size are left to the careful solution.
-const SLACK: f64 = 1e-9;
+pub(crate) const SLACK: f64 = 1e-9;
 
 /// A problem too large for the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

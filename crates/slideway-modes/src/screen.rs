@@ -4,14 +4,13 @@
 //! boundary, where elimination alone decides every pattern. This tree allocates nothing, and gives up the whole problem as
 //! soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a problem needs the careful search.
 
+use crate::enumeration::{self, SUSPECT_PIVOT};
 use crate::problem::{ContactState, Side};
 
 /// Largest number of contacts.
 pub const MOST_CONTACTS: usize = 8;
-/// A pivot below this fraction of its column's largest entry leaves the patterns below in doubt.
-const SUSPECT_PIVOT: f64 = 1e-7;
 /// Unknowns within this fraction of their terms' size are in doubt.
-pub const SLACK: f64 = 1e-9;
+pub const SLACK: f64 = enumeration::SLACK;
 /// The right-hand side, and three columns for each contact.
 const WIDTH: usize = 1 + 3 * MOST_CONTACTS;
 

@@ -88,14 +88,10 @@ impl<'a, T: Send> Run<'a, T> {
         for _ in self.subtree_places()..node.places {
             nodes = nodes.par_iter().flat_map_iter(|node| node.children(&self.layout)).collect();
         }
-        let results: Vec<Option<Vec<T>>> = match &nodes[..] {
-            // Asking other threads for help takes longer than a small problem.
-            [node] => vec![self.screen_subtree(&mut Kernel::new(&self.layout), node)],
-            nodes => nodes
-                .par_iter()
-                .map_init(|| Kernel::new(&self.layout), |kernel, node| self.screen_subtree(kernel, node))
-                .collect(),
-        };
+        let results: Vec<Option<Vec<T>>> = nodes
+            .par_iter()
+            .map_init(|| Kernel::new(&self.layout), |kernel, node| self.screen_subtree(kernel, node))
+            .collect();
         for (node, result) in nodes.iter().zip(results) {
             let Some(result) = result else { return ControlFlow::Break(()) };
             let patterns = self.layout.patterns_below(node.places).unwrap_or_default();

@@ -4,12 +4,11 @@ use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::monitor::Monitor;
 use super::report::PatternShares;
+use super::sieve::Sieve;
 use super::tree::TreeReport;
-use crate::exhaustive::screen;
 use crate::problem::{ContactState, ScaledProblem};
 
-/// Decides all patterns in the order of enumeration, but for those that [`screen`] proves to have no solution. Without
-/// `certify` each is solved within tolerances.
+/// Decides all patterns in the order of enumeration. Without `certify` each is solved within tolerances.
 pub(super) fn try_all(
     loaded: &LoadedProblem<'_>,
     scaled: &ScaledProblem,
@@ -17,18 +16,14 @@ pub(super) fn try_all(
     certify: bool,
     monitor: &mut Monitor<'_>,
 ) -> TreeReport {
-    let remaining = certify.then(|| screen(loaded.view()).remaining);
-    let is_excluded = |pattern: &[ContactState]| {
-        let pattern = pattern.iter().copied().collect();
-        remaining.as_ref().is_some_and(|remaining| remaining.binary_search(&pattern).is_err())
-    };
+    let mut sieve = if certify { Sieve::new(loaded.view()) } else { None };
     let share = 1.0 / scaled.patterns_from(0).1 as f64;
     let mut report = TreeReport::default();
     let mut pattern = vec![ContactState::Positive; scaled.contacts()];
     let mut more = true;
     while more && monitor.visit(report.nodes as f64 * share, leaves.found()) {
         report.nodes += 1;
-        if is_excluded(&pattern) {
+        if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&pattern)) {
             leaves.exclude(&pattern);
         } else if let Err(reason) = leaves.examine(&pattern, monitor) {
             monitor.stop(reason);

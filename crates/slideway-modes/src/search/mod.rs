@@ -64,6 +64,7 @@ mod propagation;
 mod relaxation;
 mod report;
 mod result;
+mod sieve;
 mod simplex;
 mod states;
 #[cfg(test)]
