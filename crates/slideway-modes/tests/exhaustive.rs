@@ -265,9 +265,8 @@ fn columns_of_very_different_sizes_drop_nothing() {
     for seed in 0..40 {
         let n = if seed % 2 == 0 { 3 } else { 9 };
         let (problem, jumps) = random_jumps(n, if n == 3 { seed / 2 } else { 0 }, seed);
-        let scaled = |matrix: &DMatrix<f64>| {
-            DMatrix::from_fn(n, n, |i, k| matrix[(i, k)] * f64::from(60 * ((k + 1) % 3) as i32).exp2())
-        };
+        let sizes = [60.0, 120.0, 0.0].map(f64::exp2);
+        let scaled = |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, k| matrix[(i, k)] * sizes[k % 3]);
         let [positive, negative] = Side::BOTH.map(|side| scaled(problem.columns(side)));
         let [d_positive, d_negative] = Side::BOTH.map(|side| problem.jumps(side).clone());
         let load = problem.right_hand_side().clone();
