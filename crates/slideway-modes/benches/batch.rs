@@ -3,7 +3,7 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use nalgebra::{DMatrix, DVector, dvector};
-use slideway_modes::batch::{BatchSolutions, CoefficientBatch, FrictionBatch, PointCoefficients};
+use slideway_modes::batch::{BatchSolutions, FrictionBatch};
 use slideway_modes::{BySide, InfluenceCoefficients, Limits, Side, enumerate};
 
 const POINTS: usize = 4096;
@@ -134,24 +134,7 @@ fn random_friction(bencher: Bencher<'_, '_>, contacts: usize) {
     bench_friction(bencher, &random_structure(contacts), contacts, false);
 }
 
-/// Every coefficient changes.
-#[divan::bench(args = [2, 3, 4, 6, 8])]
-fn random_coefficients(bencher: Bencher<'_, '_>, contacts: usize) {
-    let mut random = random_numbers();
-    let mut numbers = |count: usize| -> Vec<f64> { (0..count).map(|_| 2.0 * random() - 1.0).collect() };
-    let square = contacts * contacts * POINTS;
-    let (positive, negative, load) = (numbers(square), numbers(square), numbers(contacts * POINTS));
-    let points = PointCoefficients {
-        columns: BySide { positive: &positive, negative: &negative },
-        jumps: BySide::same(&[]),
-        right_hand_side: &load,
-    };
-    let batch = CoefficientBatch::new(contacts, &[]).expect("few contacts");
-    let mut solutions = BatchSolutions::default();
-    bencher.counter(ItemsCount::new(POINTS)).bench_local(|| batch.solve(&points, &mut solutions));
-}
-
-/// The same points one by one, for comparison.
+/// The points of `paper_friction` one by one, for comparison.
 #[divan::bench(sample_count = 10)]
 fn paper_enumerated(bencher: Bencher<'_, '_>) {
     let batch = FrictionBatch::new(&paper(0.0), &[0]).expect("few contacts");

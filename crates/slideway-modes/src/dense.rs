@@ -12,19 +12,19 @@ const BETWEEN: usize = 1 << 23;
 const PANEL: usize = 128;
 
 /// Asks whether to go on, not too often.
-pub(super) struct Pace<'p> {
+pub(crate) struct Pace<'p> {
     proceed: &'p mut dyn FnMut() -> bool,
     /// Multiplications since it was asked.
     since: usize,
 }
 
 impl<'p> Pace<'p> {
-    pub(super) fn new(proceed: &'p mut dyn FnMut() -> bool) -> Self {
+    pub(crate) fn new(proceed: &'p mut dyn FnMut() -> bool) -> Self {
         Self { proceed, since: 0 }
     }
 
     /// Whether so many multiplications may follow.
-    pub(super) fn allows(&mut self, multiplications: usize) -> bool {
+    pub(crate) fn allows(&mut self, multiplications: usize) -> bool {
         self.since = self.since.saturating_add(multiplications);
         if self.since < BETWEEN {
             return true;
@@ -34,13 +34,13 @@ impl<'p> Pace<'p> {
     }
 
     /// What is asked, for work that has a pace of its own.
-    pub(super) fn proceed(&mut self) -> &mut dyn FnMut() -> bool {
+    pub(crate) fn proceed(&mut self) -> &mut dyn FnMut() -> bool {
         self.proceed
     }
 }
 
 /// `left right`.
-pub(super) fn product(
+pub(crate) fn product(
     left: &DMatrix<f64>,
     right: &DMatrix<f64>,
     proceed: &mut dyn FnMut() -> bool,
@@ -61,7 +61,7 @@ pub(super) fn product(
 }
 
 /// An approximate inverse; none if there is none, either.
-pub(super) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
+pub(crate) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
     if matrix.nrows().saturating_pow(3) <= BETWEEN {
         // Inverses of up to four rows have formulas of their own.
         return matrix.try_inverse();
@@ -70,7 +70,7 @@ pub(super) fn inverse(matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -
 }
 
 /// Whether the Cholesky factorization of a symmetric matrix runs to its end. Only the lower triangle is used.
-pub(super) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> bool {
+pub(crate) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> bool {
     let mut pace = Pace::new(proceed);
     let size = matrix.nrows();
     for column in 0..size {
@@ -94,7 +94,7 @@ pub(super) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn Fn
 
 /// The shortest `v` with `C^T v = products`, from an orthonormal basis `Q` of the columns of `C` (Gram-Schmidt, each
 /// column twice).
-pub(super) fn shortest_with_products(
+pub(crate) fn shortest_with_products(
     mut columns: DMatrix<f64>,
     products: &DVector<f64>,
     proceed: &mut dyn FnMut() -> bool,
@@ -119,13 +119,13 @@ pub(super) fn shortest_with_products(
 }
 
 /// `P A = L U` with partial pivoting.
-pub(super) struct Lu {
+pub(crate) struct Lu {
     factors: DMatrix<f64>,
     rows: PermutationSequence<Dyn>,
 }
 
 impl Lu {
-    pub(super) fn new(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
+    pub(crate) fn new(mut matrix: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
         let mut pace = Pace::new(proceed);
         let size = matrix.nrows();
         let mut rows = PermutationSequence::identity_generic(Dyn(size));
@@ -154,14 +154,14 @@ impl Lu {
     }
 
     /// `A^-1 b`; none if a pivot is zero.
-    pub(super) fn solve(&self, right_hand_side: &DVector<f64>) -> Option<DVector<f64>> {
+    pub(crate) fn solve(&self, right_hand_side: &DVector<f64>) -> Option<DVector<f64>> {
         let mut solution = right_hand_side.clone();
         self.rows.permute_rows(&mut solution);
         self.substitute(&mut solution.column_mut(0)).then_some(solution)
     }
 
     /// `A^-1`; none if a pivot is zero.
-    pub(super) fn inverse(&self, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
+    pub(crate) fn inverse(&self, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
         let mut pace = Pace::new(proceed);
         let size = self.factors.nrows();
         let mut inverse = DMatrix::identity(size, size);
@@ -175,12 +175,12 @@ impl Lu {
     }
 
     /// The pivots, whose product is the determinant of `P A`.
-    pub(super) fn pivots(&self) -> DVector<f64> {
+    pub(crate) fn pivots(&self) -> DVector<f64> {
         self.factors.diagonal()
     }
 
     /// The determinant of `P`.
-    pub(super) fn sign_of_order(&self) -> f64 {
+    pub(crate) fn sign_of_order(&self) -> f64 {
         self.rows.determinant()
     }
 

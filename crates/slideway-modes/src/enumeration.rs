@@ -2,46 +2,14 @@
 
 use nalgebra::DVector;
 
-use super::findings::Findings;
-use super::problem::ModeProblem;
-use super::scaling::ScaledProblem;
-use super::solutions::{ContactState, Solutions};
+use crate::findings::{Findings, TooManySolutions};
+use crate::problem::{ContactState, ModeProblem, ScaledProblem};
+use crate::solutions::{Limits, Solutions};
 
 /// A pivot below this fraction of its column's largest entry makes the patterns below suspect.
-const SUSPECT_PIVOT: f64 = 1e-7;
+pub(crate) const SUSPECT_PIVOT: f64 = 1e-7;
 /// Negative values within this fraction of their terms' size are left to the careful solution.
-const SLACK: f64 = 1e-9;
-
-/// How much an enumeration may do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Largest number of contacts.
-    pub contacts: usize,
-    /// Largest number of patterns, `2^(r-j) 3^j` with `j` contacts at which the right-hand side jumps.
-    pub patterns: u64,
-    /// Largest number of solutions and gap states; one that several patterns share counts once.
-    pub solutions: usize,
-    /// Largest number of patterns listed with one solution or one singular set.
-    pub listed: usize,
-    /// Largest number of (nearly) singular patterns that are examined; more are only counted.
-    pub singular: usize,
-    /// Largest number of bases tried, over all singular patterns, to describe what they admit.
-    pub bases: u64,
-}
-
-impl Default for Limits {
-    /// 24 contacts, 50 million patterns, 100 000 solutions.
-    fn default() -> Self {
-        Self {
-            contacts: 24,
-            patterns: 50_000_000,
-            solutions: 100_000,
-            listed: 1024,
-            singular: 10_000,
-            bases: 200_000,
-        }
-    }
-}
+pub(crate) const SLACK: f64 = 1e-9;
 
 /// A problem too large for the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -74,6 +42,12 @@ pub enum EnumerationError {
         /// [`Limits::solutions`].
         limit: usize,
     },
+}
+
+impl From<TooManySolutions> for EnumerationError {
+    fn from(TooManySolutions { limit }: TooManySolutions) -> Self {
+        Self::TooManySolutions { limit }
+    }
 }
 
 /// All solutions of a mode problem, and the outcome of each of its patterns.
@@ -112,7 +86,7 @@ pub fn enumerate(problem: &ModeProblem, limits: &Limits) -> Result<Solutions, En
         let limit = limits.patterns;
         return Err(EnumerationError::TooManyPatterns { contacts, with_jump, patterns, limit });
     }
-    let mut tree = Tree::new(&scaled, limits);
+    let mut tree = PatternTree::new(&scaled, limits);
     if contacts == 0 {
         tree.leaf()?;
     } else {
@@ -139,7 +113,7 @@ struct Level {
     determinant: f64,
 }
 
-struct Tree<'a> {
+struct PatternTree<'a> {
     problem: &'a ScaledProblem,
     /// Where the columns of each contact start in a row: `c_k^+`, `c_k^-`, and with a jump
     /// `d_k^+ - d_k^-`.
@@ -155,7 +129,7 @@ struct Tree<'a> {
     findings: Findings<'a>,
 }
 
-impl<'a> Tree<'a> {
+impl<'a> PatternTree<'a> {
     fn new(problem: &'a ScaledProblem, limits: &Limits) -> Self {
         let contacts = problem.contacts();
         let mut starts = vec![1; contacts];
@@ -260,7 +234,7 @@ impl<'a> Tree<'a> {
         if self.findings.count_unloaded(&self.pattern) {
             Ok(())
         } else if self.may_be_solution() {
-            self.findings.examine_candidate(&self.pattern, &mut || true)
+            Ok(self.findings.examine_candidate(&self.pattern, &mut || true)?)
         } else {
             self.findings.count_no_solution(self.in_gap > 0);
             Ok(())

@@ -66,59 +66,57 @@
 //! jumps can also rest between their faces; such states are listed apart, in [`Solutions::gaps`].
 //!
 //! # Files
-//! `problem.rs` is the input, `scaling.rs` its units, `enumeration.rs` the tree, `candidate.rs` the careful
-//! solution of one pattern, `degenerate.rs` singular patterns, `findings.rs` gathers (`found.rs` is one
-//! state, `decided.rs` files what is proven), `solutions.rs` is the output; `support.rs` decides which set of
-//! solutions is part of which, `admitted.rs` is what a singular pattern admits, `dense.rs` has factorizations
-//! and products that can be ended. `search/` finds all solutions of exact problems and of problems within
-//! bounds, and proves them: groups of contacts, every pattern of small groups (`every.rs`, with the fast test
-//! of `sieve.rs`), cheap proofs of uniqueness, cells of a low-rank coupling, else branch and bound with
-//! interval propagation and a linear relaxation. `certificate/` decides single patterns by proof and verifies
-//! exclusions. `solve` searches; `enumerate` remains as the simple oracle of the tests. `existence/` finds
-//! the intervals of a parameter in which modes exist, without scanning. `exhaustive/` screens every pattern
-//! with a rigorous error bound and proves what is left: `layout.rs` orders contacts and scales the equations,
-//! `upper.rs` is the tree near its root, `kernel.rs` its last levels, `leaf.rs` the last contacts,
-//! `instructions.rs` what the processor can do, `run.rs` shares subtrees among threads. `uniqueness/` decides
-//! whether there is one solution for every load. `batch/` solves very many points of one structure:
-//! `friction.rs` and `coefficients.rs` compute determinants, `kernel.rs` judges their signs.
+//! From the ground up; a module knows only those before it.
+//!
+//! - `error_free.rs` (what rounding takes), `dense.rs` (factorizations and products that can be ended), `interval/`,
+//!   `interval_matrix.rs`: numbers.
+//! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances are plain numbers.
+//! - `certificate/`: one pattern decided by proof; proofs that sets of patterns are empty.
+//! - `solutions/`: what is told of a problem; `support.rs` decides which set of solutions is part of which.
+//! - `findings/`: what patterns admit, gathered and counted; patterns decided within tolerances.
+//! - All patterns: `search/` finds all solutions of exact problems and of problems within bounds, and proves them (groups of
+//!   contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank coupling, else branch and bound
+//!   with interval propagation and a linear relaxation). `exhaustive/` screens every pattern with a rigorous error bound.
+//!   `enumeration.rs` is the tree within tolerances, which maps use and tests compare with. `uniqueness/` decides whether there
+//!   is one solution for every load.
+//! - Very many points: `batch/` (one structure, friction varies), `screen.rs` (small problems one after another).
+//! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without scanning.
+//! - `raw_problem/`: problems as they are written.
 
-mod admitted;
 pub mod batch;
-mod candidate;
 pub mod certificate;
-mod contact_set;
-mod decided;
-mod degenerate;
 mod dense;
 mod enumeration;
+mod error_free;
 pub mod exhaustive;
 pub mod existence;
 mod findings;
-mod found;
 pub mod interval;
+mod interval_matrix;
 pub mod names;
 pub mod printable;
 mod problem;
 pub mod progress;
 pub mod raw_problem;
-mod scaling;
 pub mod screen;
 mod search;
 mod solutions;
 mod status;
-mod support;
 mod uniqueness;
 
-pub use enumeration::{EnumerationError, Limits, enumerate};
-pub use problem::{BySide, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side};
+pub use enumeration::{EnumerationError, enumerate};
+pub use problem::{
+    BySide, ContactState, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side,
+    SolutionSet,
+};
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,
     GroupReport, GroupState, Method, PatternOutcomes, PatternShares, SearchOptions, SearchResult,
     SolutionProduct, StateCounts, StateKind, StateLists, StateSet, StopReason, search,
 };
 pub use solutions::{
-    Certificate, ClosestMode, ContactState, GapShare, GapState, ModeSolution, PatternCounts, SingularMode,
-    SolutionSet, Solutions, UndecidedPattern,
+    Certificate, ClosestMode, GapShare, GapState, Limits, ModeSolution, PatternCounts, SingularMode,
+    Solutions, UndecidedPattern,
 };
 pub use status::Status;
 pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};

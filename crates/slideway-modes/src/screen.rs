@@ -1,18 +1,16 @@
-//! Small problems one after another in reused memory: the tree of [`super::enumerate`] without its findings.
+//! Small problems one after another in reused memory: the tree of [`crate::enumerate`] without its findings.
 //!
 //! A sweep asks for the solutions of very many problems of the same few contacts. Nearly all of them are far from any
 //! boundary, where elimination alone decides every pattern. This tree allocates nothing, and gives up the whole problem as
 //! soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a problem needs the careful search.
 
-use super::problem::Side;
-use super::solutions::ContactState;
+use crate::enumeration::{self, SUSPECT_PIVOT};
+use crate::problem::{ContactState, Side};
 
 /// Largest number of contacts.
 pub const MOST_CONTACTS: usize = 8;
-/// A pivot below this fraction of its column's largest entry leaves the patterns below in doubt.
-const SUSPECT_PIVOT: f64 = 1e-7;
 /// Unknowns within this fraction of their terms' size are in doubt.
-pub const SLACK: f64 = 1e-9;
+pub const SLACK: f64 = enumeration::SLACK;
 /// The right-hand side, and three columns for each contact.
 const WIDTH: usize = 1 + 3 * MOST_CONTACTS;
 
@@ -359,7 +357,9 @@ impl SmallState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Limits, ModeProblem, enumerate};
+    use crate::enumeration::enumerate;
+    use crate::problem::ModeProblem;
+    use crate::solutions::Limits;
     use nalgebra::{DMatrix, DVector};
 
     /// Numbers from -1 to 1 by a linear congruential generator (Knuth's MMIX constants).

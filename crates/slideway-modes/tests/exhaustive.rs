@@ -259,6 +259,22 @@ fn doubts_do_not_depend_on_the_units_of_loads() {
     }
 }
 
+/// Rounding an equation whose pivot is far smaller than its other entries may change the sign of that pivot.
+#[test]
+fn columns_of_very_different_sizes_drop_nothing() {
+    for seed in 0..40 {
+        let n = if seed % 2 == 0 { 3 } else { 9 };
+        let (problem, jumps) = random_jumps(n, if n == 3 { seed / 2 } else { 0 }, seed);
+        let sizes = [60.0, 120.0, 0.0].map(f64::exp2);
+        let scaled = |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, k| matrix[(i, k)] * sizes[k % 3]);
+        let [positive, negative] = Side::BOTH.map(|side| scaled(problem.columns(side)));
+        let [d_positive, d_negative] = Side::BOTH.map(|side| problem.jumps(side).clone());
+        let load = problem.right_hand_side().clone();
+        let scaled = ModeProblem::new(positive, negative, d_positive, d_negative, load).unwrap();
+        check_against_decisions(&scaled, n, &jumps);
+    }
+}
+
 /// Two contacts jump, by numbers near 1.
 fn doubts_with_jumps(load: f64) -> usize {
     let (jumping, jumps) = random_jumps(8, 0b1000_0010, 7);

@@ -3,8 +3,7 @@
 //! By Cramer's rule `y_k = D_k / D`, where `D_k` has the right-hand side in column `k`. So a pattern
 //! has a solution if no `D_k` has the sign opposite to `D`: no division and no branch.
 
-use super::coefficients::AllPoints;
-use super::friction::FrictionPoints;
+use super::determinants::{FrictionPoints, Workspace, numerator_index};
 use super::lanes::{LANES, Lanes};
 use super::{BatchSolutions, MOST_CONTACTS, words_per_point};
 use std::ops::Range;
@@ -14,76 +13,6 @@ use std::ops::Range;
 const COLUMN_RANGE: (f64, f64) = (1e-12, 1e12);
 const LOAD_RANGE: (f64, f64) = (1e-60, 1e60);
 const SIGN_BIT: u32 = 63;
-
-/// A batch with its points: where determinants come from.
-pub(super) enum Points<'a> {
-    Friction(FrictionPoints<'a>),
-    All(AllPoints<'a>),
-}
-
-impl Points<'_> {
-    fn contacts(&self) -> usize {
-        match self {
-            Self::Friction(points) => points.contacts(),
-            Self::All(points) => points.contacts(),
-        }
-    }
-
-    fn count(&self) -> usize {
-        match self {
-            Self::Friction(points) => points.points(),
-            Self::All(points) => points.points(),
-        }
-    }
-
-    /// Whether the numerators `D_k` are held for both sides of contact `k`.
-    fn both_sides(&self) -> bool {
-        match self {
-            Self::Friction(points) => points.both_sides(),
-            Self::All(points) => points.both_sides(),
-        }
-    }
-
-    /// Buffers, and whatever is the same for all points.
-    fn workspace(&self) -> Workspace {
-        match self {
-            Self::Friction(points) => points.workspace(),
-            Self::All(points) => points.workspace(),
-        }
-    }
-
-    /// `D` and `D_k` of all patterns, and the sums that their error bounds are made of.
-    #[inline(always)]
-    fn evaluate<const FUSED: bool>(&self, at: &[usize; LANES], work: &mut Workspace) {
-        match self {
-            Self::Friction(points) => points.evaluate::<FUSED>(at, work),
-            Self::All(points) => points.evaluate::<FUSED>(at, work),
-        }
-    }
-
-    /// The unit of `D_k / D`.
-    fn load_unit(&self) -> f64 {
-        match self {
-            Self::Friction(points) => points.load_unit(),
-            Self::All(_) => 1.0,
-        }
-    }
-}
-
-/// Buffers for one block of points.
-pub(super) struct Workspace {
-    /// `D` of every pattern, then `D_0` of every pattern, `D_1`, ...
-    pub(super) values: Vec<Lanes>,
-    /// Coefficients of the points.
-    pub(super) loaded: Vec<Lanes>,
-    pub(super) scratch: Vec<Vec<Lanes>>,
-    /// `s_k >= |c_k|_1` for both sides.
-    pub(super) column_sizes: [Lanes; MOST_CONTACTS],
-    /// At least the 1-norm of every right-hand side.
-    pub(super) load_size: Lanes,
-    /// Relative error of every determinant, as a part of the product of its columns' 1-norms.
-    pub(super) relative_error: f64,
-}
 
 /// A solution of a point.
 #[derive(Debug, Clone, Copy)]
@@ -101,28 +30,8 @@ pub struct BatchState<'y> {
 /// What is told of each solution.
 pub(super) type Visitor<'a> = &'a mut dyn FnMut(BatchState<'_>);
 
-/// Number of the numerator `D_k` of a pattern, counted from the first one.
-#[inline(always)]
-pub(super) fn numerator_index(contacts: usize, both_sides: bool, contact: usize, pattern: usize) -> usize {
-    if both_sides {
-        return (contact << contacts) + pattern;
-    }
-    // D_k does not depend on the side of contact k: its bit is left out.
-    let below = pattern & ((1 << contact) - 1);
-    (contact << (contacts - 1)) + (below | (pattern >> 1 & !((1 << contact) - 1)))
-}
-
-/// Factor on the unit roundoff in the bound of the errors of a determinant.
-///
-/// Expansion by columns makes `j` roundings at column `j`; the right-hand side is a sum of `r + 1` vectors, and
-/// columns and their combinations are rounded a few times: `r (r + 1) / 2 + 6 r` at most. The bound has twice as
-/// much.
-pub(super) fn rounding(contacts: usize) -> f64 {
-    ((contacts * (contacts + 1)) / 2 + 6 * contacts) as f64 * f64::EPSILON
-}
-
 /// Fills masks and doubts of all points.
-pub(super) fn run(points: &Points<'_>, solutions: &mut BatchSolutions, visitor: Option<Visitor<'_>>) {
+pub(super) fn run(points: &FrictionPoints<'_>, solutions: &mut BatchSolutions, visitor: Option<Visitor<'_>>) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
         #[expect(
@@ -139,7 +48,7 @@ pub(super) fn run(points: &Points<'_>, solutions: &mut BatchSolutions, visitor: 
 
 /// The same, with the instructions that every processor of the target has.
 pub(super) fn run_baseline(
-    points: &Points<'_>,
+    points: &FrictionPoints<'_>,
     solutions: &mut BatchSolutions,
     visitor: Option<Visitor<'_>>,
 ) {
@@ -148,17 +57,17 @@ pub(super) fn run_baseline(
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn run_avx2(points: &Points<'_>, solutions: &mut BatchSolutions, visitor: Option<Visitor<'_>>) {
+fn run_avx2(points: &FrictionPoints<'_>, solutions: &mut BatchSolutions, visitor: Option<Visitor<'_>>) {
     run_any::<true>(points, solutions, visitor);
 }
 
 #[inline(always)]
 fn run_any<const FUSED: bool>(
-    points: &Points<'_>,
+    points: &FrictionPoints<'_>,
     solutions: &mut BatchSolutions,
     mut visitor: Option<Visitor<'_>>,
 ) {
-    let (contacts, both_sides, count) = (points.contacts(), points.both_sides(), points.count());
+    let (contacts, both_sides, count) = (points.contacts(), points.both_sides(), points.points());
     let words = words_per_point(contacts);
     let mut work = points.workspace();
     let told = Told::new(contacts, both_sides, points.load_unit());

@@ -2,16 +2,14 @@
 //! points at a time.
 //!
 //! [`FrictionBatch`] varies some coefficients of friction of one structure, as a sweep or a Monte
-//! Carlo study does; [`CoefficientBatch`] takes every coefficient anew for every point. Both are
-//! for 1 to 8 contacts, with one or two versions of the columns and with jumps.
+//! Carlo study does, of 1 to 8 contacts, with one or two versions of the columns and with jumps. Where
+//! other numbers change, [`screen`](crate::screen) takes one point after the other.
 //!
 //! # Method
 //! `y_k = D_k / D` by Cramer's rule, so that the signs of determinants decide, without division.
-//! Where only friction changes, `D` and `D_k` are multi-affine in the coefficients of friction
-//! (theory, section 5): their coefficients are computed once, and a contraction for each varied
-//! `mu_k` gives all patterns together. Else determinants are expanded column by column along the
-//! tree of patterns. Both run on eight points at a time, with AVX2 and FMA instructions if the
-//! processor has them. Nothing is allocated per point.
+//! `D` and `D_k` are multi-affine in the coefficients of friction (theory, section 5): their coefficients
+//! are computed once, and a contraction for each varied `mu_k` gives all patterns together, for 32 points
+//! at a time, with AVX2 and FMA instructions if the processor has them. Nothing is allocated per point.
 //!
 //! # Accuracy
 //! Every determinant is compared with a bound of its rounding errors,
@@ -32,17 +30,16 @@
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled without the chosen instructions")]
 #![expect(clippy::needless_range_loop, reason = "loops over lanes run through several arrays at once")]
 
-mod coefficients;
 mod contraction;
+mod determinants;
 mod friction;
 mod kernel;
 mod lanes;
 
-pub use coefficients::{CoefficientBatch, PointCoefficients};
 pub use friction::FrictionBatch;
 pub use kernel::BatchState;
 
-use super::problem::{ModeProblemError, Side};
+use crate::problem::{ModeProblemError, Side};
 
 /// Largest number of contacts of a batch.
 pub const MOST_CONTACTS: usize = 8;

@@ -2,14 +2,13 @@
 
 use nalgebra::DVector;
 
-use super::data::ProblemView;
 use super::elimination::IntegerSystem;
 use super::enclosure::ApproximateInverse;
 use super::exact::ExactSolution;
 use super::polyhedron::ExactSet;
 use super::system::{BoundedVector, PatternSystem};
-use crate::ContactState;
 use crate::interval::{Interval, Sign};
+use crate::problem::{ContactState, ProblemView};
 
 /// Vertices and directions tried, at most, to describe what a singular pattern admits.
 const BASES: u64 = 20_000;
@@ -195,7 +194,7 @@ impl<'a> Approximation<'a> {
     }
 
     /// One step of iterative refinement, and the enclosure that comes with it.
-    fn improve(&mut self, precision: Precision) -> Option<Enclosure> {
+    fn improve(&mut self, precision: Precision) -> Option<SolutionBounds> {
         let residual = match precision {
             Precision::Double => self.system.residual(&self.unknowns),
             Precision::DoubleDouble | Precision::Rational => self.system.accurate_residual(&self.unknowns),
@@ -206,7 +205,7 @@ impl<'a> Approximation<'a> {
             Interval::point(value) + Interval::around(correction, bound)
         });
         let enclosure =
-            Enclosure { unknowns: unknowns.collect(), determinant: self.inverse.determinant_sign() };
+            SolutionBounds { unknowns: unknowns.collect(), determinant: self.inverse.determinant_sign() };
         self.unknowns += centre;
         Some(enclosure)
     }
@@ -234,12 +233,12 @@ impl Approximation<'_> {
 }
 
 /// Bounds of the solution of a regular pattern's equations.
-struct Enclosure {
+struct SolutionBounds {
     unknowns: Vec<Interval>,
     determinant: Sign,
 }
 
-impl Enclosure {
+impl SolutionBounds {
     /// The decision, if no sign is in doubt.
     fn decide(&self, pattern: &[ContactState]) -> Option<Decision> {
         let outside = |(contact, value): (usize, &Interval)| {

@@ -3,9 +3,8 @@
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
-use super::data::ProblemView;
 use crate::interval::Sign;
-use crate::{ContactState, ModeProblem};
+use crate::problem::{ContactState, ModeProblem, ProblemView};
 
 /// Equations `A z = b` as integers, row by row `[A | b]`. Rows are scaled by powers of two.
 pub(super) struct IntegerSystem {

@@ -13,10 +13,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 use super::system::BoundedVector;
 use crate::dense::{self, Pace};
 use crate::interval::{Interval, Sign};
+use crate::interval_matrix::{IntervalMatrix, product, rounding, upper_product, upper_sum};
 
 /// How often a trial bound is enlarged.
 const INFLATIONS: usize = 16;

@@ -5,11 +5,10 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
-use super::data::ProblemView;
 use super::elimination::{Echelon, IntegerSystem};
 use super::polyhedron::ExactSet;
 use crate::interval::{Interval, Sign};
-use crate::{ContactState, ModeProblem};
+use crate::problem::{ContactState, ModeProblem, ProblemView};
 
 /// What the equations of one pattern admit, exactly.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,11 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{Column, ProblemView};
-use super::matrix::inner_product;
 use crate::dense::shortest_with_products;
 use crate::interval::Interval;
-use crate::{ContactState, Side};
+use crate::interval_matrix::inner_product;
+use crate::problem::{Column, ContactState, ProblemView, Side};
 
 /// Products within this fraction of their terms' size may be zero but for rounding and for the bounds
 /// of the data.

@@ -21,14 +21,11 @@
 //! `lambda_k`, `0 <= lambda_k <= 1`. A jump is any difference between `d_k^+` and `d_k^-`, however
 //! small.
 
-mod data;
 mod decision;
 mod elimination;
 mod enclosure;
 mod exact;
 mod exclusion;
-mod influence;
-mod matrix;
 mod norm;
 mod polyhedron;
 mod preconditioned;
@@ -36,8 +33,8 @@ mod propagation;
 mod system;
 
 pub use crate::interval::{Interval, Sign};
-pub(super) use data::{Column, Radii};
-pub use data::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
+pub use crate::interval_matrix::IntervalMatrix;
+pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
@@ -45,8 +42,6 @@ pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
 pub use exclusion::proves_empty;
 pub(super) use exclusion::proves_empty_while;
-pub use influence::IntervalInfluence;
-pub use matrix::IntervalMatrix;
 pub use norm::proves_at_most_one;
 pub use polyhedron::ExactSet;
 pub use propagation::{Propagation, propagate};

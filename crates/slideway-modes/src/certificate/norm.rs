@@ -2,11 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use super::data::ProblemView;
-use super::matrix::{IntervalMatrix, product, rounding};
 use super::preconditioned::BaseSystem;
-use crate::ContactState;
 use crate::dense::has_cholesky_factor;
+use crate::interval_matrix::{IntervalMatrix, product, rounding};
+use crate::problem::{ContactState, ProblemView};
 
 /// Whether the patterns with the given states have at most one solution, because a spectral norm is
 /// below 1.

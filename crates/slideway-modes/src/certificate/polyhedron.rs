@@ -7,7 +7,7 @@ use nalgebra::DVector;
 
 use super::elimination::Echelon;
 use crate::interval::Interval;
-use crate::{ContactState, SolutionSet};
+use crate::problem::{ContactState, SolutionSet};
 
 /// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1`
 /// for a contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
@@ -107,7 +107,7 @@ impl ExactSet {
         if !echelon.is_consistent() {
             return Self::Empty;
         }
-        let limits = Limits::new(echelon, pattern);
+        let limits = WorkLimits::new(echelon, pattern);
         // The set holds no line, so it is empty exactly if it has no vertex.
         let Some(Corners { mut vertices, mut directions }) = limits.corners(bases, proceed) else {
             return Self::NotComputed;
@@ -130,7 +130,7 @@ struct Corners {
 
 /// The solutions of the independent equations, `z_k = constant_k + sum_f coefficient_kf t_f`, where
 /// the parameters `t` are the unknowns without a pivot, and the limits `z_k >= 0`, `lambda_k <= 1`.
-struct Limits {
+struct WorkLimits {
     parameters: usize,
     /// Constant first, then the coefficients of the parameters; one row per unknown.
     unknowns: Vec<Vec<RBig>>,
@@ -138,7 +138,7 @@ struct Limits {
     rows: Vec<Vec<RBig>>,
 }
 
-impl Limits {
+impl WorkLimits {
     fn new(echelon: &Echelon, pattern: &[ContactState]) -> Self {
         let contacts = pattern.len();
         let free: Vec<usize> = (0..contacts).filter(|column| !echelon.pivots().contains(column)).collect();
@@ -184,7 +184,7 @@ impl Limits {
     /// The point at which the given limits are reached, if it is one point and within all others.
     fn vertex(&self, tight: &[usize]) -> Option<Vec<RBig>> {
         let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
-        let reduced = Reduced::new(equations, self.parameters);
+        let reduced = SolvedRows::new(equations, self.parameters);
         if reduced.columns.len() < self.parameters {
             return None;
         }
@@ -196,7 +196,7 @@ impl Limits {
     /// The direction along which the given limits stay reached, if it is one and leads past no limit.
     fn direction(&self, tight: &[usize]) -> Option<Vec<RBig>> {
         let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
-        let reduced = Reduced::new(equations, self.parameters);
+        let reduced = SolvedRows::new(equations, self.parameters);
         if reduced.columns.len() + 1 < self.parameters {
             return None;
         }
@@ -220,12 +220,12 @@ impl Limits {
 
 /// Equations `row[0] + sum row[f + 1] t_f = 0` after Gauss-Jordan elimination; row `i` determines
 /// parameter `columns[i]`.
-struct Reduced {
+struct SolvedRows {
     rows: Vec<Vec<RBig>>,
     columns: Vec<usize>,
 }
 
-impl Reduced {
+impl SolvedRows {
     fn new(mut rows: Vec<Vec<RBig>>, parameters: usize) -> Self {
         let mut columns = Vec::new();
         for column in 0..parameters {

@@ -2,10 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::ProblemView;
-use super::matrix::{IntervalMatrix, product};
 use crate::interval::Interval;
-use crate::{ContactState, Side};
+use crate::interval_matrix::{IntervalMatrix, product};
+use crate::problem::{ContactState, ProblemView, Side};
 
 /// The equations
 ///

@@ -2,11 +2,10 @@
 
 use nalgebra::DVector;
 
-use super::data::ProblemView;
-use super::matrix::{upper_product, upper_sum};
 use super::preconditioned::{BaseSystem, Preconditioned};
-use crate::ContactState;
 use crate::interval::{Interval, Sign};
+use crate::interval_matrix::{upper_product, upper_sum};
+use crate::problem::{ContactState, ProblemView};
 
 /// How often bounds are tightened, at most.
 const SWEEPS: usize = 8;

@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::ProblemView;
-use super::matrix::{IntervalMatrix, rounding};
-use crate::interval::{add_up, two_sum_remainder};
-use crate::{ContactState, Side};
+use crate::error_free::{product_remainder, sum_remainder};
+use crate::interval::add_up;
+use crate::interval_matrix::{IntervalMatrix, rounding};
+use crate::problem::{Column, ContactState, ProblemView, Side};
 
 /// The equations `A z = b` of one pattern; `z_k` is `y_k`, or `lambda_k` for a contact in its gap.
 pub(super) struct PatternSystem<'a> {
@@ -47,7 +47,7 @@ impl<'a> PatternSystem<'a> {
                     let at = (row, contact);
                     let (before, added) = (centre[at], sign * term.centre[row]);
                     centre[at] = before + added;
-                    let lost = two_sum_remainder(before, added, centre[at]).abs();
+                    let lost = sum_remainder(before, added, centre[at]).abs();
                     let spread = term.radius.map_or(0.0, |radius| radius[row]);
                     radius[at] = add_up(add_up(radius[at], spread), lost);
                 }
@@ -115,7 +115,7 @@ impl<'a> ProblemView<'a> {
         self,
         contact: usize,
         state: ContactState,
-    ) -> impl Iterator<Item = (super::data::Column<'a>, f64)> {
+    ) -> impl Iterator<Item = (Column<'a>, f64)> {
         let (first, second) = match state.side() {
             Some(side) => ((self.column(contact, side), 1.0), None),
             None => {
@@ -146,9 +146,9 @@ struct CompensatedSum {
 impl CompensatedSum {
     fn add_product(&mut self, one: f64, other: f64) {
         let product = one * other;
-        let product_remainder = one.mul_add(other, -product);
         let sum = self.sum + product;
-        self.correction += two_sum_remainder(self.sum, product, sum) + product_remainder;
+        self.correction +=
+            sum_remainder(self.sum, product, sum) + product_remainder::<true>(one, other, product);
         self.sum = sum;
         self.size += product.abs();
     }
@@ -158,7 +158,7 @@ impl CompensatedSum {
     }
 }
 
-impl super::data::Column<'_> {
+impl Column<'_> {
     pub(super) fn add_radius_to(&self, radii: &mut DVector<f64>) {
         if let Some(radius) = self.radius {
             for (sum, &value) in radii.iter_mut().zip(radius) {

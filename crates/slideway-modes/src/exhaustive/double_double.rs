@@ -1,6 +1,8 @@
 //! Numbers as unevaluated sums of two `f64`, with about 104 bits.
 //!
-//! Sums and products after Dekker and Knuth; the relative error of each operation is below [`UNIT`].
+//! The relative error of each operation is below [`UNIT`].
+
+use crate::error_free::{ordered_sum_remainder, product_remainder, sum_remainder};
 
 /// Bound on the relative error of one operation: 2^-98, with room to spare.
 pub(super) const UNIT: f64 = 3.2e-30;
@@ -18,39 +20,22 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-/// The sum and its rounding error, exactly (Knuth).
 #[inline(always)]
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    let part = high - a;
-    DoubleDouble { high, low: (a - (high - part)) + (b - part) }
+    DoubleDouble { high, low: sum_remainder(a, b, high) }
 }
 
-/// As [`two_sum`] where `|a| >= |b|` (Dekker).
 #[inline(always)]
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    DoubleDouble { high, low: b - (high - a) }
+    DoubleDouble { high, low: ordered_sum_remainder(a, b, high) }
 }
 
-/// The two halves of a number, each short enough for exact products (Veltkamp).
-#[inline(always)]
-fn split(a: f64) -> (f64, f64) {
-    let scaled = 134_217_729.0 * a;
-    let high = scaled - (scaled - a);
-    (high, a - high)
-}
-
-/// The product and its rounding error, exactly (Dekker; with a fused operation where there is one).
 #[inline(always)]
 fn two_product<const FUSED: bool>(a: f64, b: f64) -> DoubleDouble {
     let high = a * b;
-    if FUSED {
-        return DoubleDouble { high, low: a.mul_add(b, -high) };
-    }
-    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
-    let low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    DoubleDouble { high, low }
+    DoubleDouble { high, low: product_remainder::<FUSED>(a, b, high) }
 }
 
 impl DoubleDouble {

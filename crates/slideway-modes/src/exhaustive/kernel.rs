@@ -5,61 +5,11 @@ use std::hint::black_box;
 
 use super::instructions::{Instructions, Set};
 use super::lanes::{LANES, Lanes, Mask};
-use super::layout::Layout;
-use super::leaf::{Bounds, CRAMER, SOLVED, Solved, cross, dot};
+use super::layout::{CRAMER, LEVELS, Layout, SOLVED};
+use super::leaf::{LeafErrors, Solved, cross, dot};
+use super::level::{Level, Pivot, ROUNDED_UP, UNIT, WIDTH, bound_below};
 use super::pattern::Pattern;
-use super::upper::{Node, ROUNDED_UP, ResolvedRow, bound_below};
-
-/// Places that the kernel decides, at most.
-pub(super) const LEVELS: usize = 12;
-/// Entries of a row: right-hand side and two columns for each place.
-const WIDTH: usize = 2 * LEVELS + 1;
-/// Unit roundoff of `f64`.
-pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
-
-pub(super) type Row = [Lanes; WIDTH];
-
-/// The equations of a node, for each lane.
-pub(super) struct Level {
-    pub(super) rows: Vec<Row>,
-    /// Bound on the error of every entry; infinite where a pivot was too small.
-    pub(super) bound: Lanes,
-    /// Bound on the size of every entry.
-    pub(super) size: Lanes,
-}
-
-/// The equation from which the unknown of a place follows once those below are known.
-#[derive(Clone)]
-pub(super) struct Pivot {
-    pub(super) entries: Row,
-    pub(super) inverse: Lanes,
-    /// Bound on the error of every entry and of the pivot `p`; infinite where the pivot is too small.
-    pub(super) bound: Lanes,
-    /// At least `1 / (|p| - bound)`; infinite where the pivot is too small.
-    pub(super) guard: Lanes,
-    /// The largest entry.
-    pub(super) size: Lanes,
-}
-
-impl Pivot {
-    /// Bound on the error of the unknown `y` that follows from `count` others, given the largest of these and of
-    /// their errors.
-    #[inline(always)]
-    pub(super) fn error_of_y(&self, count: f64, y: Lanes, largest: Lanes, error: Lanes) -> Lanes {
-        let (bound, size, guard) = (self.bound, self.size, self.guard);
-        let mut result = Lanes::ZERO;
-        for lane in 0..LANES {
-            let (bound, size, y) = (bound.0[lane], size.0[lane], y.0[lane].abs());
-            let (largest, error) = (largest.0[lane], error.0[lane]);
-            let error_of_value = bound
-                + count * (size * error + bound * (largest + error))
-                + (count + 4.0) * UNIT * size * (1.0 + count * largest);
-            let error_of_y = (error_of_value + y * bound) * guard.0[lane] + 4.0 * UNIT * y;
-            result.0[lane] = error_of_y * ROUNDED_UP + f64::MIN_POSITIVE;
-        }
-        result
-    }
-}
+use super::upper::{Node, ResolvedRow};
 
 /// Where a lane comes from.
 #[derive(Clone, Default)]
@@ -73,6 +23,8 @@ pub(super) struct Kernel {
     instructions: Instructions,
     /// Places that the kernel decides.
     places: usize,
+    /// How many of them, above those of Cramer's rule, hold contacts whose negative side has no solution.
+    padded: usize,
     levels: Vec<Level>,
     pivots: Vec<Pivot>,
     origins: Vec<Origin>,
@@ -95,6 +47,7 @@ impl Kernel {
         Self {
             instructions: layout.instructions,
             places,
+            padded: layout.padding().saturating_sub(CRAMER),
             levels: (0..=places).map(level).collect(),
             pivots: vec![pivot; places],
             origins: vec![Origin::default(); LANES],
@@ -155,7 +108,7 @@ impl Kernel {
     /// Visits all patterns of the kernel's places. From one to the next, only the lowest places are decided anew.
     #[inline(always)]
     fn descend<const FUSED: bool>(&mut self) {
-        for index in 0..1_usize << (self.places - CRAMER) {
+        for index in (0..1_usize << (self.places - CRAMER)).step_by(1 << self.padded) {
             let anew = if index == 0 { self.places - CRAMER } else { index.trailing_zeros() as usize + 1 };
             for place in (CRAMER..CRAMER + anew).rev() {
                 let side = index >> (place - CRAMER) & 1;
@@ -247,7 +200,7 @@ impl Kernel {
     fn leaf<const FUSED: bool>(&mut self) {
         let node = &self.levels[CRAMER];
         let column = |j: usize| [node.rows[0][j], node.rows[1][j], node.rows[2][j]];
-        let bounds = Bounds::new(node, &self.pivots);
+        let bounds = LeafErrors::new(node, &self.pivots);
         let load = column(0);
         let (zeroth, first, second) =
             ([column(1), column(2)], [column(3), column(4)], [column(5), column(6)]);
@@ -303,7 +256,7 @@ impl Kernel {
     fn substitute<const FUSED: bool>(
         &mut self,
         solved: &Solved,
-        bounds: &Bounds,
+        bounds: &LeafErrors,
         mut excess: Lanes,
         sides: [usize; CRAMER],
     ) {
@@ -397,7 +350,7 @@ pub(super) struct Equation {
 }
 
 impl Equation {
-    /// The unknown at the pivot.
+    /// The unknown at the pivot; its error is infinite where the pivot may be zero.
     pub(super) fn solve(&self, coefficients: impl Iterator<Item = f64>, unknowns: &[Unknown]) -> Unknown {
         let (mut value, mut size) = (self.load, self.load.abs());
         let mut error = self.bound;
@@ -408,7 +361,11 @@ impl Equation {
         }
         error += (unknowns.len() as f64 + 4.0) * UNIT * size;
         let y = value / self.pivot;
-        let error = (error + y.abs() * self.bound) / (self.pivot.abs() - self.bound) + 8.0 * UNIT * y.abs();
+        let certain = self.pivot.abs() - self.bound;
+        if certain <= 0.0 || certain.is_nan() {
+            return Unknown { value: y, error: f64::INFINITY };
+        }
+        let error = (error + y.abs() * self.bound) / certain + 8.0 * UNIT * y.abs();
         Unknown { value: y, error: error * ROUNDED_UP + f64::MIN_POSITIVE }
     }
 }

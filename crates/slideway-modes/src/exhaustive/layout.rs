@@ -2,12 +2,16 @@
 
 use super::double_double::{DoubleDouble, UNIT};
 use super::instructions::Instructions;
-use super::kernel::LEVELS;
 use super::lanes::LANES;
-use super::leaf::SOLVED;
 use super::pattern::Pattern;
-use crate::certificate::ProblemView;
-use crate::{ContactState, Side};
+use crate::problem::{ContactState, ProblemView, Side};
+
+/// Places that the kernel decides, at most.
+pub(super) const LEVELS: usize = 12;
+/// Places that are solved together by Cramer's rule.
+pub(super) const CRAMER: usize = 3;
+/// Places whose unknowns are found as multiples of the determinant.
+pub(super) const SOLVED: usize = 6;
 
 /// Places of contacts in the tree; the last place is decided first.
 ///
@@ -32,6 +36,11 @@ impl Layout {
         let plain = order.len() + padding;
         order.extend(jumping);
         Self { padding, order, plain, instructions }
+    }
+
+    /// Places below those of the problem's own contacts.
+    pub(super) fn padding(&self) -> usize {
+        self.padding
     }
 
     pub(super) fn places(&self) -> usize {
@@ -73,13 +82,13 @@ impl Layout {
 }
 
 /// The scaled equations: columns as in [`Layout::column`].
-pub(super) struct Root {
+pub(super) struct ScaledEquations {
     pub(super) rows: Vec<Vec<DoubleDouble>>,
     /// Bound on the error of every entry.
     pub(super) bound: f64,
 }
 
-impl Root {
+impl ScaledEquations {
     /// Rows are scaled by powers of two, and so are the loads. This changes no sign of a `y` and no share.
     pub(super) fn new(problem: ProblemView<'_>, layout: &Layout) -> Self {
         let scales: Vec<f64> = (0..problem.contacts()).map(|row| row_scale(problem, row)).collect();

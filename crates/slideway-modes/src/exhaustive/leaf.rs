@@ -1,23 +1,18 @@
 //! The last three contacts by Cramer's rule, and those above while no division is needed.
 
-use super::kernel::{Level, Pivot, UNIT};
 use super::lanes::{LANES, Lanes};
-use super::upper::ROUNDED_UP;
+use super::layout::{CRAMER, SOLVED};
+use super::level::{Level, Pivot, ROUNDED_UP, UNIT};
 
-/// Places that are solved together by Cramer's rule.
-pub(super) const CRAMER: usize = 3;
-/// Places whose unknowns are found as multiples of the determinant.
-pub(super) const SOLVED: usize = 6;
-
-/// Bounds of the multiples `x_k = D y_k`, for all patterns of a leaf.
-pub(super) struct Bounds {
+/// LeafErrors of the multiples `x_k = D y_k`, for all patterns of a leaf.
+pub(super) struct LeafErrors {
     /// Bound on the error of the determinant `D` and of the first `x_k`.
     pub(super) determinant: Lanes,
     /// Bound on the error of each `x_k` from `CRAMER` on.
     pub(super) later: [Lanes; SOLVED - CRAMER],
 }
 
-impl Bounds {
+impl LeafErrors {
     #[inline(always)]
     pub(super) fn new(node: &Level, pivots: &[Pivot]) -> Self {
         let mut entry = Lanes::ZERO;
@@ -64,7 +59,7 @@ pub(super) struct Solved {
 impl Solved {
     /// Above zero where `|D|` is above its error and some `x_k / D` is certainly negative.
     #[inline(always)]
-    pub(super) fn excess(&self, bounds: &Bounds) -> Lanes {
+    pub(super) fn excess(&self, bounds: &LeafErrors) -> Lanes {
         let mut result = Lanes::ZERO;
         for lane in 0..LANES {
             let sign = self.determinant.0[lane].to_bits() & (1 << 63);
@@ -83,7 +78,7 @@ impl Solved {
 
     /// Bound on the error of the quotients, the largest of which is given, if the multiples are wrong by `error`.
     #[inline(always)]
-    pub(super) fn error_of_y(&self, bounds: &Bounds, error: Lanes, largest: Lanes) -> Lanes {
+    pub(super) fn error_of_y(&self, bounds: &LeafErrors, error: Lanes, largest: Lanes) -> Lanes {
         let mut result = Lanes::ZERO;
         for lane in 0..LANES {
             let (determinant, y) = (bounds.determinant.0[lane], largest.0[lane]);

@@ -57,6 +57,11 @@
 //! share of a gap beyond 0 to 1 by more than that. So the patterns that are left hold every solution, whatever
 //! rounding did. Bounds are rounded up, and the least normal number is added to each against underflow. Tests let
 //! the entries take the worst values within `e`, where the parts with `e` and `d` are attained.
+//!
+//! # Files
+//! `layout.rs` orders contacts and scales the equations, `upper.rs` is the tree near its root, `level.rs` the equations of the
+//! nodes in lanes and their bounds, `leaf.rs` the last contacts, `kernel.rs` the last levels, `run.rs` shares subtrees among
+//! threads, `instructions.rs` is what the processor can do.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled without the chosen instructions")]
 #![expect(clippy::needless_range_loop, reason = "loops over lanes run through several arrays at once")]
@@ -67,6 +72,7 @@ mod kernel;
 mod lanes;
 mod layout;
 mod leaf;
+mod level;
 mod pattern;
 mod run;
 #[cfg(test)]
@@ -76,10 +82,12 @@ mod upper;
 #[doc(hidden)]
 pub use instructions::Instructions;
 pub use pattern::Pattern;
+pub use run::Tally;
 
 use std::ops::ControlFlow;
 
-use super::certificate::{Decision, ProblemView, Verdict, decide};
+use crate::certificate::{Decision, Verdict, decide};
+use crate::problem::ProblemView;
 use crate::progress::Progress;
 use run::Run;
 
@@ -90,17 +98,6 @@ pub struct Screening {
     pub remaining: Vec<Pattern>,
     /// How many patterns were proved to have no solution.
     pub excluded: u64,
-}
-
-/// What became of the patterns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Tally {
-    /// Patterns that the visitor was told of, or would have been in the subtree at which it stopped.
-    pub visited: u64,
-    /// Patterns that were proved to have no solution.
-    pub excluded: u64,
-    /// Whether the walk came to its end, so that the two counts add up to all patterns.
-    pub complete: bool,
 }
 
 /// Proves for as many patterns as possible that they have no solution.

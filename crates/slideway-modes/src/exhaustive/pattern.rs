@@ -1,6 +1,6 @@
 //! One pattern of states in a few bits.
 
-use crate::ContactState;
+use crate::problem::ContactState;
 
 /// The states of all contacts. Ordered by the contacts in their gap, then by those on their negative side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]

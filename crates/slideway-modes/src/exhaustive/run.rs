@@ -5,14 +5,13 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::Tally;
 use super::instructions::Instructions;
 use super::kernel::Kernel;
 use super::lanes::LANES;
-use super::layout::{Layout, Root};
+use super::layout::{Layout, ScaledEquations};
 use super::pattern::Pattern;
 use super::upper::Node;
-use crate::certificate::ProblemView;
+use crate::problem::ProblemView;
 use crate::progress::Progress;
 
 /// Levels of the tree that are expanded before its subtrees are shared among threads.
@@ -20,6 +19,17 @@ const SHARED_LEVELS: usize = 6;
 
 /// What is done with the patterns that a subtree leaves.
 pub(super) type Examine<'a, T> = &'a (dyn Fn(Vec<Pattern>) -> Vec<T> + Sync);
+
+/// What became of the patterns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tally {
+    /// Patterns that the visitor was told of, or would have been in the subtree at which it stopped.
+    pub visited: u64,
+    /// Patterns that were proved to have no solution.
+    pub excluded: u64,
+    /// Whether the walk came to its end, so that the two counts add up to all patterns.
+    pub complete: bool,
+}
 
 /// One walk over all patterns.
 pub(super) struct Run<'a, T> {
@@ -52,7 +62,7 @@ impl<'a, T: Send> Run<'a, T> {
         problem: ProblemView<'_>,
         visit: &mut dyn FnMut(T) -> ControlFlow<()>,
     ) -> Tally {
-        let root = Node::root(&Root::new(problem, &self.layout), &self.layout);
+        let root = Node::root(&ScaledEquations::new(problem, &self.layout), &self.layout);
         let mut tally = Tally { visited: 0, excluded: 0, complete: true };
         if self.visit_below(&root, visit, &mut tally).is_break() {
             tally.complete = false;

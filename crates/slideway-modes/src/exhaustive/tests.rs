@@ -1,9 +1,10 @@
 //! Each bound against the worst that numbers within their errors can do, which attains it but for roundings.
 
-use super::kernel::{Equation, LEVELS, Level, Pivot, Row, Unknown};
+use super::kernel::{Equation, Unknown};
 use super::lanes::Lanes;
-use super::leaf::{Bounds, CRAMER, error_of_determinants};
-use super::upper::bound_below;
+use super::layout::{CRAMER, LEVELS};
+use super::leaf::{LeafErrors, error_of_determinants};
+use super::level::{Level, Pivot, Row, bound_below};
 
 const E: f64 = 1.0 / 1024.0;
 /// Powers of two on both sides of the errors.
@@ -13,7 +14,7 @@ fn all(value: f64) -> Lanes {
     Lanes([value; 8])
 }
 
-/// Bounds may be above the worst by roundings, but not below.
+/// LeafErrors may be above the worst by roundings, but not below.
 fn check_attained(bound: f64, worst: f64) {
     assert!(bound >= worst * (1.0 - 1e-12), "{bound} is below {worst}");
     assert!(bound <= worst * 1.02 + 1e-9, "{bound} is far above {worst}");
@@ -69,6 +70,14 @@ fn back_substitution_is_wrong_by_its_bound_at_most() {
     }
 }
 
+#[test]
+fn an_unknown_whose_pivot_may_be_zero_may_be_anything() {
+    for bound in [1.0, 2.0, f64::INFINITY] {
+        let equation = Equation { load: -1.0, pivot: 1.0, bound };
+        assert_eq!(equation.solve(std::iter::empty(), &[]).error, f64::INFINITY);
+    }
+}
+
 fn determinant(m: [[f64; 3]; 3]) -> f64 {
     let minor = |i: usize, j: usize| m[1][i] * m[2][j] - m[1][j] * m[2][i];
     m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1)
@@ -93,7 +102,7 @@ fn determinants_are_wrong_by_their_bound_at_most() {
 fn multiples_of_the_determinant_are_wrong_by_their_bounds_at_most() {
     for (size, entry, bound) in [(0.001, 1.0, E), (1.0, 0.125, E), (4.0, 1.0, 1e-9), (0.0, 1.0, E)] {
         let node = Level { rows: vec![[all(entry); 2 * LEVELS + 1]; 3], bound: all(bound), size: all(entry) };
-        let bounds = Bounds::new(&node, &vec![pivot(size); LEVELS]);
+        let bounds = LeafErrors::new(&node, &vec![pivot(size); LEVELS]);
         let (mut x, mut error) = (6.0 * entry.powi(3), bounds.determinant.0[0]);
         for (place, later) in (CRAMER..).zip(bounds.later) {
             let terms = place as f64 + 1.0;

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::double_double::{DoubleDouble, UNIT};
 use super::instructions::{Instructions, Set};
-use super::layout::{Layout, Root};
+use super::layout::{Layout, ScaledEquations};
+use super::level::{ROUNDED_UP, bound_below};
 use super::pattern::Pattern;
-use crate::ContactState;
+use crate::problem::ContactState;
 
 /// The equations that remain when the contacts at the last places have been decided.
 #[derive(Clone)]
@@ -51,7 +52,7 @@ fn largest(entries: &[f64]) -> f64 {
 }
 
 impl Node {
-    pub(super) fn root(root: &Root, layout: &Layout) -> Self {
+    pub(super) fn root(root: &ScaledEquations, layout: &Layout) -> Self {
         let entries = || root.rows.iter().flatten();
         let high: Vec<f64> = entries().map(|entry| entry.high).collect();
         Self {
@@ -96,7 +97,7 @@ impl Node {
         let column = width + usize::from(state == ContactState::Negative);
         if place < layout.plain {
             let stride = layout.column(self.places);
-            let step = Step::new(&self.high, &self.low, [column, width, stride]);
+            let step = Elimination::new(&self.high, &self.low, [column, width, stride]);
             child.eliminate(&step, layout.instructions);
         } else {
             let (mut high, mut low) = (self.high.clone(), self.low.clone());
@@ -107,14 +108,14 @@ impl Node {
             // A sum of two entries.
             child.bound = 2.0 * self.bound + 4.0 * UNIT * self.size;
             child.size = 2.0 * self.size;
-            child.eliminate(&Step::new(&high, &low, [column, width, stride]), layout.instructions);
+            child.eliminate(&Elimination::new(&high, &low, [column, width, stride]), layout.instructions);
         }
         child
     }
 
     /// One elimination step on equations within the bounds of this node, which becomes the child.
-    fn eliminate(&mut self, step: &Step<'_>, instructions: Instructions) {
-        let &Step { high, at, column, width, stride, .. } = step;
+    fn eliminate(&mut self, step: &Elimination<'_>, instructions: Instructions) {
+        let &Elimination { high, at, column, width, stride, .. } = step;
         let pivot = high[at * stride + column].abs();
         if pivot <= 2.0 * self.bound || pivot == 0.0 || !self.size.is_finite() {
             self.irregular = true;
@@ -180,7 +181,7 @@ fn apply_jump(high: &mut [f64], low: &mut [f64], column: usize, state: ContactSt
 }
 
 /// Equations, and the pivot to eliminate with.
-struct Step<'a> {
+struct Elimination<'a> {
     high: &'a [f64],
     low: &'a [f64],
     at: usize,
@@ -189,7 +190,7 @@ struct Step<'a> {
     stride: usize,
 }
 
-impl<'a> Step<'a> {
+impl<'a> Elimination<'a> {
     /// The pivot is the largest entry of its column.
     fn new(high: &'a [f64], low: &'a [f64], [column, width, stride]: [usize; 3]) -> Self {
         let size = |row: &usize| high[row * stride + column].abs();
@@ -236,14 +237,3 @@ impl<'a> Step<'a> {
         }
     }
 }
-
-/// The bound of the module documentation; `factor` is the largest `|l|`, `guard` at least `1 / (|p| - bound)`.
-#[inline(always)]
-pub(super) fn bound_below(bound: f64, factor: f64, guard: f64, row: f64, node: f64, unit: f64) -> f64 {
-    let spread = (1.0 + factor) * bound;
-    let exact = spread + (row + bound) * (spread * guard + unit) + 4.0 * unit * (node + row);
-    exact * ROUNDED_UP + f64::MIN_POSITIVE
-}
-
-/// Covers the roundings of a bound's own evaluation.
-pub(super) const ROUNDED_UP: f64 = 1.0 + 1e-9;

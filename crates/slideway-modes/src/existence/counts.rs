@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::{Existence, ModeInterval, ModeProblemLine};
-use crate::solutions::ContactState;
+use crate::problem::ContactState;
 
 /// Ends closer than this share of the larger one are the same.
 const SAME_END: f64 = 1e-10;

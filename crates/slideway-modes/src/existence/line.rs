@@ -2,16 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use super::roots::{Reduced, Root};
-
 /// Relative rounding errors up to which an inequality counts as met.
 pub(super) const TOLERANCE: f64 = 1e-11;
-/// Equations whose pivots differ by more than this are no base point for the others.
-const SMALLEST_PIVOT: f64 = 1e-9;
-/// Fractions of the range that are tried as base points.
-const BASE_POINTS: [f64; 6] = [0.0, 0.381_966, 0.763_932, 0.145_898, 0.527_864, 0.909_83];
-/// Places closer than this share of the range are the same.
-const SAME_PLACE: f64 = 1e-14;
 /// How near to a singular end limits are taken, as a fraction of the interval.
 const NEAR: [f64; 2] = [1e-5, 1e-7];
 /// Growth between these two places beyond which an unknown grows without bound.
@@ -90,48 +82,10 @@ impl Limit {
     }
 }
 
-/// Where the conditions hold.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Extent {
-    /// In these parts, in increasing order.
-    Parts(Vec<Part>),
-    /// `det A(t)` vanishes, or is too close to it to tell, for all parameters.
-    SingularThroughout,
-    /// Eigenvalues could not be computed.
-    NotComputed,
-}
-
 impl Line {
-    /// The parts of a range in which all conditions hold.
-    ///
-    /// A determinant and a Cramer numerator of equations that are linear in `t` are polynomials whose zeros are
-    /// eigenvalues (theory, section 6), so nothing is scanned: the range is cut at the zeros of the determinant,
-    /// then at those of one condition after the other.
-    pub(super) fn extent(&self, conditions: &[Condition], range: [f64; 2]) -> Extent {
-        let end = |at| End { at, cause: Cause::Range };
-        if self.right_hand_side[0].is_empty() {
-            return Extent::Parts(vec![Part { from: end(range[0]), to: end(range[1]) }]);
-        }
-        let (line, conditions) = self.in_units(conditions, range);
-        let Some(reduced) = line.reduced(&conditions, range) else { return Extent::SingularThroughout };
-        match parts(&reduced, range) {
-            Some(parts) => Extent::Parts(parts),
-            None => Extent::NotComputed,
-        }
-    }
-
-    /// Where `det A(t)` vanishes, with base points in a range; empty if it vanishes throughout.
-    pub(super) fn determinant_zeros(&self, range: [f64; 2]) -> Vec<f64> {
-        if self.right_hand_side[0].is_empty() {
-            return Vec::new();
-        }
-        let zeros = self.reduced(&[], range).and_then(|reduced| reduced.poles());
-        zeros.unwrap_or_default().into_iter().map(|Root(at)| at).collect()
-    }
-
     /// The same equations and conditions with unknowns in units (powers of two, so that nothing is rounded) in which the
     /// columns have entries of order one: a coefficient of friction may be very great.
-    fn in_units(&self, conditions: &[Condition], range: [f64; 2]) -> (Self, Vec<Condition>) {
+    pub(super) fn in_units(&self, conditions: &[Condition], range: [f64; 2]) -> (Self, Vec<Condition>) {
         let reach = range[0].abs().max(range[1].abs());
         let unit = |column: usize| {
             let [constant, slope] = [0, 1].map(|power| self.matrix[power].column(column).amax());
@@ -150,24 +104,6 @@ impl Line {
             ..*condition
         });
         (line, conditions.collect())
-    }
-
-    /// The equations at the base point with the best pivots.
-    fn reduced(&self, conditions: &[Condition], range: [f64; 2]) -> Option<Reduced> {
-        let mut best: Option<(f64, f64, LU<f64, Dyn, Dyn>)> = None;
-        for fraction in BASE_POINTS {
-            let at = range[0] + fraction * (range[1] - range[0]);
-            let lu = self.matrix_at(at).lu();
-            let ratio = pivot_ratio(&lu);
-            if ratio.is_finite() && best.as_ref().is_none_or(|(known, ..)| ratio > *known) {
-                best = Some((ratio, at, lu));
-            }
-            if ratio > 1e-3 {
-                break;
-            }
-        }
-        let (_, at, lu) = best.filter(|(ratio, ..)| *ratio > SMALLEST_PIVOT)?;
-        Reduced::new(self, conditions, at, &lu)
     }
 
     /// The same equations in the parameter `1 / t`, multiplied by it.
@@ -233,37 +169,6 @@ pub(super) fn pivot_ratio(lu: &LU<f64, Dyn, Dyn>) -> f64 {
     if pivots.is_empty() { 1.0 } else { pivots.amin() / pivots.amax() }
 }
 
-/// The parts of a range in which all conditions hold; none if eigenvalues could not be computed.
-fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
-    let signs = reduced.signs(range);
-    if signs.exclude() {
-        return Some(Vec::new());
-    }
-    let end = |at| End { at, cause: Cause::Range };
-    let mut parts = vec![Part { from: end(range[0]), to: end(range[1]) }];
-    let room = SAME_PLACE * (range[1] - range[0]);
-    if signs.determinant.is_none() {
-        cut(&mut parts, &reduced.poles()?, &Cause::Singular, room);
-    }
-    for condition in reduced.order(range) {
-        let cause = Cause::Conditions(vec![condition]);
-        if signs.numerators[condition].is_none() {
-            cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
-        }
-        parts.retain(|part| reduced.value(condition, part.middle()).is_some_and(Value::is_met));
-        merge(&mut parts, &cause);
-        if parts.is_empty() {
-            break;
-        }
-    }
-    for part in &mut parts {
-        let middle = part.middle();
-        polish(reduced, &mut part.from, middle);
-        polish(reduced, &mut part.to, middle);
-    }
-    Some(parts)
-}
-
 /// The value of an inequality, and the rounding errors it may have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Value {
@@ -287,73 +192,4 @@ impl Part {
     pub(super) fn middle(&self) -> f64 {
         f64::midpoint(self.from.at, self.to.at)
     }
-}
-
-/// Cuts parts at roots inside them, that is not within `room` of an end.
-fn cut(parts: &mut Vec<Part>, roots: &[Root], cause: &Cause, room: f64) {
-    for &Root(at) in roots {
-        let inside = |part: &Part| at > part.from.at + room && at < part.to.at - room;
-        let Some(index) = parts.iter().position(inside) else { continue };
-        let end = End { at, cause: cause.clone() };
-        let rest = Part { from: end.clone(), to: parts[index].to.clone() };
-        parts[index].to = end;
-        parts.insert(index + 1, rest);
-    }
-}
-
-/// Joins neighbours that were cut by a condition that holds on both sides.
-fn merge(parts: &mut Vec<Part>, cause: &Cause) {
-    let mut joined: Vec<Part> = Vec::with_capacity(parts.len());
-    for part in parts.drain(..) {
-        match joined.last_mut() {
-            Some(last) if last.to == part.from && last.to.cause == *cause => last.to = part.to,
-            _ => joined.push(part),
-        }
-    }
-    *parts = joined;
-}
-
-/// Moves an end to where its condition changes sign, to machine precision, and lists all conditions that vanish
-/// there.
-fn polish(reduced: &Reduced, end: &mut End, inside: f64) {
-    match &mut end.cause {
-        Cause::Range => {}
-        Cause::Singular => {
-            end.at = bisect(end.at, inside, |at| reduced.determinant(at)).unwrap_or(end.at);
-        }
-        Cause::Conditions(conditions) => {
-            let first = conditions[0];
-            let value = |at| reduced.value(first, at).map_or(f64::NAN, |value| value.value);
-            end.at = bisect(end.at, inside, value).unwrap_or(end.at);
-            let at = end.at;
-            let vanishes = |&condition: &usize| {
-                condition == first || reduced.value(condition, at).is_some_and(Value::vanishes)
-            };
-            *conditions = (0..reduced.conditions()).filter(vanishes).collect();
-        }
-    }
-}
-
-/// The zero of a function close to `root`; none if it does not change its sign there.
-fn bisect(root: f64, inside: f64, function: impl Fn(f64) -> f64) -> Option<f64> {
-    let mut reach = 1e-13 * (inside - root).abs().max(root.abs());
-    let (mut low, mut high) = loop {
-        let (low, high) = (root - reach, root + reach);
-        if function(low) * function(high) <= 0.0 {
-            break (low, high);
-        }
-        reach *= 8.0;
-        if reach > 1e-3 * (inside - root).abs() {
-            return None;
-        }
-    };
-    let sign = function(low);
-    for _ in 0..60 {
-        let middle = f64::midpoint(low, high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if function(middle) * sign > 0.0 { low = middle } else { high = middle }
-    }
-    Some(f64::midpoint(low, high))
 }

@@ -17,6 +17,7 @@
 //! `|output| <= factor * y_k` that a solution has to obey.
 
 mod counts;
+mod extent;
 mod line;
 mod roots;
 mod signs;
@@ -24,10 +25,10 @@ mod signs;
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
-use super::problem::{BySide, ModeProblem, Side};
-use super::solutions::ContactState;
+use crate::problem::{BySide, ContactState, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
-use line::{Cause, Condition, End, Extent, Line, Part, Value};
+use extent::Extent;
+use line::{Cause, Condition, End, Line, Part, Value};
 
 pub use counts::is_same_end;
 pub use counts::{CountInterval, cells, counts, counts_in};

@@ -14,14 +14,14 @@ const LENGTH: usize = MOST_COLUMNS + 2;
 type Polynomial = [f64; LENGTH];
 
 /// 1 or -1; none if the sign changes or is too close to doing so to tell.
-type Sign = Option<f64>;
+type CertainSign = Option<f64>;
 
 /// Signs throughout a range.
 pub(super) struct Signs {
     /// That of `det(I + tau K)`.
-    pub(super) determinant: Sign,
+    pub(super) determinant: CertainSign,
     /// Those of the conditions' numerators, which are their values times that determinant.
-    pub(super) numerators: Vec<Sign>,
+    pub(super) numerators: Vec<CertainSign>,
 }
 
 impl Signs {
@@ -109,7 +109,7 @@ impl Reduced {
 }
 
 /// The sign of a polynomial throughout an interval, whose terms have this size: that of all its Bernstein coefficients.
-fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64) -> Sign {
+fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64) -> CertainSign {
     let mut shifted = *polynomial;
     // Horner's scheme: in powers of tau - from.
     for first in 0..degree {

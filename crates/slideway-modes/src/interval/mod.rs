@@ -23,6 +23,7 @@ mod sloped;
 pub use real::Real;
 pub use sloped::Sloped;
 
+use crate::error_free::{product_remainder, sum_remainder};
 use std::f64::consts::PI;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -288,13 +289,7 @@ pub(crate) fn add_down(one: f64, other: f64) -> f64 {
         // Opposite infinities: nothing is known.
         return if sum.is_nan() { f64::NEG_INFINITY } else { sum };
     }
-    round_down(sum, two_sum_remainder(one, other, sum))
-}
-
-/// `one + other - sum` without rounding, `sum` being the rounded sum (Knuth).
-pub(crate) fn two_sum_remainder(one: f64, other: f64, sum: f64) -> f64 {
-    let rest = sum - one;
-    (one - (sum - rest)) + (other - rest)
+    round_down(sum, sum_remainder(one, other, sum))
 }
 
 fn mul_up(one: f64, other: f64) -> f64 {
@@ -310,8 +305,11 @@ fn mul_down(one: f64, other: f64) -> f64 {
     if one.is_infinite() || other.is_infinite() {
         return product;
     }
-    let remainder =
-        if product.abs() >= REMAINDER_IS_EXACT { one.mul_add(other, -product) } else { f64::NEG_INFINITY };
+    let remainder = if product.abs() >= REMAINDER_IS_EXACT {
+        product_remainder::<true>(one, other, product)
+    } else {
+        f64::NEG_INFINITY
+    };
     round_down(product, remainder)
 }
 

@@ -1,20 +1,20 @@
 //! From a problem to its report: the search, and what is told of it.
 
-use super::continuum;
 use super::listing::{Counts, Listing, Sort, list};
-use super::nearby;
 use super::range::in_range;
 use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, Unknowns};
 use super::residual::Equations;
 use super::values::Values;
-use super::{RawKind, RawProblem};
-use crate::Status;
-use crate::certificate::{Decision, Interval, decide};
+use super::{RawKind, RawProblem, continuum, nearby};
+use crate::certificate::{Decision, decide};
+use crate::interval::Interval;
+use crate::problem::{ContactState, ModeProblem, ModeProblemError};
 use crate::progress::Callback;
-use crate::{
-    CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem, ModeProblemError,
-    SearchOptions, SearchResult, SolutionProduct, StopReason, search,
+use crate::search::{
+    CombinedState, Completeness, GroupReport, GroupState, SearchOptions, SearchResult, SolutionProduct,
+    StopReason, search,
 };
+use crate::status::Status;
 
 /// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
 const ENCLOSURE_WORK: f64 = 3e7;

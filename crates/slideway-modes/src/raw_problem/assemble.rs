@@ -6,8 +6,8 @@ use super::fault::{RawFault, RawFaults};
 use super::kind::RawKind;
 use super::shape::{Array, Shape};
 use super::{GREATEST_SIZE, RawProblem};
-use crate::ModeProblem;
 use crate::names::nearest;
+use crate::problem::ModeProblem;
 
 /// What a file holds.
 #[derive(Default)]

@@ -4,7 +4,8 @@ use nalgebra::DVector;
 
 use super::RawKind;
 use super::report::{ContinuumPart, RawContinuum, Unknowns};
-use crate::{CombinedState, ContactState, GroupState};
+use crate::problem::ContactState;
+use crate::search::{CombinedState, GroupState};
 
 /// A combination of which some part is a continuum, with at most `most` vertices and directions of each part.
 pub(super) fn told(state: &CombinedState<'_>, kind: RawKind, size: usize, most: usize) -> RawContinuum {

@@ -1,6 +1,7 @@
 //! Which combinations of groups' states are listed, and how many there are of each sort.
 
-use crate::{BigCount, CombinedState, ContactState, GroupState, SolutionProduct};
+use crate::problem::ContactState;
+use crate::search::{BigCount, CombinedState, GroupState, SolutionProduct};
 
 /// How much of the answer is listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

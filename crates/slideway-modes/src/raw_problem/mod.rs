@@ -70,7 +70,7 @@ pub use tables::to_npz;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{ModeProblem, ModeProblemError};
+use crate::problem::{ModeProblem, ModeProblemError};
 
 /// The most bytes of a problem.
 #[cfg(any(feature = "json", feature = "npz"))]

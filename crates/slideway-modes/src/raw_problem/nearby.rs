@@ -11,12 +11,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::RawProblem;
 use super::report::{Unknowns, WithinRounding};
-use crate::certificate::{IntervalMatrix, IntervalModeProblem};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::{BySide, IntervalModeProblem, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
-use crate::{
-    Arguments, BySide, CombinedState, Completeness, GroupState, Limits, ModeProblem, SearchOptions, Side,
-    search,
-};
+use crate::search::{Arguments, CombinedState, Completeness, GroupState, SearchOptions, search};
+use crate::solutions::Limits;
 
 /// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the rounding of
 /// `A + B` and `B - A`.
@@ -38,7 +37,7 @@ pub(super) fn within_rounding(
     (options, nodes): (&SearchOptions, u64),
     progress: &mut Callback<'_>,
 ) -> Option<WithinRounding> {
-    let bounds = Bounds::new(raw, problem)?;
+    let bounds = Nearby::new(raw, problem)?;
     let limits = Limits { solutions: STATES, ..options.limits };
     let nodes = options.nodes.min(nodes.saturating_add(MORE_NODES));
     // Relaxations exclude singular patterns for all numbers within bounds, decisions one by one do not.
@@ -62,13 +61,13 @@ pub(super) fn within_rounding(
 }
 
 /// The numbers of a problem without jumps, and what they may be off by.
-struct Bounds<'a> {
+struct Nearby<'a> {
     problem: &'a ModeProblem,
     /// Sizes of the numbers given, of which `RELATIVE` is the radius.
     sizes: BySide<DMatrix<f64>>,
 }
 
-impl<'a> Bounds<'a> {
+impl<'a> Nearby<'a> {
     fn new(raw: &RawProblem, problem: &'a ModeProblem) -> Option<Self> {
         let size = problem.contacts();
         let (positive, negative) = match raw {

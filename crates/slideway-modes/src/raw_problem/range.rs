@@ -4,8 +4,9 @@ use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use crate::certificate::{ExactOutcome, Interval, solve_part_exactly};
-use crate::{ContactState, ModeProblem};
+use crate::certificate::{ExactOutcome, solve_part_exactly};
+use crate::interval::Interval;
+use crate::problem::{ContactState, ModeProblem};
 
 /// The most unknowns that are solved together for an exact value.
 const TOGETHER: usize = 48;

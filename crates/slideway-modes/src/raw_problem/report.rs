@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
 use super::range::in_range;
-use crate::Status;
+use crate::status::Status;
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/modes/2";

@@ -7,11 +7,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::RawProblem;
 use super::range::nearest;
-use crate::Side;
+use crate::problem::Side;
 
 /// What a matrix of the equations is multiplied with, of each unknown `N` with its share `lambda` of the positive jump.
 #[derive(Clone, Copy)]
-enum Factor {
+enum Multiplier {
     Signed,
     Size,
     /// `max(N, 0)`.
@@ -25,7 +25,7 @@ enum Factor {
 
 /// `sum of matrices times factors = load`, without use of the mode problem for types that are not one.
 pub(super) struct Equations<'a> {
-    terms: Vec<(Cow<'a, DMatrix<f64>>, Factor)>,
+    terms: Vec<(Cow<'a, DMatrix<f64>>, Multiplier)>,
     load: &'a DVector<f64>,
 }
 
@@ -37,24 +37,27 @@ impl<'a> Equations<'a> {
             // w - M z = q
             RawProblem::LinearComplementarity { m, q } => {
                 let identity = DMatrix::identity(q.len(), q.len());
-                let terms = vec![(Cow::Owned(identity), Factor::Negative), negated(m, Factor::Positive)];
+                let terms =
+                    vec![(Cow::Owned(identity), Multiplier::Negative), negated(m, Multiplier::Positive)];
                 Self { terms, load: q }
             }
             // A x + B |x| = b
-            RawProblem::AbsoluteValue { a, b, right_hand_side } => {
-                Self { terms: vec![given(a, Factor::Signed), given(b, Factor::Size)], load: right_hand_side }
-            }
+            RawProblem::AbsoluteValue { a, b, right_hand_side } => Self {
+                terms: vec![given(a, Multiplier::Signed), given(b, Multiplier::Size)],
+                load: right_hand_side,
+            },
             // A w - B z = q
-            RawProblem::HorizontalComplementarity { a, b, q } => {
-                Self { terms: vec![given(a, Factor::Negative), negated(b, Factor::Positive)], load: q }
-            }
+            RawProblem::HorizontalComplementarity { a, b, q } => Self {
+                terms: vec![given(a, Multiplier::Negative), negated(b, Multiplier::Positive)],
+                load: q,
+            },
             // sum c_k y_k - sum d_k = N(0)
             RawProblem::Modes(problem) => Self {
                 terms: vec![
-                    given(problem.columns(Side::Positive), Factor::Positive),
-                    given(problem.columns(Side::Negative), Factor::Negative),
-                    negated(problem.jumps(Side::Positive), Factor::Share),
-                    negated(problem.jumps(Side::Negative), Factor::OtherShare),
+                    given(problem.columns(Side::Positive), Multiplier::Positive),
+                    given(problem.columns(Side::Negative), Multiplier::Negative),
+                    negated(problem.jumps(Side::Positive), Multiplier::Share),
+                    negated(problem.jumps(Side::Negative), Multiplier::OtherShare),
                 ],
                 load: problem.right_hand_side(),
             },
@@ -65,12 +68,12 @@ impl<'a> Equations<'a> {
     /// none if numbers overflow or underflow.
     pub(super) fn residual(&self, signed: &[f64], shares: &[f64]) -> Option<f64> {
         let factor = |factor, at: usize| match factor {
-            Factor::Signed => signed[at],
-            Factor::Size => signed[at].abs(),
-            Factor::Positive => signed[at].max(0.0),
-            Factor::Negative => (-signed[at]).max(0.0),
-            Factor::Share => shares[at],
-            Factor::OtherShare => 1.0 - shares[at],
+            Multiplier::Signed => signed[at],
+            Multiplier::Size => signed[at].abs(),
+            Multiplier::Positive => signed[at].max(0.0),
+            Multiplier::Negative => (-signed[at]).max(0.0),
+            Multiplier::Share => shares[at],
+            Multiplier::OtherShare => 1.0 - shares[at],
         };
         let mut sum = -self.load;
         let mut size = self.load.abs();
@@ -88,12 +91,12 @@ impl<'a> Equations<'a> {
         let size = |value: &RBig| if *value < RBig::ZERO { -value } else { value.clone() };
         let above_zero = |value: RBig| if value < RBig::ZERO { RBig::ZERO } else { value };
         let factor = |factor, at: usize| match factor {
-            Factor::Signed => signed[at].clone(),
-            Factor::Size => size(&signed[at]),
-            Factor::Positive => above_zero(signed[at].clone()),
-            Factor::Negative => above_zero(-&signed[at]),
-            Factor::Share => shares[at].clone(),
-            Factor::OtherShare => RBig::ONE - &shares[at],
+            Multiplier::Signed => signed[at].clone(),
+            Multiplier::Size => size(&signed[at]),
+            Multiplier::Positive => above_zero(signed[at].clone()),
+            Multiplier::Negative => above_zero(-&signed[at]),
+            Multiplier::Share => shares[at].clone(),
+            Multiplier::OtherShare => RBig::ONE - &shares[at],
         };
         let factors: Vec<Vec<RBig>> = self
             .terms

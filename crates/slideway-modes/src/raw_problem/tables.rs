@@ -188,7 +188,7 @@ mod tests {
 
     use super::super::{RawProblem, npy, solve};
     use super::to_npz;
-    use crate::SearchOptions;
+    use crate::search::SearchOptions;
 
     #[test]
     fn an_archive_holds_the_solutions_row_by_row() {

@@ -6,7 +6,8 @@ use super::RawKind;
 use super::range::{exact_unknown, in_range, nearest, told};
 use super::report::{BeyondRange, GapShare, Unknowns};
 use super::residual::{Equations, exact};
-use crate::{CombinedState, ContactState, ModeProblem};
+use crate::problem::{ContactState, ModeProblem};
+use crate::search::CombinedState;
 
 /// Signed values `N` and shares of a state. One beyond the range of floating-point numbers is infinite or subnormal,
 /// with its sign.

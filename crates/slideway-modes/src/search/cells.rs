@@ -82,7 +82,7 @@ struct Hyperplane {
 
 /// Part of a face of the cube.
 #[derive(Clone)]
-struct Part {
+struct Patch {
     centre: Point,
     radius: Point,
     /// The coordinate that is 1 or -1.
@@ -96,7 +96,7 @@ struct Part {
 }
 
 /// The equations `|G x + h| <= noise` on a part.
-struct Enclosure {
+struct ImageBounds {
     gradient: [Point; LARGEST_RANK],
     constant: Vector,
     noise: Vector,
@@ -109,7 +109,7 @@ pub(super) struct Cover<'a> {
     hyperplanes: Vec<Hyperplane>,
     /// What errors and rounding amount to in each equation.
     noise: Vector,
-    open: Vec<Part>,
+    open: Vec<Patch>,
     tested: HashSet<Vec<u8>>,
     covered: Covered,
 }
@@ -160,7 +160,7 @@ impl<'a> Cover<'a> {
     }
 
     /// Drops a part, files its candidates, or leaves smaller ones; none if that is not possible.
-    fn visit(&mut self, mut part: Part) -> Option<()> {
+    fn visit(&mut self, mut part: Patch) -> Option<()> {
         let ranges = self.decide_contacts(&mut part);
         let equations = self.linearised(&part, &ranges);
         let before = part.widest();
@@ -186,7 +186,7 @@ impl<'a> Cover<'a> {
 
     /// Moves contacts that are decided all over a part into its equations; middle and radius of the
     /// `s` of the others.
-    fn decide_contacts(&self, part: &mut Part) -> Vec<(f64, f64)> {
+    fn decide_contacts(&self, part: &mut Patch) -> Vec<(f64, f64)> {
         let mut ranges = Vec::with_capacity(part.undecided.len());
         let mut undecided = std::mem::take(&mut part.undecided);
         undecided.retain(|&contact| {
@@ -204,9 +204,9 @@ impl<'a> Cover<'a> {
         ranges
     }
 
-    fn linearised(&self, part: &Part, ranges: &[(f64, f64)]) -> Enclosure {
+    fn linearised(&self, part: &Patch, ranges: &[(f64, f64)]) -> ImageBounds {
         let mut equations =
-            Enclosure { gradient: part.decided, constant: [0.0; LARGEST_RANK], noise: self.noise };
+            ImageBounds { gradient: part.decided, constant: [0.0; LARGEST_RANK], noise: self.noise };
         for (&contact, &(middle, radius)) in part.undecided.iter().zip(ranges) {
             let plane = &self.hyperplanes[contact];
             let [up, down] = &plane.slopes;
@@ -225,12 +225,12 @@ impl<'a> Cover<'a> {
     }
 
     /// Whether the equations change less over a part than what is not known of them.
-    fn is_lost_in_noise(&self, part: &Part, equations: &Enclosure) -> bool {
+    fn is_lost_in_noise(&self, part: &Patch, equations: &ImageBounds) -> bool {
         (0..self.rank).all(|row| reach(&equations.gradient[row], &part.radius) <= 2.0 * self.noise[row])
     }
 
     /// The coordinate along which undecided contacts bend the equations most.
-    fn axis_to_halve(&self, part: &Part) -> usize {
+    fn axis_to_halve(&self, part: &Patch) -> usize {
         let mut bends = [0.0; SPACE];
         for &contact in &part.undecided {
             let plane = &self.hyperplanes[contact];
@@ -247,7 +247,7 @@ impl<'a> Cover<'a> {
     }
 
     /// Tests every pattern that a part may have.
-    fn file(&mut self, part: &Part) {
+    fn file(&mut self, part: &Patch) {
         let sides_at_centre = self.hyperplanes.iter().enumerate().map(|(contact, plane)| {
             u8::from(self.problem.side(contact, inner(&plane.normal, &part.centre) > 0.0) == 1)
         });
@@ -339,7 +339,7 @@ impl Hyperplane {
     }
 }
 
-impl Part {
+impl Patch {
     fn widest(&self) -> f64 {
         self.radius.iter().fold(0.0, |most: f64, &radius| most.max(radius))
     }
@@ -357,9 +357,9 @@ impl Part {
     }
 }
 
-impl Enclosure {
+impl ImageBounds {
     /// Whether some equation has no solution on a part.
-    fn excludes(&self, part: &Part, rank: usize) -> bool {
+    fn excludes(&self, part: &Patch, rank: usize) -> bool {
         (0..rank).any(|row| {
             let value = inner(&self.gradient[row], &part.centre) + self.constant[row];
             value.abs() > (self.noise[row] + reach(&self.gradient[row], &part.radius)) * (1.0 + ROUNDING)
@@ -371,7 +371,7 @@ impl Enclosure {
     /// From `A d = theta - f`, `d = x - centre` in the free coordinates, `f = G centre + h`,
     /// `|theta| <= noise`, and an approximate inverse `R` of `A`:
     /// `d = -R f + R theta + (I - R A) d`.
-    fn narrow(&self, part: &mut Part, rank: usize) -> bool {
+    fn narrow(&self, part: &mut Patch, rank: usize) -> bool {
         let mut free = [0; LARGEST_RANK];
         for (axis, at) in (0..=rank).filter(|&axis| axis != part.pinned).zip(&mut free) {
             *at = axis;
@@ -406,7 +406,7 @@ impl Enclosure {
 }
 
 /// The faces of the cube with `t >= 0`.
-fn faces(rank: usize, contacts: usize) -> Vec<Part> {
+fn faces(rank: usize, contacts: usize) -> Vec<Patch> {
     let undecided: Vec<usize> = (0..contacts).collect();
     let share = 1.0 / (2 * rank + 1) as f64;
     let face = |pinned: usize, value: f64| {
@@ -415,7 +415,7 @@ fn faces(rank: usize, contacts: usize) -> Vec<Part> {
         (centre[0], radius[0]) = (0.5, 0.5);
         (centre[pinned], radius[pinned]) = (value, 0.0);
         let decided = unit_equations(rank);
-        Part { centre, radius, pinned, undecided: undecided.clone(), decided, share }
+        Patch { centre, radius, pinned, undecided: undecided.clone(), decided, share }
     };
     let mut faces = vec![face(0, 1.0)];
     faces.extend((1..=rank).flat_map(|axis| [face(axis, 1.0), face(axis, -1.0)]));

@@ -9,16 +9,22 @@ use super::load::{Load, LoadedProblem};
 use super::monitor::Monitor;
 use super::product::{Alternative, Factor, GroupState, SolutionProduct};
 use super::report::{GroupReport, SearchOptions};
-use crate::certificate::{Interval, ProblemView};
-use crate::problem::Side;
-use crate::scaling::patterns_of;
-use crate::solutions::{Certificate, ContactState, SingularMode, SolutionSet, Solutions, UndecidedPattern};
+use crate::interval::Interval;
+use crate::problem::{ContactState, ProblemView, Side, SolutionSet, patterns_of};
+use crate::solutions::{Certificate, SingularMode, Solutions, UndecidedPattern};
 
 /// A problem of so few patterns is not split into groups, so that the outcome of each is known.
 const WHOLE_UP_TO: u64 = 64;
 
 /// Answers of groups that are kept for the same right-hand side, at most.
 const MOST_KEPT: usize = 10_000;
+
+/// A piece of the work: the part of all that is done before it, and the part that it is.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    done: f64,
+    share: f64,
+}
 
 /// A group's contacts and the right-hand side of its equations, bit by bit.
 type GroupKey = (Vec<usize>, Vec<u64>);
@@ -60,12 +66,12 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     /// All solutions of the problem.
     pub(super) fn solve(&mut self) -> SolutionProduct {
         let all: Vec<usize> = (0..self.groups.members.len()).collect();
-        self.solve_groups(&all, &Load::of(self.problem), (0.0, 1.0))
+        self.solve_groups(&all, &Load::of(self.problem), Piece { done: 0.0, share: 1.0 })
     }
 
     /// The solutions of some groups, given in increasing order, where `load` is the right-hand side
-    /// with everything that acts on them. They are the work from `work.0` on, of size `work.1`.
-    fn solve_groups(&mut self, groups: &[usize], load: &Load, work: (f64, f64)) -> SolutionProduct {
+    /// with everything that acts on them.
+    fn solve_groups(&mut self, groups: &[usize], load: &Load, work: Piece) -> SolutionProduct {
         let contacts = |part: &[usize]| -> usize { part.iter().map(|&g| self.groups.members[g].len()).sum() };
         let total = contacts(groups).max(1) as f64;
         let parts: Vec<(Vec<usize>, f64)> = self
@@ -73,14 +79,14 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             .independent_parts(groups)
             .into_iter()
             .map(|part| {
-                let share = work.1 * contacts(&part) as f64 / total;
+                let share = work.share * contacts(&part) as f64 / total;
                 (part, share)
             })
             .collect();
         let mut product = SolutionProduct::default();
-        let mut done = work.0;
+        let mut done = work.done;
         for (part, share) in parts {
-            product.factors.push(self.solve_part(&part, load, (done, share)));
+            product.factors.push(self.solve_part(&part, load, Piece { done, share }));
             done += share;
         }
         product
@@ -88,23 +94,23 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
 
     /// The solutions of groups that hang together: those of the first, and for each of them those of
     /// the others.
-    fn solve_part(&mut self, part: &[usize], load: &Load, work: (f64, f64)) -> Factor {
+    fn solve_part(&mut self, part: &[usize], load: &Load, work: Piece) -> Factor {
         let rest = &part[1..];
         let first = self.groups.members[part[0]].clone();
         let part_size: usize = part.iter().map(|&group| self.groups.members[group].len()).sum();
-        let own = work.1 * first.len() as f64 / part_size.max(1) as f64;
-        self.monitor.start_group(work.0, own);
+        let own = work.share * first.len() as f64 / part_size.max(1) as f64;
+        self.monitor.start_group(work.done, own);
         let answer = self.solve_group(&first, load);
         if rest.is_empty() {
             return Factor { alternatives: answer.alternatives(), contacts: first };
         }
-        let left = (work.0 + own, work.1 - own);
+        let left = Piece { done: work.done + own, share: work.share - own };
         if answer.admits_sets {
             // The others would have to be solved for a whole set of loads.
             return self.solve_together(part, load, left);
         }
-        let share = (work.1 - own) / answer.states.len().max(1) as f64;
-        let mut done = work.0 + own;
+        let share = left.share / answer.states.len().max(1) as f64;
+        let mut done = left.done;
         let mut alternatives = Vec::new();
         for state in &answer.states {
             let acting = self.load_with(&first, state, load);
@@ -112,7 +118,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
                 // No floating-point number tells the others what acts on them.
                 return self.solve_together(part, load, left);
             }
-            let dependents = self.solve_groups(rest, &acting, (done, share));
+            let dependents = self.solve_groups(rest, &acting, Piece { done, share });
             // What has no solution of the others is none, and there may be very many of such.
             if !dependents.is_empty() {
                 alternatives.push(Alternative { state: Arc::clone(state), dependents });
@@ -126,11 +132,11 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
     }
 
     /// The solutions of groups that hang together, searched as one.
-    fn solve_together(&mut self, part: &[usize], load: &Load, work: (f64, f64)) -> Factor {
+    fn solve_together(&mut self, part: &[usize], load: &Load, work: Piece) -> Factor {
         let mut contacts: Vec<usize> =
             part.iter().flat_map(|&group| &self.groups.members[group]).copied().collect();
         contacts.sort_unstable();
-        self.monitor.start_group(work.0, work.1);
+        self.monitor.start_group(work.done, work.share);
         let answer = self.solve_group(&contacts, load);
         Factor { alternatives: answer.alternatives(), contacts }
     }

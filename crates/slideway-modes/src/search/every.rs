@@ -6,8 +6,7 @@ use super::monitor::Monitor;
 use super::report::PatternShares;
 use super::sieve::Sieve;
 use super::tree::TreeReport;
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// Decides all patterns in the order of enumeration. Without `certify` each is solved within tolerances.
 pub(super) fn try_all(

@@ -3,19 +3,18 @@
 use nalgebra::DVector;
 
 use super::cells::{self, Covered};
-use super::every;
 use super::leaf::Leaves;
 use super::load::LoadedProblem;
 use super::low_rank::LowRank;
 use super::monitor::Monitor;
-use super::propagation::Propagation;
+use super::propagation::SolvedForm;
 use super::relaxation::load_error;
 use super::report::{GroupReport, Method, PatternOutcomes, PatternShares, SearchOptions};
 use super::tree::{Tree, TreeReport};
-use super::uniqueness;
+use super::{every, uniqueness};
 use crate::findings::Findings;
-use crate::scaling::ScaledProblem;
-use crate::solutions::{ContactState, Solutions};
+use crate::problem::{ContactState, ScaledProblem};
+use crate::solutions::Solutions;
 
 /// All patterns of a group are tried if they are so few. For 8 contacts without jumps that takes about 0.4 ms,
 /// several times as long as branch and bound, which does not tell the outcome of each.
@@ -85,7 +84,7 @@ fn search_large_group(
         return unexplored();
     }
     let solved = if arguments.propagation || arguments.uniqueness {
-        Propagation::new(scaled, &load_radius, &mut || monitor.goes_on())
+        SolvedForm::new(scaled, &load_radius, &mut || monitor.goes_on())
     } else {
         None
     };
@@ -112,7 +111,7 @@ fn search_large_group(
 /// The only solution, if a proof says that there is exactly one.
 fn by_uniqueness(
     problem: &ScaledProblem,
-    solved: &Propagation,
+    solved: &SolvedForm,
     leaves: &mut Leaves<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(Method, TreeReport)> {

@@ -6,7 +6,7 @@
 //! 4 (d)). A contact whose right-hand side jumps stays together with all equations that the jump
 //! reaches, because its gap states depend on all of them.
 
-use crate::certificate::ProblemView;
+use crate::problem::ProblemView;
 
 /// Groups in an order in which each acts on later ones only.
 #[derive(Debug, Clone, PartialEq, Eq)]

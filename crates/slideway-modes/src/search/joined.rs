@@ -3,11 +3,9 @@
 use nalgebra::DVector;
 
 use super::product::{CombinedState, GroupState};
-use crate::certificate::Interval;
-use crate::problem::Side;
-use crate::solutions::{
-    Certificate, ContactState, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
-};
+use crate::interval::Interval;
+use crate::problem::{ContactState, Side, SolutionSet};
+use crate::solutions::{Certificate, GapState, ModeSolution, SingularMode, UndecidedPattern};
 
 /// The most vertices and directions of a set that is a product of several.
 const CORNERS: usize = 4096;

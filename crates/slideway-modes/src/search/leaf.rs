@@ -6,9 +6,8 @@ use super::relaxation::Relaxation;
 use super::report::StopReason;
 use super::states::StateSet;
 use crate::certificate::{Decision, decide_while, proves_empty_while};
-use crate::decided::Filed;
-use crate::findings::Findings;
-use crate::solutions::ContactState;
+use crate::findings::{Filed, Findings};
+use crate::problem::ContactState;
 
 /// Decides patterns one by one.
 pub(super) struct Leaves<'a> {

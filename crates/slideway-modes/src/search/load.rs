@@ -3,11 +3,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::certificate::{
-    Column, Decision, ExactOutcome, ExactSet, Interval, ProblemView, Radii, Sign, decide_while, solve_exactly,
-};
-use crate::problem::{BySide, ModeProblem, Side};
-use crate::solutions::ContactState;
+use crate::certificate::{Decision, ExactOutcome, ExactSet, decide_while, solve_exactly};
+use crate::interval::{Interval, Sign};
+use crate::problem::{BySide, Column, ContactState, ModeProblem, ProblemView, Radii, Side};
 
 /// The most contacts that are decided together in rational numbers.
 const JOINT_CONTACTS: usize = 48;

@@ -25,8 +25,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::scaling::{ScaledProblem, power_of_two_above};
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem, power_of_two_above};
 
 /// The highest rank that is looked for.
 pub(super) const LARGEST_RANK: usize = 6;

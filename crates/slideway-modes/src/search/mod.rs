@@ -81,7 +81,7 @@ pub use report::{
 pub use result::{SearchResult, StateLists};
 pub use states::StateSet;
 
-use super::certificate::ProblemView;
+use crate::problem::ProblemView;
 use crate::progress::Callback;
 use composition::Composer;
 use monitor::Monitor;

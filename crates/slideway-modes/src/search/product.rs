@@ -5,11 +5,11 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::count::BigCount;
-use crate::certificate::Interval;
+use crate::interval::Interval;
+use crate::problem::{ContactState, SolutionSet};
 use crate::solutions::{
-    Certificate, ContactState, GapShare, GapState, ModeSolution, SingularMode, SolutionSet, UndecidedPattern,
+    Certificate, GapShare, GapState, ModeSolution, SingularMode, Support, UndecidedPattern,
 };
-use crate::support::Support;
 
 /// All solutions of a set of contacts: one alternative of every factor, in any combination.
 #[derive(Debug, Clone, PartialEq, Default)]

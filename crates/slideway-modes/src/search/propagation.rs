@@ -16,8 +16,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::states::StateSet;
 use crate::dense::{Lu, Pace, inverse, product};
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// Bounds are widened by this fraction of the sum of their terms' sizes, far above rounding.
 const MARGIN: f64 = 1e-10;
@@ -32,7 +31,7 @@ const SWEEPS: usize = 20;
 
 /// The mode problem solved for `N`.
 #[derive(Debug)]
-pub(super) struct Propagation {
+pub(super) struct SolvedForm {
     /// `e`.
     pub(super) frictionless: DVector<f64>,
     /// `G`.
@@ -48,7 +47,7 @@ pub(super) struct Propagation {
     has_jump: Vec<bool>,
 }
 
-impl Propagation {
+impl SolvedForm {
     /// For all right-hand sides within `load_radius`; none if `A` is singular, or once `proceed` is false.
     pub(super) fn new(
         problem: &ScaledProblem,
@@ -204,8 +203,7 @@ mod tests {
     use super::super::states::all_states;
     use super::super::test_problems::{Numbers, admitted, holds};
     use super::*;
-    use crate::certificate::IntervalModeProblem;
-    use crate::problem::ModeProblem;
+    use crate::problem::{IntervalModeProblem, ModeProblem};
 
     #[test]
     fn all_solutions_are_within_the_bounds() {
@@ -216,7 +214,7 @@ mod tests {
             let radius = if seed % 3 == 0 { 0.2 } else { 0.0 };
             let scaled = ScaledProblem::new(&problem);
             let load_radius = scaled.scaled_load_radius(&DVector::repeat(3, radius));
-            let Some(propagation) = Propagation::new(&scaled, &load_radius, &mut || true) else { continue };
+            let Some(propagation) = SolvedForm::new(&scaled, &load_radius, &mut || true) else { continue };
             bounded += usize::from(propagation.is_contraction());
             let nearby = numbers.with_load_off_by(&problem, radius);
             let mut states = all_states(&scaled);
@@ -244,7 +242,7 @@ mod tests {
         for (relative, expected) in [(1e-3, true), (0.1, false)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
             let scaled = ScaledProblem::within((&bounded).into());
-            let propagation = Propagation::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
+            let propagation = SolvedForm::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
             assert_eq!(propagation.is_contraction(), expected, "{relative}");
         }
     }
@@ -256,7 +254,7 @@ mod tests {
             let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
             let problem = ModeProblem::from_absolute_value_equation(&identity, &coupling, load);
             let scaled = ScaledProblem::new(&problem.expect("shapes fit"));
-            let propagation = Propagation::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
+            let propagation = SolvedForm::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
             assert_eq!(propagation.is_contraction(), expected);
         }
     }

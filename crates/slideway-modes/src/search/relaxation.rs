@@ -13,8 +13,7 @@ use nalgebra::DVector;
 
 use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// A Farkas vector must exclude by this fraction of the size of its terms, which is what solutions
 /// on a boundary are tolerated by.

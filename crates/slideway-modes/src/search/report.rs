@@ -3,8 +3,7 @@
 use std::fmt;
 
 use super::states::StateSet;
-use crate::enumeration::Limits;
-use crate::solutions::{ClosestMode, PatternCounts, SingularMode, Solutions};
+use crate::solutions::{ClosestMode, Limits, PatternCounts, SingularMode, Solutions};
 
 /// What a search may use, and how much.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,10 +8,11 @@
 //!
 //! so that `|A^-1 b - x| <= z + G max z / (1 - max G)` row by row, with `z = |R (b - A x)|` and `G` the row
 //! sums of `|I - R A|`. `A` is regular if `max G < 1`. Radii of the data and rounding are part of `z` and `G`.
+//!
+//! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but has one bound for all entries, and so excludes less
+//! where the data have wide bounds, as over a stretch of a parameter.
 
-use crate::certificate::{Column, ProblemView};
-use crate::problem::Side;
-use crate::solutions::ContactState;
+use crate::problem::{Column, ContactState, ProblemView, Side};
 
 /// What underflow may take from a bound, far below any number that is let in.
 const UNDERFLOW: f64 = 1e-290;

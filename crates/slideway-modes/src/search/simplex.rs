@@ -84,7 +84,7 @@ pub(super) enum LinearOutcome {
     Undecided,
 }
 
-enum Step {
+enum Pivoting {
     /// The column of the tableau that enters.
     Pivot(usize),
     Infeasible,
@@ -162,11 +162,11 @@ impl LinearProgram {
                 continue;
             };
             match basis.entering(row, direction) {
-                Step::Infeasible => {
+                Pivoting::Infeasible => {
                     let edge = basis.inverse_row(self, row);
                     return LinearOutcome::Infeasible(edge.iter().map(|entry| direction * entry).collect());
                 }
-                Step::Pivot(column) => {
+                Pivoting::Pivot(column) => {
                     *iterations += 1;
                     basis.pivot(self, bounds, row, column, direction);
                     if basis.updates > UPDATES && !basis.refactor(self, bounds, pace.proceed()) {
@@ -320,7 +320,7 @@ impl Basis {
 
     /// Ratio test in two passes (Harris): of all variables whose reduced cost bounds the step, up to
     /// a slack, the one with the largest pivot.
-    fn entering(&self, row: usize, direction: f64) -> Step {
+    fn entering(&self, row: usize, direction: f64) -> Pivoting {
         let step = self.longest_step(row, direction, DUAL_SLACK);
         let (mut best, mut largest) = (None, ZERO_PIVOT);
         for (column, (&entry, &way)) in self.row(row).iter().zip(&self.way).enumerate() {
@@ -329,7 +329,7 @@ impl Basis {
                 (best, largest) = (Some(column), pivot);
             }
         }
-        best.map_or(Step::Infeasible, Step::Pivot)
+        best.map_or(Pivoting::Infeasible, Pivoting::Pivot)
     }
 
     /// Exchanges the basic variable of a row for the nonbasic one of a column.

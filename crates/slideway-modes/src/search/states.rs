@@ -1,7 +1,6 @@
 //! The states that are still open to each contact of a node.
 
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// The states that a contact may still take: a subset of positive, negative and gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

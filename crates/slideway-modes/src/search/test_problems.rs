@@ -4,8 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::states::StateSet;
 use crate::certificate::{Decision, ExactSet, decide};
-use crate::problem::{ModeProblem, Side};
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ModeProblem, Side};
 
 /// Numbers from a linear congruential generator (Knuth's MMIX constants).
 pub(super) struct Numbers {

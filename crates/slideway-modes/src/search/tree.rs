@@ -6,13 +6,12 @@ use nalgebra::DVector;
 
 use super::leaf::Leaves;
 use super::monitor::Monitor;
-use super::propagation::Propagation;
+use super::propagation::SolvedForm;
 use super::relaxation::{Relaxation, Relaxed, RelaxedContact};
 use super::report::{Exclusion, ExclusionArgument, PatternShares, SearchOptions, StopReason};
 use super::simplex::Basis;
 use super::states::{StateSet, all_states, fraction_of_patterns};
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// Costs of forbidding a side are compared within these limits.
 const LEAST_COST: f64 = 1e-6;
@@ -35,7 +34,7 @@ pub(super) struct TreeReport {
 
 pub(super) struct Tree<'a> {
     problem: &'a ScaledProblem,
-    propagation: Option<&'a Propagation>,
+    propagation: Option<&'a SolvedForm>,
     relaxation: Relaxation,
     keep_exclusions: bool,
     report: TreeReport,
@@ -44,7 +43,7 @@ pub(super) struct Tree<'a> {
 impl<'a> Tree<'a> {
     pub(super) fn new(
         problem: &'a ScaledProblem,
-        propagation: Option<&'a Propagation>,
+        propagation: Option<&'a SolvedForm>,
         load_radius: &DVector<f64>,
         options: &SearchOptions,
     ) -> Self {

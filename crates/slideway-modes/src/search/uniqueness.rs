@@ -1,16 +1,15 @@
 //! Cheap proofs that there is exactly one solution.
 //!
-//! Without jumps the problem is `N = e - G |N|` (see [`Propagation`]). The map on the right is a
+//! Without jumps the problem is `N = e - G |N|` (see [`SolvedForm`]). The map on the right is a
 //! contraction if the spectral radius of `|G|` is below 1, or if the largest singular value of `G`
 //! is (theory, section 4 (a) and (c)): then there is exactly one solution for every load.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::propagation::Propagation;
+use super::propagation::SolvedForm;
 use super::report::Method;
 use crate::dense::{Lu, Pace, has_cholesky_factor, product};
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::problem::{ContactState, ScaledProblem};
 
 /// Singular values are compared with 1 less this.
 const MARGIN: f64 = 1e-8;
@@ -22,7 +21,7 @@ const NEWTON_STEPS: usize = 60;
 /// The argument that proves exactly one solution, if one of the cheap ones does and `proceed` stays true.
 pub(super) fn proof(
     problem: &ScaledProblem,
-    propagation: &Propagation,
+    propagation: &SolvedForm,
     proceed: &mut dyn FnMut() -> bool,
 ) -> Option<Method> {
     if problem.has_jump.iter().any(|&jump| jump) {
@@ -35,7 +34,7 @@ pub(super) fn proof(
 }
 
 /// `(1 - delta)^2 I - G^T G` is positive definite, where `delta` covers how far `G` may be off.
-fn singular_values_below_one(propagation: &Propagation, proceed: &mut dyn FnMut() -> bool) -> Option<bool> {
+fn singular_values_below_one(propagation: &SolvedForm, proceed: &mut dyn FnMut() -> bool) -> Option<bool> {
     let contacts = propagation.frictionless.len();
     let coupling = &propagation.coupling;
     // sigma_max is at least the norm of any column.
@@ -55,7 +54,7 @@ fn singular_values_below_one(propagation: &Propagation, proceed: &mut dyn FnMut(
 /// pattern. None if that does not settle, or once `proceed` is false.
 pub(super) fn only_pattern(
     problem: &ScaledProblem,
-    propagation: &Propagation,
+    propagation: &SolvedForm,
     proceed: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<ContactState>> {
     let mut normal_force = propagation.frictionless.clone();
@@ -94,13 +93,12 @@ fn pattern_of(normal_force: &DVector<f64>) -> Vec<ContactState> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::IntervalModeProblem;
-    use crate::problem::ModeProblem;
+    use crate::problem::{IntervalModeProblem, ModeProblem};
 
     fn proof_of(problem: &ModeProblem) -> Option<Method> {
         let scaled = ScaledProblem::new(problem);
         let load_radius = DVector::zeros(problem.contacts());
-        let propagation = Propagation::new(&scaled, &load_radius, &mut || true).expect("regular");
+        let propagation = SolvedForm::new(&scaled, &load_radius, &mut || true).expect("regular");
         proof(&scaled, &propagation, &mut || true)
     }
 
@@ -145,7 +143,7 @@ mod tests {
         for (relative, expected) in [(1e-3, Some(Method::SingularValue)), (0.1, None)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
             let scaled = ScaledProblem::within((&bounded).into());
-            let propagation = Propagation::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
+            let propagation = SolvedForm::new(&scaled, &DVector::zeros(2), &mut || true).expect("regular");
             assert_eq!(proof(&scaled, &propagation, &mut || true), expected, "{relative}");
         }
     }

@@ -5,10 +5,9 @@ mod proofs;
 use nalgebra::DMatrix;
 
 use self::proofs::Family;
-use super::certificate::{Sign, determinant_sign};
-use super::problem::{ModeProblem, Side};
-use super::scaling::ScaledProblem;
-use super::solutions::ContactState;
+use crate::certificate::determinant_sign;
+use crate::interval::Sign;
+use crate::problem::{ContactState, ModeProblem, ScaledProblem, Side};
 
 /// Undecided contacts from which on the proofs are tried on a part of the tree.
 const PROOF_SIZE: usize = 7;
@@ -101,16 +100,16 @@ pub fn uniqueness(problem: &ModeProblem, limits: &UniquenessLimits) -> Uniquenes
     if let Some(contact) = (0..contacts).find(|&contact| problem.has_jump(contact)) {
         return Uniqueness::JumpsPresent { contact };
     }
-    let mut search = Search::new(problem, limits);
-    match search.descend(0, 1, false) {
-        Err(Found::Opposite) | Ok(()) => search.conclusion(),
-        Err(Found::Singular) => Uniqueness::Singular { pattern: search.pattern },
-        Err(Found::Limit) => Uniqueness::NotComputed { limit: limits.nodes },
+    let mut tree = SignTree::new(problem, limits);
+    match tree.descend(0, 1, false) {
+        Err(Ended::Opposite) | Ok(()) => tree.conclusion(),
+        Err(Ended::Singular) => Uniqueness::Singular { pattern: tree.pattern },
+        Err(Ended::Limit) => Uniqueness::NotComputed { limit: limits.nodes },
     }
 }
 
 /// What ends a search early.
-enum Found {
+enum Ended {
     Opposite,
     Singular,
     Limit,
@@ -124,7 +123,7 @@ struct Level {
     errors: Vec<f64>,
 }
 
-struct Search<'p> {
+struct SignTree<'p> {
     problem: &'p ModeProblem,
     contacts: usize,
     levels: Vec<Level>,
@@ -136,7 +135,7 @@ struct Search<'p> {
     exact: u64,
 }
 
-impl<'p> Search<'p> {
+impl<'p> SignTree<'p> {
     fn new(problem: &'p ModeProblem, limits: &UniquenessLimits) -> Self {
         let contacts = problem.contacts();
         let scaled = ScaledProblem::within(problem.into());
@@ -170,7 +169,7 @@ impl<'p> Search<'p> {
 
     /// Visits all patterns that share the sides of the contacts before `level`, or only one of them
     /// if it is known that they have one sign. `sign` is that of the pivots above.
-    fn descend(&mut self, level: usize, sign: i8, one_sign: bool) -> Result<(), Found> {
+    fn descend(&mut self, level: usize, sign: i8, one_sign: bool) -> Result<(), Ended> {
         if level == self.contacts {
             return self.file(sign);
         }
@@ -179,7 +178,7 @@ impl<'p> Search<'p> {
         let one_sign = one_sign || (try_proof && self.family(level).has_one_sign());
         let sides = if one_sign { &Side::BOTH[..1] } else { &Side::BOTH[..] };
         for (index, &side) in sides.iter().enumerate() {
-            self.nodes = self.nodes.checked_sub(1).ok_or(Found::Limit)?;
+            self.nodes = self.nodes.checked_sub(1).ok_or(Ended::Limit)?;
             self.pattern[level] = side;
             match self.eliminate(level, index) {
                 Some(pivot_sign) => self.descend(level + 1, sign * pivot_sign, one_sign)?,
@@ -189,12 +188,12 @@ impl<'p> Search<'p> {
         Ok(())
     }
 
-    fn file(&mut self, sign: i8) -> Result<(), Found> {
+    fn file(&mut self, sign: i8) -> Result<(), Ended> {
         let place = usize::from(sign < 0);
         if self.found[place].is_none() {
             self.found[place] = Some(self.pattern.clone());
         }
-        if self.found.iter().all(Option::is_some) { Err(Found::Opposite) } else { Ok(()) }
+        if self.found.iter().all(Option::is_some) { Err(Ended::Opposite) } else { Ok(()) }
     }
 
     fn family(&self, level: usize) -> Family {
@@ -269,7 +268,7 @@ impl<'p> Search<'p> {
     }
 
     /// Decides one by one, exactly, the patterns that share the sides of the contacts before `first`.
-    fn examine_all_below(&mut self, first: usize, one_sign: bool) -> Result<(), Found> {
+    fn examine_all_below(&mut self, first: usize, one_sign: bool) -> Result<(), Ended> {
         if self.exact == 0 {
             self.leave_in_doubt();
             return Ok(());
@@ -277,7 +276,7 @@ impl<'p> Search<'p> {
         if first < self.contacts {
             let sides = if one_sign { &Side::BOTH[..1] } else { &Side::BOTH[..] };
             for &side in sides {
-                self.nodes = self.nodes.checked_sub(1).ok_or(Found::Limit)?;
+                self.nodes = self.nodes.checked_sub(1).ok_or(Ended::Limit)?;
                 self.pattern[first] = side;
                 self.examine_all_below(first + 1, one_sign)?;
             }
@@ -288,7 +287,7 @@ impl<'p> Search<'p> {
         let negative = self.pattern.iter().filter(|side| **side == Side::Negative).count();
         let orientation = if negative % 2 == 0 { 1 } else { -1 };
         match determinant_sign(self.problem, &pattern) {
-            Sign::Zero => Err(Found::Singular),
+            Sign::Zero => Err(Ended::Singular),
             Sign::Positive => self.file(orientation),
             Sign::Negative => self.file(-orientation),
         }

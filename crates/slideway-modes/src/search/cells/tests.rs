@@ -5,10 +5,9 @@ use std::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector};
 
 use super::*;
-use crate::certificate::{Decision, ExactSet, IntervalMatrix, IntervalModeProblem, decide};
-use crate::problem::{BySide, ModeProblem};
-use crate::scaling::ScaledProblem;
-use crate::solutions::ContactState;
+use crate::certificate::{Decision, ExactSet, decide};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::{BySide, ContactState, IntervalModeProblem, ModeProblem, ScaledProblem};
 
 fn numbers(seed: u64) -> impl FnMut(i64) -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
@@ -178,7 +177,7 @@ fn steps_with_inaccurate_inverses_keep_the_solution() {
             let (first, second) = (one * factor, other * factor);
             gradient[row][..3].copy_from_slice(&[0.5 * second - 0.5 * first, first, second]);
         }
-        let equations = Enclosure { gradient, constant: [0.0; LARGEST_RANK], noise: [0.0; LARGEST_RANK] };
+        let equations = ImageBounds { gradient, constant: [0.0; LARGEST_RANK], noise: [0.0; LARGEST_RANK] };
         let mut part = faces(2, 0).swap_remove(0);
         assert!(equations.narrow(&mut part, 2), "seed {seed}");
         for (axis, value) in [(1, 0.5), (2, -0.5)] {
@@ -202,7 +201,7 @@ fn steps_with_wrong_inverses_keep_all_solutions() {
         let mut matrix = [[0.0; LARGEST_RANK]; LARGEST_RANK];
         (0..2).for_each(|row| matrix[row][..2].copy_from_slice(&gradient[row][1..3]));
         inverted += usize::from(Inverse::new(&matrix, 2).is_some());
-        let equations = Enclosure { gradient, constant: [0.0; LARGEST_RANK], noise: [0.0; LARGEST_RANK] };
+        let equations = ImageBounds { gradient, constant: [0.0; LARGEST_RANK], noise: [0.0; LARGEST_RANK] };
         let mut part = faces(2, 0).swap_remove(0);
         assert!(equations.narrow(&mut part, 2), "seed {seed}");
         for (axis, value) in [(1, other / 4.0), (2, -one / 4.0)] {

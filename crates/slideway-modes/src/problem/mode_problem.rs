@@ -1,104 +1,10 @@
 //! The mode problem as pure numbers: two versions of every column and of every jump vector.
 
-use std::fmt;
-
 use nalgebra::{DMatrix, DVector};
 
-use super::certificate::Radii;
-use crate::interval::two_sum_remainder;
-
-/// The side on which a contact is pressed: the sign `sigma` of its normal force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Side {
-    /// `N > 0`.
-    Positive,
-    /// `N < 0`.
-    Negative,
-}
-
-impl Side {
-    /// Both sides, in the order in which patterns are enumerated.
-    pub const BOTH: [Self; 2] = [Self::Positive, Self::Negative];
-
-    /// The sign `sigma` of the side, `1.0` or `-1.0`.
-    ///
-    /// ```
-    /// use slideway_modes::Side;
-    /// assert_eq!(Side::Negative.sign(), -1.0);
-    /// ```
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Positive => 1.0,
-            Self::Negative => -1.0,
-        }
-    }
-}
-
-/// A quantity that has one value for each side of the contacts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BySide<T> {
-    /// The value for contacts pressed towards `+n`.
-    pub positive: T,
-    /// The value for contacts pressed towards `-n`.
-    pub negative: T,
-}
-
-impl<T> BySide<T> {
-    /// The value for one side.
-    pub fn get(&self, side: Side) -> &T {
-        match side {
-            Side::Positive => &self.positive,
-            Side::Negative => &self.negative,
-        }
-    }
-}
-
-impl<T: Clone> BySide<T> {
-    /// The same value for both sides.
-    ///
-    /// ```
-    /// use slideway_modes::{BySide, Side};
-    /// assert_eq!(*BySide::same(0.1).get(Side::Negative), 0.1);
-    /// ```
-    pub fn same(value: T) -> Self {
-        Self { positive: value.clone(), negative: value }
-    }
-}
-
-/// Which part of the data an error speaks of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ProblemPart {
-    /// Columns `c_k` of one side, or `eta`, `M`, `A`: one column per contact.
-    Columns(Side),
-    /// Jump vectors `d_k` of one side, or the preload's influence coefficients.
-    Jumps(Side),
-    /// Coefficients of friction of one side.
-    Friction(Side),
-    /// Preload friction `F_k0` of one side.
-    Preload(Side),
-    /// Signs of the sliding velocities.
-    VelocitySigns,
-    /// The right-hand side `N(0)`, `b` or `q`.
-    RightHandSide,
-}
-
-impl fmt::Display for ProblemPart {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (name, side) = match self {
-            Self::Columns(side) => ("columns", Some(side)),
-            Self::Jumps(side) => ("jumps", Some(side)),
-            Self::Friction(side) => ("coefficients of friction", Some(side)),
-            Self::Preload(side) => ("preload friction", Some(side)),
-            Self::VelocitySigns => ("velocity signs", None),
-            Self::RightHandSide => ("right-hand side", None),
-        };
-        match side {
-            Some(Side::Positive) => write!(formatter, "{name} of the positive side"),
-            Some(Side::Negative) => write!(formatter, "{name} of the negative side"),
-            None => formatter.write_str(name),
-        }
-    }
-}
+use crate::error_free::sum_remainder;
+use crate::problem::radii::Radii;
+use crate::problem::side::{BySide, ProblemPart, Side};
 
 /// Data that do not make a mode problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -173,10 +79,10 @@ pub struct ModeProblem {
 
 /// What rounding took from columns that are sums: the exact columns are `columns + remainder`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Remainder {
-    pub(super) columns: BySide<DMatrix<f64>>,
+pub(crate) struct Remainder {
+    pub(crate) columns: BySide<DMatrix<f64>>,
     /// Its sizes, as the radii of a problem within bounds.
-    pub(super) radii: Radii,
+    pub(crate) radii: Radii,
 }
 
 impl Remainder {
@@ -318,7 +224,7 @@ impl ModeProblem {
         let none = DMatrix::zeros(contacts, contacts);
         let mut problem = Self::new(a + b, b - a, none.clone(), none, right_hand_side)?;
         let lost = |one: &DMatrix<f64>, other: &DMatrix<f64>, sum: &DMatrix<f64>| {
-            one.zip_zip_map(other, sum, two_sum_remainder)
+            one.zip_zip_map(other, sum, sum_remainder)
         };
         problem.remainder = Remainder::new(BySide {
             positive: lost(a, b, &problem.columns.positive),
@@ -388,7 +294,7 @@ impl ModeProblem {
     }
 
     /// The equations and columns of some contacts alone, with their entries of `right_hand_side`, which are finite.
-    pub(super) fn restricted(&self, contacts: &[usize], right_hand_side: &DVector<f64>) -> Self {
+    pub(crate) fn restricted(&self, contacts: &[usize], right_hand_side: &DVector<f64>) -> Self {
         let size = contacts.len();
         let of = |matrix: &DMatrix<f64>| {
             DMatrix::from_fn(size, size, |row, column| matrix[(contacts[row], contacts[column])])
@@ -435,12 +341,12 @@ impl ModeProblem {
     }
 
     /// The sizes of the remainder as radii of the rounded columns; none if nothing was rounded.
-    pub(super) fn remainder_radii(&self) -> Option<&Radii> {
+    pub(crate) fn remainder_radii(&self) -> Option<&Radii> {
         self.remainder.as_ref().map(|lost| &lost.radii)
     }
 
     /// The problem with the rounded columns.
-    pub(super) fn rounded(&self) -> Self {
+    pub(crate) fn rounded(&self) -> Self {
         Self { remainder: None, ..self.clone() }
     }
 

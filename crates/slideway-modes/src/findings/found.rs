@@ -2,42 +2,41 @@
 
 use nalgebra::DVector;
 
-use super::candidate::Candidate;
-use super::problem::Side;
-use super::solutions::{Certificate, ContactState, GapShare, GapState, ModeSolution, UndecidedPattern};
-use super::support::Support;
+use crate::findings::candidate::Candidate;
+use crate::problem::{ContactState, Side};
+use crate::solutions::{Certificate, GapShare, GapState, ModeSolution, Support, UndecidedPattern};
 
 /// A solution or gap state with the patterns that give it.
-pub(super) struct Found {
-    pub(super) candidate: Candidate,
-    pub(super) normal_force: DVector<f64>,
-    pub(super) patterns: Vec<Vec<ContactState>>,
-    pub(super) pattern_count: u64,
-    pub(super) certificate: Certificate,
+pub(crate) struct Found {
+    pub(crate) candidate: Candidate,
+    pub(crate) normal_force: DVector<f64>,
+    pub(crate) patterns: Vec<Vec<ContactState>>,
+    pub(crate) pattern_count: u64,
+    pub(crate) certificate: Certificate,
 }
 
 impl Found {
     /// The candidate of a pattern.
-    pub(super) fn new(pattern: &[ContactState], candidate: Candidate, certificate: Certificate) -> Self {
+    pub(crate) fn new(pattern: &[ContactState], candidate: Candidate, certificate: Certificate) -> Self {
         let signed = pattern.iter().zip(&candidate.unknowns).map(|(state, value)| state.sign() * value);
         let normal_force = DVector::from_iterator(pattern.len(), signed);
         Self { candidate, normal_force, patterns: vec![pattern.to_vec()], pattern_count: 1, certificate }
     }
 
-    pub(super) fn pattern(&self) -> &[ContactState] {
+    pub(crate) fn pattern(&self) -> &[ContactState] {
         &self.patterns[0]
     }
 
-    pub(super) fn has_gap(&self) -> bool {
+    pub(crate) fn has_gap(&self) -> bool {
         self.pattern().contains(&ContactState::Gap)
     }
 
-    pub(super) fn agrees_with(&self, other: &Self) -> bool {
+    pub(crate) fn agrees_with(&self, other: &Self) -> bool {
         let tolerance = self.candidate.tolerance + other.candidate.tolerance;
         (&self.normal_force - &other.normal_force).amax() <= tolerance
     }
 
-    pub(super) fn absorb(&mut self, other: Self, listed: usize) {
+    pub(crate) fn absorb(&mut self, other: Self, listed: usize) {
         self.pattern_count += other.pattern_count;
         let room = listed.saturating_sub(self.patterns.len());
         self.patterns.extend(other.patterns.into_iter().take(room));
@@ -51,7 +50,7 @@ impl Found {
 
     /// Whether the pattern of another finding is this one with some gaps closed, at the face where this
     /// state's shares end.
-    pub(super) fn closes_to(&self, other: &Self, has_jump: &[bool]) -> bool {
+    pub(crate) fn closes_to(&self, other: &Self, has_jump: &[bool]) -> bool {
         let states = self.pattern().iter().zip(other.pattern()).enumerate();
         let mut closed = 0;
         for (contact, (&state, &face)) in states.filter(|(contact, _)| has_jump[*contact]) {
@@ -83,10 +82,11 @@ impl Found {
     }
 
     fn support(&self, has_jump: &[bool]) -> Support {
-        Support::of_point(self.pattern(), &self.candidate, has_jump)
+        let Candidate { unknowns, zero, at_end, .. } = &self.candidate;
+        Support::of_point(self.pattern(), unknowns, [zero, at_end], has_jump)
     }
 
-    pub(super) fn into_mode_solution(self, has_jump: &[bool]) -> ModeSolution {
+    pub(crate) fn into_mode_solution(self, has_jump: &[bool]) -> ModeSolution {
         let (pattern, support) = (sides(self.pattern()), self.support(has_jump));
         ModeSolution {
             signs: self.signs(),
@@ -106,7 +106,7 @@ impl Found {
     }
 
     /// What may be a state of its own for some values within bounds, though in their middle it is another one.
-    pub(super) fn into_undecided(self) -> Option<UndecidedPattern> {
+    pub(crate) fn into_undecided(self) -> Option<UndecidedPattern> {
         let Certificate::OnBoundaryWithinBounds { unknowns, in_doubt } = self.certificate else {
             return None;
         };
@@ -114,7 +114,7 @@ impl Found {
         Some(UndecidedPattern { pattern, patterns: self.patterns, unknowns, in_doubt })
     }
 
-    pub(super) fn into_gap_state(self, has_jump: &[bool]) -> GapState {
+    pub(crate) fn into_gap_state(self, has_jump: &[bool]) -> GapState {
         let support = self.support(has_jump);
         let in_gap =
             (0..self.pattern().len()).filter(|&contact| self.pattern()[contact] == ContactState::Gap);
@@ -138,12 +138,12 @@ impl Found {
 }
 
 /// `p = D prod_k sigma_k` (theory, section 5).
-pub(super) fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
+pub(crate) fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
     pattern.iter().fold(determinant, |product, side| product * side.sign())
 }
 
 /// The sides of a pattern without gaps.
-pub(super) fn sides(pattern: &[ContactState]) -> Vec<Side> {
+pub(crate) fn sides(pattern: &[ContactState]) -> Vec<Side> {
     pattern.iter().filter_map(|state| state.side()).collect()
 }
 

@@ -2,11 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::admitted::Admitted;
-use super::dense::Pace;
-use super::scaling::ScaledProblem;
-use super::solutions::{ContactState, SolutionSet};
-use super::support::Support;
+use crate::dense::Pace;
+use crate::findings::admitted::Admitted;
+use crate::problem::{ContactState, ScaledProblem, SolutionSet};
+use crate::solutions::Support;
 
 /// A pivot below this, with columns scaled to a largest entry of 1, is zero.
 const ZERO_PIVOT: f64 = 1e-12;
@@ -18,7 +17,7 @@ const NON_NEGATIVE: f64 = 1e-9;
 const SAME_POINT: f64 = 1e-8;
 
 /// The outcome of a closer look at a suspect pattern.
-pub(super) enum Examined {
+pub(crate) enum Examined {
     /// It is regular.
     Regular,
     /// `D = 0`, and this is what it admits.
@@ -27,7 +26,7 @@ pub(super) enum Examined {
 
 /// Whether a pattern is singular, by elimination with complete pivoting, and what it admits.
 /// `bases` is the work that is left and gets less. Nothing is computed once `proceed` is false.
-pub(super) fn examine(
+pub(crate) fn examine(
     problem: &ScaledProblem,
     pattern: &[ContactState],
     bases: &mut u64,
@@ -37,7 +36,7 @@ pub(super) fn examine(
     let (mut matrix, right_hand_side) = problem.system(pattern);
     let column_sizes = scale_columns(&mut matrix);
     let not_computed = || Examined::Singular(Admitted::not_computed(contacts));
-    match Reduced::new(augment(&matrix, &right_hand_side), proceed) {
+    match IndependentEquations::new(augment(&matrix, &right_hand_side), proceed) {
         None => return not_computed(),
         Some(reduced) if reduced.rank() == contacts => return Examined::Regular,
         Some(_) => {}
@@ -108,13 +107,13 @@ fn augment(matrix: &DMatrix<f64>, right_hand_side: &DVector<f64>) -> DMatrix<f64
 }
 
 /// Equations reduced to independent ones by Gauss-Jordan elimination with complete pivoting.
-struct Reduced {
+struct IndependentEquations {
     /// The independent equations first, right-hand side last.
     table: DMatrix<f64>,
     basic: Vec<usize>,
 }
 
-impl Reduced {
+impl IndependentEquations {
     /// None once `proceed` is false.
     fn new(mut table: DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<Self> {
         let mut pace = Pace::new(proceed);
@@ -173,7 +172,7 @@ impl Polyhedron {
         bases: &mut u64,
         proceed: &mut dyn FnMut() -> bool,
     ) -> Option<Self> {
-        let reduced = Reduced::new(augment(matrix, right_hand_side), proceed)?;
+        let reduced = IndependentEquations::new(augment(matrix, right_hand_side), proceed)?;
         if !reduced.is_consistent() {
             return Some(Self { vertices: Vec::new(), directions: Vec::new() });
         }
@@ -261,6 +260,6 @@ fn distinct(points: impl Iterator<Item = DVector<f64>>) -> Vec<DVector<f64>> {
 }
 
 /// Whether two points agree within tolerance relative to the larger one.
-pub(super) fn same_point(one: &DVector<f64>, other: &DVector<f64>) -> bool {
+pub(crate) fn same_point(one: &DVector<f64>, other: &DVector<f64>) -> bool {
     (one - other).amax() <= SAME_POINT * one.amax().max(other.amax())
 }

@@ -1,10 +1,13 @@
 //! The numbers of a mode problem: exact, or within bounds.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-use super::matrix::IntervalMatrix;
 use crate::interval::{Interval, add_up};
-use crate::{BySide, ContactState, ModeProblem, ModeProblemError, ProblemPart, Side};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
+use crate::problem::pattern::ContactState;
+use crate::problem::radii::Radii;
+use crate::problem::side::{BySide, ProblemPart, Side};
 
 /// Bounds that do not make a mode problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -34,14 +37,6 @@ pub enum IntervalModeProblemError {
 pub struct IntervalModeProblem {
     centre: ModeProblem,
     radii: Radii,
-}
-
-/// How far the numbers of a problem may be from its middle.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Radii {
-    pub(crate) columns: BySide<DMatrix<f64>>,
-    pub(crate) jumps: BySide<DMatrix<f64>>,
-    pub(crate) right_hand_side: DVector<f64>,
 }
 
 impl IntervalModeProblem {
@@ -140,32 +135,6 @@ impl IntervalModeProblem {
     }
 }
 
-impl Radii {
-    /// Those of exact numbers.
-    pub(crate) fn zero(contacts: usize) -> Self {
-        let none = BySide::same(DMatrix::zeros(contacts, contacts));
-        Self { columns: none.clone(), jumps: none, right_hand_side: DVector::zeros(contacts) }
-    }
-
-    /// Whether all numbers are exact.
-    pub(crate) fn are_zero(&self) -> bool {
-        let parts = [&self.columns, &self.jumps].map(|part| part.positive.iter().chain(&part.negative));
-        parts.into_iter().flatten().chain(&self.right_hand_side).all(|&radius| radius == 0.0)
-    }
-
-    fn first_not_finite(&self) -> Option<(ProblemPart, f64)> {
-        let mut parts = vec![(ProblemPart::RightHandSide, self.right_hand_side.as_slice())];
-        for side in Side::BOTH {
-            parts.push((ProblemPart::Columns(side), self.columns.get(side).as_slice()));
-            parts.push((ProblemPart::Jumps(side), self.jumps.get(side).as_slice()));
-        }
-        let faults = |(part, values): (ProblemPart, &[f64])| {
-            values.iter().find(|value| !value.is_finite()).map(|&value| (part, value))
-        };
-        parts.into_iter().find_map(faults)
-    }
-}
-
 /// What proofs are about: one problem with exact numbers, or all problems within bounds.
 ///
 /// Made from a reference to a [`ModeProblem`] or to an [`IntervalModeProblem`].
@@ -201,7 +170,7 @@ pub(crate) struct Column<'a> {
 
 impl Column<'_> {
     /// The terms that add up to the column: one, or two where it is exact but rounded in its middle.
-    pub(super) fn terms(self) -> impl Iterator<Item = Self> {
+    pub(crate) fn terms(self) -> impl Iterator<Item = Self> {
         let radius = self.radius.filter(|_| self.remainder.is_none());
         let rest = self.remainder.map(|centre| Self { centre, radius: None, remainder: None });
         std::iter::once(Self { radius, remainder: None, ..self }).chain(rest)
@@ -212,7 +181,7 @@ impl Column<'_> {
         (self.centre[row], self.radius.map_or(0.0, |radius| radius[row]))
     }
 
-    pub(super) fn entry(&self, row: usize) -> Interval {
+    pub(crate) fn entry(&self, row: usize) -> Interval {
         let radius = self.radius.map_or(0.0, |radius| radius[row]);
         Interval::around(self.centre[row], radius)
     }
@@ -283,7 +252,7 @@ impl<'a> ProblemView<'a> {
 
     /// The side whose jump vector is in the constant part of the right-hand side; for a contact in
     /// its gap that is the negative one.
-    pub(super) fn constant_jump_side(state: ContactState) -> Side {
+    pub(crate) fn constant_jump_side(state: ContactState) -> Side {
         state.side().unwrap_or(Side::Negative)
     }
 }

@@ -2,24 +2,24 @@
 
 use dashu_ratio::RBig;
 
-use super::certificate::ExactSet;
-use super::solutions::{ContactState, GapShare, SolutionSet};
-use super::support::Support;
+use crate::certificate::ExactSet;
+use crate::problem::{ContactState, SolutionSet};
+use crate::solutions::{GapShare, Support};
 
 /// What a singular pattern admits.
 #[derive(Debug, Clone)]
-pub(super) struct Admitted {
-    pub(super) set: SolutionSet,
-    pub(super) support: Support,
+pub(crate) struct Admitted {
+    pub(crate) set: SolutionSet,
+    pub(crate) support: Support,
     /// The mean of the shares at the vertices, which is one of the states, where all have the same normal forces.
-    pub(super) shares: Vec<GapShare>,
+    pub(crate) shares: Vec<GapShare>,
     /// Whether states with the same normal forces differ in their shares.
-    pub(super) shares_vary: bool,
+    pub(crate) shares_vary: bool,
 }
 
 impl Admitted {
     /// From the normal forces, the number of vertices with their shares, and the mean share of a contact at these.
-    pub(super) fn new(
+    pub(crate) fn new(
         pattern: &[ContactState],
         (set, support): (SolutionSet, Support),
         (vertices, mean_share): (usize, &dyn Fn(usize) -> f64),
@@ -31,13 +31,13 @@ impl Admitted {
     }
 
     /// Nothing is known of it.
-    pub(super) fn not_computed(contacts: usize) -> Self {
+    pub(crate) fn not_computed(contacts: usize) -> Self {
         let (set, support) = (SolutionSet::NotComputed, Support::none_of(contacts));
         Self { set, support, shares: Vec::new(), shares_vary: false }
     }
 
     /// From all solutions of the equations, exactly.
-    pub(super) fn exactly(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
+    pub(crate) fn exactly(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
         let support = Support::of_exact_set(pattern, set, has_jump);
         let vertices = set.vertices();
         let mean_share = |contact: usize| {

@@ -4,23 +4,26 @@ use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
 
-use super::admitted::Admitted;
-use super::candidate::{Candidate, determinant, solve_pattern};
-use super::contact_set::ContactSet;
-use super::degenerate::{Examined, examine, same_point};
-use super::enumeration::{EnumerationError, Limits};
-use super::found::{Found, oriented, sides};
-use super::scaling::ScaledProblem;
-use super::solutions::{
-    Certificate, ClosestMode, ContactState, GapState, ModeSolution, PatternCounts, SingularMode, Solutions,
-    UndecidedPattern,
+use crate::findings::admitted::Admitted;
+use crate::findings::candidate::{Candidate, determinant, solve_pattern};
+use crate::findings::degenerate::{Examined, examine, same_point};
+use crate::findings::found::{Found, oriented, sides};
+use crate::problem::{ContactState, ScaledProblem};
+use crate::solutions::{
+    Certificate, ClosestMode, ContactSet, GapState, Limits, ModeSolution, PatternCounts, SingularMode,
+    Solutions, Support, UndecidedPattern,
 };
-use super::support::Support;
 
 /// How many patterns close to locking are reported.
 const CLOSEST: usize = 4;
 /// A pattern whose matrix has a condition number above this may be singular.
-pub(super) const SUSPECT_CONDITION: f64 = 1e7;
+pub(crate) const SUSPECT_CONDITION: f64 = 1e7;
+
+/// More solutions than [`Limits::solutions`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TooManySolutions {
+    pub(crate) limit: usize,
+}
 
 /// What patterns with the same boundary solution have in common: the states of contacts that are
 /// not free to change their side, and which ones are.
@@ -30,9 +33,9 @@ struct SharedPattern {
     free: ContactSet,
 }
 
-pub(super) struct Findings<'a> {
-    pub(super) problem: &'a ScaledProblem,
-    pub(super) limits: Limits,
+pub(crate) struct Findings<'a> {
+    pub(crate) problem: &'a ScaledProblem,
+    pub(crate) limits: Limits,
     counts: PatternCounts,
     gap_counts: PatternCounts,
     found: Vec<Found>,
@@ -41,16 +44,16 @@ pub(super) struct Findings<'a> {
     /// Places in `singular` of non-empty sets. What patterns admit are faces of one polyhedron, so that those with the same
     /// support are one set.
     singular_places: HashMap<Support, usize>,
-    pub(super) undecided: Vec<UndecidedPattern>,
+    pub(crate) undecided: Vec<UndecidedPattern>,
     /// Whether what is found is exact but for rounding, so that nothing is merged within tolerances.
     exact: bool,
-    pub(super) examined: usize,
-    pub(super) bases: u64,
+    pub(crate) examined: usize,
+    pub(crate) bases: u64,
     closest: Vec<(f64, Vec<ContactState>)>,
 }
 
 impl<'a> Findings<'a> {
-    pub(super) fn new(problem: &'a ScaledProblem, limits: &Limits) -> Self {
+    pub(crate) fn new(problem: &'a ScaledProblem, limits: &Limits) -> Self {
         Self {
             problem,
             limits: *limits,
@@ -69,48 +72,48 @@ impl<'a> Findings<'a> {
     }
 
     /// Whether as many (nearly) singular patterns have been examined as may be.
-    pub(super) fn has_examined_enough(&self) -> bool {
+    pub(crate) fn has_examined_enough(&self) -> bool {
         self.examined >= self.limits.singular
     }
 
     /// Whether a pattern may be singular, within tolerances; also once `proceed` is false.
-    pub(super) fn is_suspect(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
+    pub(crate) fn is_suspect(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
         solve_pattern(self.problem, pattern, proceed).is_none_or(|found| found.condition >= SUSPECT_CONDITION)
     }
 
     /// Whatever is filed is proven for exact data: nothing is merged within tolerances.
-    pub(super) fn exact(self) -> Self {
+    pub(crate) fn exact(self) -> Self {
         Self { exact: true, ..self }
     }
 
-    pub(super) fn counts_of(&mut self, pattern: &[ContactState]) -> &mut PatternCounts {
+    pub(crate) fn counts_of(&mut self, pattern: &[ContactState]) -> &mut PatternCounts {
         if pattern.contains(&ContactState::Gap) { &mut self.gap_counts } else { &mut self.counts }
     }
 
     /// How many solutions, gap states and singular sets have been found so far.
-    pub(super) fn found(&self) -> usize {
+    pub(crate) fn found(&self) -> usize {
         self.found.len() + self.singular.len() + self.undecided.len()
     }
 
     /// Puts what was found into the order of enumeration, whatever the order it was found in.
-    pub(super) fn sort(&mut self) {
+    pub(crate) fn sort(&mut self) {
         self.found.sort_by(|one, other| one.pattern().cmp(other.pattern()));
         self.singular.sort_by(|one, other| one.pattern.cmp(&other.pattern));
         self.undecided.sort_by(|one, other| one.pattern.cmp(&other.pattern));
     }
 
-    pub(super) fn count_no_solution(&mut self, with_gap: bool) {
+    pub(crate) fn count_no_solution(&mut self, with_gap: bool) {
         let counts = if with_gap { &mut self.gap_counts } else { &mut self.counts };
         counts.no_solution += 1;
     }
 
     /// Whether there is a solution without gaps.
-    pub(super) fn has_solutions(&self) -> bool {
+    pub(crate) fn has_solutions(&self) -> bool {
         self.found.iter().any(|found| !found.has_gap())
     }
 
     /// Keeps a pattern that was not found to be singular if its determinant is among the smallest.
-    pub(super) fn offer_if_regular(&mut self, pattern: &[ContactState]) {
+    pub(crate) fn offer_if_regular(&mut self, pattern: &[ContactState]) {
         let is_it = |other: &Vec<ContactState>| other == pattern;
         if !self.singular.iter().any(|mode| mode.patterns.iter().any(is_it)) {
             let determinant = determinant(self.problem, pattern, &mut || true);
@@ -119,7 +122,7 @@ impl<'a> Findings<'a> {
     }
 
     /// Keeps a regular pattern if its determinant is among the smallest.
-    pub(super) fn offer_closest(&mut self, pattern: &[ContactState], determinant: f64) {
+    pub(crate) fn offer_closest(&mut self, pattern: &[ContactState], determinant: f64) {
         let size = determinant.abs();
         if self.closest.last().is_some_and(|(largest, _)| self.closest.len() == CLOSEST && size >= *largest) {
             return;
@@ -130,11 +133,11 @@ impl<'a> Findings<'a> {
     }
 
     /// Solves a pattern carefully and files its outcome.
-    pub(super) fn examine_candidate(
+    pub(crate) fn examine_candidate(
         &mut self,
         pattern: &[ContactState],
         proceed: &mut dyn FnMut() -> bool,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         let Some(candidate) = solve_pattern(self.problem, pattern, proceed) else {
             self.counts_of(pattern).not_examined += 1;
             return Ok(());
@@ -144,11 +147,11 @@ impl<'a> Findings<'a> {
 
     /// Decides one pattern: carefully solved if it is well-conditioned, else with a closer look.
     /// What a singular pattern admits is left open once `proceed` is false.
-    pub(super) fn examine_leaf(
+    pub(crate) fn examine_leaf(
         &mut self,
         pattern: &[ContactState],
         proceed: &mut dyn FnMut() -> bool,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         match solve_pattern(self.problem, pattern, proceed) {
             Some(candidate) if candidate.condition < SUSPECT_CONDITION => {
                 self.file_candidate(pattern, candidate)
@@ -162,11 +165,11 @@ impl<'a> Findings<'a> {
     }
 
     /// A closer look at a pattern that may be singular.
-    pub(super) fn examine_suspect(
+    pub(crate) fn examine_suspect(
         &mut self,
         pattern: &[ContactState],
         proceed: &mut dyn FnMut() -> bool,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         self.examined += 1;
         match examine(self.problem, pattern, &mut self.bases, proceed) {
             Examined::Regular => self.examine_candidate(pattern, proceed),
@@ -181,7 +184,7 @@ impl<'a> Findings<'a> {
         &mut self,
         pattern: &[ContactState],
         candidate: Candidate,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         let counts = self.counts_of(pattern);
         if !candidate.admissible {
             counts.no_solution += 1;
@@ -192,12 +195,12 @@ impl<'a> Findings<'a> {
     }
 
     /// Files a solution.
-    pub(super) fn file_admissible(
+    pub(crate) fn file_admissible(
         &mut self,
         pattern: &[ContactState],
         candidate: Candidate,
         certificate: Certificate,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         let counts = self.counts_of(pattern);
         let in_doubt = matches!(certificate, Certificate::OnBoundaryWithinBounds { .. });
         if candidate.zero.is_empty() && candidate.at_end.is_empty() && !in_doubt {
@@ -210,14 +213,14 @@ impl<'a> Findings<'a> {
             self.found.pop();
             let known = self.found.len();
             self.shared.retain(|_, index| *index < known);
-            return Err(EnumerationError::TooManySolutions { limit: self.limits.solutions });
+            return Err(TooManySolutions { limit: self.limits.solutions });
         }
         Ok(())
     }
 
     /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False if it
     /// has not, or if there are loads.
-    pub(super) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
+    pub(crate) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
         let [zero] = &mut self.found[..] else { return false };
         if self.problem.load_size().amax() != 0.0 {
             return false;
@@ -255,11 +258,11 @@ impl<'a> Findings<'a> {
     }
 
     /// Examines one by one all patterns that share the states of the contacts before `first`.
-    pub(super) fn examine_all_below(
+    pub(crate) fn examine_all_below(
         &mut self,
         pattern: &mut [ContactState],
         first: usize,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         if self.has_examined_enough() {
             self.leave_unexamined(pattern, first);
             return Ok(());
@@ -274,7 +277,7 @@ impl<'a> Findings<'a> {
         self.examine_suspect(pattern, &mut || true)
     }
 
-    pub(super) fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
+    pub(crate) fn leave_unexamined(&mut self, pattern: &[ContactState], first: usize) {
         let (pressed, all) = self.problem.patterns_from(first);
         if pattern[..first].contains(&ContactState::Gap) {
             self.gap_counts.not_examined += all;
@@ -284,7 +287,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    pub(super) fn file_singular(
+    pub(crate) fn file_singular(
         &mut self,
         pattern: &[ContactState],
         Admitted { set, support, shares, shares_vary }: Admitted,
@@ -316,7 +319,7 @@ impl<'a> Findings<'a> {
         });
     }
 
-    pub(super) fn into_solutions(mut self) -> Solutions {
+    pub(crate) fn into_solutions(mut self) -> Solutions {
         if !self.exact {
             self.merge_neighbours();
         }

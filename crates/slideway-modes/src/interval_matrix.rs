@@ -89,18 +89,18 @@ impl IntervalMatrix {
 /// `n = terms - 4`. So the rounding error of a sum of `n` products, in any order and with or without
 /// fused operations, is at most this times the sum of absolute values, itself rounded (underflow
 /// apart).
-pub(super) fn rounding(terms: usize) -> f64 {
+pub(crate) fn rounding(terms: usize) -> f64 {
     (terms + 4) as f64 * f64::EPSILON
 }
 
 /// An upper bound of `matrix vector` where neither has a negative entry. Every entry is positive.
-pub(super) fn upper_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
+pub(crate) fn upper_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
     let factor = 1.0 + 2.0 * rounding(matrix.ncols());
     (matrix * vector).map(|value| value * factor + f64::MIN_POSITIVE)
 }
 
 /// An upper bound of a sum of non-negative vectors.
-pub(super) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
+pub(crate) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
     let factor = 1.0 + 2.0 * rounding(parts.len());
     DVector::from_fn(parts[0].len(), |row, _| parts.iter().map(|part| part[row]).sum::<f64>() * factor)
 }
@@ -109,7 +109,7 @@ pub(super) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
 /// false.
 ///
 /// `|fl(A B) - A B| <= gamma_n |A| |B|`, and a radius of `B` adds `|A| rad(B)`.
-pub(super) fn product(
+pub(crate) fn product(
     left: &DMatrix<f64>,
     right: &IntervalMatrix,
     proceed: &mut dyn FnMut() -> bool,
@@ -125,7 +125,7 @@ pub(super) fn product(
 
 /// An enclosure of the inner product of plain vectors, entry `k` of the second one being known only
 /// to lie within `radius[k]`; none of the operands may be longer than the others.
-pub(super) fn inner_product(one: &[f64], other: &[f64], radius: Option<&[f64]>) -> Interval {
+pub(crate) fn inner_product(one: &[f64], other: &[f64], radius: Option<&[f64]>) -> Interval {
     let (mut sum, mut size) = (0.0, 0.0);
     for (a, b) in one.iter().zip(other) {
         sum += a * b;

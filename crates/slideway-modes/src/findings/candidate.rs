@@ -2,10 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::contact_set::ContactSet;
-use super::dense::Lu;
-use super::scaling::ScaledProblem;
-use super::solutions::ContactState;
+use crate::dense::Lu;
+use crate::problem::{ContactState, ScaledProblem};
+use crate::solutions::ContactSet;
 
 /// Values within this fraction of the largest `y` (or of 1 for a share) count as zero.
 const ZERO: f64 = 1e-12;
@@ -14,25 +13,25 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The solution of one pattern's equations, in the problem's own units.
 #[derive(Debug, Clone)]
-pub(super) struct Candidate {
+pub(crate) struct Candidate {
     /// `y_k`, or `lambda_k` in a gap; those that count as zero (or a share as one) are exactly that.
-    pub(super) unknowns: DVector<f64>,
+    pub(crate) unknowns: DVector<f64>,
     /// Contacts with `y_k = 0`.
-    pub(super) zero: ContactSet,
+    pub(crate) zero: ContactSet,
     /// Contacts in the gap with a share of 0 or 1.
-    pub(super) at_end: ContactSet,
+    pub(crate) at_end: ContactSet,
     /// No `y_k < 0`, no share outside of 0 to 1.
-    pub(super) admissible: bool,
-    pub(super) determinant: f64,
+    pub(crate) admissible: bool,
+    pub(crate) determinant: f64,
     /// Largest error bound among the `y_k`.
-    pub(super) tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Condition number of the scaled matrix, in the norm of row sums.
-    pub(super) condition: f64,
+    pub(crate) condition: f64,
 }
 
 /// Solves the equations of a pattern by LU with partial pivoting and one step of iterative
 /// refinement; none if the matrix is exactly singular or numbers overflow, or once `proceed` is false.
-pub(super) fn solve_pattern(
+pub(crate) fn solve_pattern(
     problem: &ScaledProblem,
     pattern: &[ContactState],
     proceed: &mut dyn FnMut() -> bool,
@@ -54,7 +53,7 @@ pub(super) fn solve_pattern(
 }
 
 /// `D` of a pattern; none once `proceed` is false.
-pub(super) fn determinant(
+pub(crate) fn determinant(
     problem: &ScaledProblem,
     pattern: &[ContactState],
     proceed: &mut dyn FnMut() -> bool,

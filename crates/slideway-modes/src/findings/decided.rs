@@ -1,17 +1,17 @@
 //! Files what proofs say of patterns.
 
-use super::admitted::Admitted;
-use super::candidate::{Candidate, determinant, solve_pattern};
-use super::certificate::{Decision, ExactSet, Interval, Sign};
-use super::contact_set::ContactSet;
-use super::degenerate::{Examined, examine};
-use super::enumeration::EnumerationError;
-use super::findings::{Findings, SUSPECT_CONDITION};
-use super::solutions::{Certificate, ContactState, UndecidedPattern};
+use crate::certificate::{Decision, ExactSet};
+use crate::findings::admitted::Admitted;
+use crate::findings::candidate::{Candidate, determinant, solve_pattern};
+use crate::findings::collection::{Findings, SUSPECT_CONDITION, TooManySolutions};
+use crate::findings::degenerate::{Examined, examine};
+use crate::interval::{Interval, Sign};
+use crate::problem::ContactState;
+use crate::solutions::{Certificate, ContactSet, UndecidedPattern};
 
 /// Whether a decision settled a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Filed {
+pub(crate) enum Filed {
     /// As it was decided.
     Proven,
     /// Within tolerances, since what the pattern admits takes too much work to describe exactly.
@@ -28,12 +28,12 @@ enum Centre {
 
 impl Findings<'_> {
     /// Files a pattern by its decision. What is not known yet is left open once `proceed` is false.
-    pub(super) fn file_decision(
+    pub(crate) fn file_decision(
         &mut self,
         pattern: &[ContactState],
         decision: Decision,
         proceed: &mut dyn FnMut() -> bool,
-    ) -> Result<Filed, EnumerationError> {
+    ) -> Result<Filed, TooManySolutions> {
         match decision {
             Decision::NoSolution { .. } => self.count_no_solution(pattern.contains(&ContactState::Gap)),
             Decision::Solution { unknowns, determinant } => {
@@ -78,7 +78,7 @@ impl Findings<'_> {
         unknowns: Option<Vec<Interval>>,
         in_doubt: Vec<usize>,
         centre: Centre,
-    ) -> Result<(), EnumerationError> {
+    ) -> Result<(), TooManySolutions> {
         match centre {
             Centre::Solution(candidate) => {
                 let certificate = Certificate::OnBoundaryWithinBounds { unknowns, in_doubt };
@@ -90,7 +90,7 @@ impl Findings<'_> {
                 Ok(())
             }
             Centre::Nothing if self.undecided.len() >= self.limits.solutions => {
-                Err(EnumerationError::TooManySolutions { limit: self.limits.solutions })
+                Err(TooManySolutions { limit: self.limits.solutions })
             }
             Centre::Nothing => {
                 self.counts_of(pattern).undecided += 1;

@@ -1,53 +1,21 @@
 //! What an enumeration finds.
 
+mod contact_set;
+mod limits;
+mod support;
+
+pub(crate) use contact_set::ContactSet;
+pub use limits::Limits;
+pub(crate) use support::Support;
+
 use nalgebra::DVector;
 
-use super::certificate::Interval;
-use super::problem::Side;
-use super::support::Support;
-
-/// What one contact does in a pattern: pressed on one of its sides, or between its faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ContactState {
-    /// `N > 0`.
-    Positive,
-    /// `N < 0`.
-    Negative,
-    /// `N = 0`, and the preload friction acts between the faces (theory, section 3).
-    Gap,
-}
-
-impl ContactState {
-    pub(super) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
-    pub(super) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
-
-    /// The side on which the contact is pressed; none in the gap.
-    pub fn side(self) -> Option<Side> {
-        match self {
-            Self::Positive => Some(Side::Positive),
-            Self::Negative => Some(Side::Negative),
-            Self::Gap => None,
-        }
-    }
-
-    /// The sign of the normal force, 0 in the gap.
-    pub fn sign(self) -> f64 {
-        self.side().map_or(0.0, Side::sign)
-    }
-}
-
-impl From<Side> for ContactState {
-    fn from(side: Side) -> Self {
-        match side {
-            Side::Positive => Self::Positive,
-            Side::Negative => Self::Negative,
-        }
-    }
-}
+use crate::interval::Interval;
+use crate::problem::{ContactState, Side, SolutionSet};
 
 /// What is proven of a solution, a gap state or a singular set.
 ///
-/// Intervals hold one unknown per contact, as [`decide`](super::certificate::decide) has them for the state's
+/// Intervals hold one unknown per contact, as [`decide`](crate::certificate::decide) has them for the state's
 /// first pattern: `y_k`, or the share `lambda_k` of a contact in its gap.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Certificate {
@@ -114,7 +82,7 @@ impl Certificate {
 pub struct UndecidedPattern {
     /// The state of each contact.
     pub pattern: Vec<ContactState>,
-    /// All patterns that are meant, at most [`Limits::listed`](super::Limits::listed): more than one where another
+    /// All patterns that are meant, at most [`Limits::listed`](crate::Limits::listed): more than one where another
     /// group of contacts is in a state that several patterns share.
     pub patterns: Vec<Vec<ContactState>>,
     /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None if
@@ -125,7 +93,7 @@ pub struct UndecidedPattern {
 }
 
 impl UndecidedPattern {
-    pub(super) fn new(
+    pub(crate) fn new(
         pattern: &[ContactState],
         unknowns: Option<Vec<Interval>>,
         in_doubt: Vec<usize>,
@@ -152,7 +120,7 @@ pub struct ModeSolution {
     pub oriented_determinant: f64,
     /// Contacts with `y_k = 0` within `tolerance`.
     pub on_boundary: Vec<usize>,
-    /// The patterns that give this same solution, at most [`Limits::listed`](super::Limits::listed).
+    /// The patterns that give this same solution, at most [`Limits::listed`](crate::Limits::listed).
     pub patterns: Vec<Vec<Side>>,
     /// How many patterns give this same solution.
     pub pattern_count: u64,
@@ -185,7 +153,7 @@ pub struct GapState {
     pub determinant: f64,
     /// Pressed contacts with `y_k = 0` within `tolerance`.
     pub on_boundary: Vec<usize>,
-    /// The patterns that give this same state, at most [`Limits::listed`](super::Limits::listed).
+    /// The patterns that give this same state, at most [`Limits::listed`](crate::Limits::listed).
     pub patterns: Vec<Vec<ContactState>>,
     /// How many patterns give this same state.
     pub pattern_count: u64,
@@ -208,83 +176,13 @@ pub struct GapShare {
     pub lambda: f64,
 }
 
-/// The signed normal forces that a singular pattern admits.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SolutionSet {
-    /// No solution: locking of the mode.
-    Empty,
-    /// One solution.
-    Point(DVector<f64>),
-    /// All `N` between two ends.
-    Segment {
-        /// One end.
-        from: DVector<f64>,
-        /// The other end.
-        to: DVector<f64>,
-    },
-    /// All `from + t direction`, `t >= 0`.
-    Ray {
-        /// The end of the ray.
-        from: DVector<f64>,
-        /// The direction, its largest component being 1 in size.
-        direction: DVector<f64>,
-    },
-    /// Convex combinations of the vertices plus non-negative combinations of the directions.
-    Polytope {
-        /// The vertices.
-        vertices: Vec<DVector<f64>>,
-        /// Extreme directions, the largest component of each being 1 in size.
-        directions: Vec<DVector<f64>>,
-    },
-    /// Describing the set takes more work than [`Limits::bases`](super::Limits::bases) allows.
-    NotComputed,
-}
-
-impl SolutionSet {
-    /// The set with the given vertices and extreme directions, which are all different.
-    pub(super) fn from_corners(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> Self {
-        match (vertices.len(), directions.len()) {
-            (0, _) => Self::Empty,
-            (1, 0) => Self::Point(vertices.swap_remove(0)),
-            (2, 0) => Self::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
-            (1, 1) => Self::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
-            _ => Self::Polytope { vertices, directions },
-        }
-    }
-
-    /// The vertices of the set, none if it is empty or was not computed.
-    pub fn vertices(&self) -> Vec<&DVector<f64>> {
-        match self {
-            Self::Empty | Self::NotComputed => Vec::new(),
-            Self::Point(point) => vec![point],
-            Self::Segment { from, to } => vec![from, to],
-            Self::Ray { from, .. } => vec![from],
-            Self::Polytope { vertices, .. } => vertices.iter().collect(),
-        }
-    }
-
-    /// The extreme directions of the set, none if it is bounded or was not computed.
-    pub fn directions(&self) -> Vec<&DVector<f64>> {
-        match self {
-            Self::Ray { direction, .. } => vec![direction],
-            Self::Polytope { directions, .. } => directions.iter().collect(),
-            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
-        }
-    }
-
-    /// Whether the set holds more than one point.
-    pub fn is_continuum(&self) -> bool {
-        matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
-    }
-}
-
 /// A pattern with `D = 0` within tolerance and what it admits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SingularMode {
     /// The first pattern, in the order of enumeration; with gap states where they were tried.
     pub pattern: Vec<ContactState>,
     /// The singular patterns that admit this same set: several only if it is not empty; at most
-    /// [`Limits::listed`](super::Limits::listed).
+    /// [`Limits::listed`](crate::Limits::listed).
     pub patterns: Vec<Vec<ContactState>>,
     /// How many singular patterns admit this same set.
     pub pattern_count: u64,
@@ -336,8 +234,8 @@ pub struct PatternCounts {
     /// `D = 0` and a continuum of `y >= 0`.
     pub singular_continuum: u64,
     /// `D = 0`, or so close to it that only a closer look could tell, and no such look was taken
-    /// or completed: it would have passed [`Limits::singular`](super::Limits::singular) or
-    /// [`Limits::bases`](super::Limits::bases), or numbers overflowed.
+    /// or completed: it would have passed [`Limits::singular`](crate::Limits::singular) or
+    /// [`Limits::bases`](crate::Limits::bases), or numbers overflowed.
     pub not_examined: u64,
     /// Data within bounds only: [`UndecidedPattern`].
     pub undecided: u64,
@@ -356,7 +254,7 @@ impl PatternCounts {
             + self.undecided
     }
 
-    pub(super) fn count_set(&mut self, set: &SolutionSet) {
+    pub(crate) fn count_set(&mut self, set: &SolutionSet) {
         match set {
             SolutionSet::Empty => self.singular_empty += 1,
             SolutionSet::Point(_) => self.singular_point += 1,
@@ -403,7 +301,7 @@ impl Solutions {
     }
 
     /// Whether nothing was found.
-    pub(super) fn admits_nothing(&self) -> bool {
+    pub(crate) fn admits_nothing(&self) -> bool {
         self.solutions.is_empty()
             && self.gaps.is_empty()
             && self.undecided.is_empty()

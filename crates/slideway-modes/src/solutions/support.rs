@@ -9,10 +9,9 @@
 use dashu_ratio::RBig;
 use nalgebra::DVector;
 
-use super::candidate::Candidate;
-use super::certificate::ExactSet;
-use super::contact_set::ContactSet;
-use super::solutions::ContactState;
+use crate::certificate::ExactSet;
+use crate::problem::ContactState;
+use crate::solutions::contact_set::ContactSet;
 
 /// Unknowns of one contact.
 const UNKNOWNS: usize = 4;
@@ -25,23 +24,28 @@ pub(crate) struct Support {
 }
 
 impl Support {
-    pub(super) fn none_of(contacts: usize) -> Self {
+    pub(crate) fn none_of(contacts: usize) -> Self {
         Self { unknowns: ContactSet::none_of(UNKNOWNS * contacts) }
     }
 
-    /// Of one solution or gap state.
-    pub(super) fn of_point(pattern: &[ContactState], candidate: &Candidate, has_jump: &[bool]) -> Self {
+    /// Of one solution or gap state: `y_k` or `lambda_k`, the contacts with `y_k = 0`, and those with a share of 0 or 1.
+    pub(crate) fn of_point(
+        pattern: &[ContactState],
+        unknowns: &DVector<f64>,
+        [zero, at_end]: [&ContactSet; 2],
+        has_jump: &[bool],
+    ) -> Self {
         let mut support = Self::none_of(pattern.len());
         for (contact, &state) in pattern.iter().enumerate() {
-            let (value, at_end) = (candidate.unknowns[contact], candidate.at_end.contains(contact));
-            let vanishes = candidate.zero.contains(contact) || at_end && value == 0.0;
+            let (value, at_end) = (unknowns[contact], at_end.contains(contact));
+            let vanishes = zero.contains(contact) || at_end && value == 0.0;
             support.add(contact, state, has_jump[contact], (vanishes, at_end && value == 1.0));
         }
         support
     }
 
     /// Of what a singular pattern admits, exactly.
-    pub(super) fn of_exact_set(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
+    pub(crate) fn of_exact_set(pattern: &[ContactState], set: &ExactSet, has_jump: &[bool]) -> Self {
         let mut support = Self::none_of(pattern.len());
         for point in set.vertices() {
             for (contact, value) in point.iter().enumerate() {
@@ -57,7 +61,7 @@ impl Support {
 
     /// Of what a singular pattern admits, within tolerances: its vertices and directions with `y_k`, or the share of a
     /// contact in its gap, and behind these `1 - lambda` of the contacts in their gaps. What vanishes is exactly zero.
-    pub(super) fn of_corners(
+    pub(crate) fn of_corners(
         pattern: &[ContactState],
         (vertices, directions): (&[DVector<f64>], &[DVector<f64>]),
         has_jump: &[bool],
@@ -98,7 +102,7 @@ impl Support {
     }
 
     /// Adds the support of some of the contacts, which have these numbers.
-    pub(super) fn add_part(&mut self, contacts: &[usize], part: &Self) {
+    pub(crate) fn add_part(&mut self, contacts: &[usize], part: &Self) {
         for (at, &contact) in contacts.iter().enumerate() {
             for unknown in (0..UNKNOWNS).filter(|unknown| part.unknowns.contains(UNKNOWNS * at + unknown)) {
                 self.unknowns.insert(UNKNOWNS * contact + unknown);
@@ -107,7 +111,7 @@ impl Support {
     }
 
     /// The number of unknowns.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.unknowns.len()
     }
 

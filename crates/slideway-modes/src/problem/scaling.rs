@@ -2,9 +2,10 @@
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 
-use super::certificate::ProblemView;
-use super::problem::{ModeProblem, Side};
-use super::solutions::ContactState;
+use crate::problem::bounds::ProblemView;
+use crate::problem::mode_problem::ModeProblem;
+use crate::problem::pattern::ContactState;
+use crate::problem::side::Side;
 
 /// Coefficients of scaled rows below this are not told from zero in proofs: far enough above the least number that
 /// products of them with what multiplies them do not underflow.
@@ -15,7 +16,7 @@ const NEGLIGIBLE: f64 = f64::from_bits((1023 - 500) << 52);
 /// these do is part of the bounds of errors.
 ///
 /// Unknowns are `y_k` divided by `load_unit`, and `lambda_k` itself for a contact in its gap.
-pub(super) struct ScaledProblem {
+pub(crate) struct ScaledProblem {
     columns: [DMatrix<f64>; 2],
     /// `d_k^+ - d_k^-` of the contacts with a jump; other columns are zero.
     jump_difference: DMatrix<f64>,
@@ -24,8 +25,8 @@ pub(super) struct ScaledProblem {
     /// `|N(0)| + sum_k max(|d_k^+|, |d_k^-|)`: the size of the terms a right-hand side is made of.
     load_size: DVector<f64>,
     row_scale: DVector<f64>,
-    pub(super) load_unit: f64,
-    pub(super) has_jump: Vec<bool>,
+    pub(crate) load_unit: f64,
+    pub(crate) has_jump: Vec<bool>,
     /// How far scaling may have changed the sum of all loads of a row.
     lost_load: DVector<f64>,
     /// How far the columns may be off; none if they are exact.
@@ -33,7 +34,7 @@ pub(super) struct ScaledProblem {
 }
 
 impl ScaledProblem {
-    pub(super) fn new(problem: &ModeProblem) -> Self {
+    pub(crate) fn new(problem: &ModeProblem) -> Self {
         Self::with_jumps(problem, |contact| problem.has_jump(contact))
     }
 
@@ -78,7 +79,7 @@ impl ScaledProblem {
     }
 
     /// The problem in the middle of bounds, with jumps wherever there may be one.
-    pub(super) fn within(problem: ProblemView<'_>) -> Self {
+    pub(crate) fn within(problem: ProblemView<'_>) -> Self {
         let mut scaled = Self::with_jumps(problem.centre, |contact| problem.has_jump(contact));
         let radii = Side::BOTH.map(|side| scaled.scaled_radius(problem, side));
         let exact = radii.iter().flatten().all(|&radius| radius == 0.0);
@@ -100,18 +101,18 @@ impl ScaledProblem {
 
     /// How far `A N + B |N|` with `A = (c^+ - c^-) / 2` and `B = (c^+ + c^-) / 2` may be off per unit of each
     /// `|N_k|`; none if the columns are exact.
-    pub(super) fn spread_of_columns(&self) -> Option<DMatrix<f64>> {
+    pub(crate) fn spread_of_columns(&self) -> Option<DMatrix<f64>> {
         self.column_radius.as_ref().map(|[positive, negative]| positive + negative)
     }
 
     /// How far the columns of both sides may be off; none if they are exact.
-    pub(super) fn column_radii(&self) -> Option<&[DMatrix<f64>; 2]> {
+    pub(crate) fn column_radii(&self) -> Option<&[DMatrix<f64>; 2]> {
         self.column_radius.as_ref()
     }
 
     /// How far the column of a contact may be off, row by row; none if it is exact. For a contact in its
     /// gap that is part of the radius of the right-hand side.
-    pub(super) fn column_radius(&self, contact: usize, state: ContactState) -> Option<DVectorView<'_, f64>> {
+    pub(crate) fn column_radius(&self, contact: usize, state: ContactState) -> Option<DVectorView<'_, f64>> {
         let side = match state {
             ContactState::Positive => 0,
             ContactState::Negative => 1,
@@ -120,32 +121,32 @@ impl ScaledProblem {
         self.column_radius.as_ref().map(|radii| radii[side].column(contact))
     }
 
-    pub(super) fn contacts(&self) -> usize {
+    pub(crate) fn contacts(&self) -> usize {
         self.has_jump.len()
     }
 
     /// The states that a contact can take, in the order of enumeration.
-    pub(super) fn states(&self, contact: usize) -> &'static [ContactState] {
+    pub(crate) fn states(&self, contact: usize) -> &'static [ContactState] {
         if self.has_jump[contact] { &ContactState::ALL } else { &ContactState::PRESSED }
     }
 
     /// Number of patterns of the contacts from `first` on: without and with gap states.
-    pub(super) fn patterns_from(&self, first: usize) -> (u64, u64) {
+    pub(crate) fn patterns_from(&self, first: usize) -> (u64, u64) {
         (first..self.contacts()).fold((1, 1), |(pressed, all): (u64, u64), contact| {
             (pressed.saturating_mul(2), all.saturating_mul(self.states(contact).len() as u64))
         })
     }
 
-    pub(super) fn base(&self) -> &DVector<f64> {
+    pub(crate) fn base(&self) -> &DVector<f64> {
         &self.base
     }
 
-    pub(super) fn load_size(&self) -> &DVector<f64> {
+    pub(crate) fn load_size(&self) -> &DVector<f64> {
         &self.load_size
     }
 
     /// The column of a contact in a state: `c_k^+`, `c_k^-`, or `-(d_k^+ - d_k^-)` in its gap.
-    pub(super) fn column(&self, contact: usize, state: ContactState) -> DVector<f64> {
+    pub(crate) fn column(&self, contact: usize, state: ContactState) -> DVector<f64> {
         match state {
             ContactState::Positive => self.columns[0].column(contact).into_owned(),
             ContactState::Negative => self.columns[1].column(contact).into_owned(),
@@ -154,7 +155,7 @@ impl ScaledProblem {
     }
 
     /// Matrix and right-hand side of a pattern.
-    pub(super) fn system(&self, pattern: &[ContactState]) -> (DMatrix<f64>, DVector<f64>) {
+    pub(crate) fn system(&self, pattern: &[ContactState]) -> (DMatrix<f64>, DVector<f64>) {
         let mut matrix = DMatrix::zeros(self.contacts(), self.contacts());
         let mut right_hand_side = self.base.clone();
         for (contact, &state) in pattern.iter().enumerate() {
@@ -167,7 +168,7 @@ impl ScaledProblem {
     }
 
     /// A bound of the error of the problem's right-hand side in scaled units, with what scaling adds to it.
-    pub(super) fn scaled_load_radius(&self, radius: &DVector<f64>) -> DVector<f64> {
+    pub(crate) fn scaled_load_radius(&self, radius: &DVector<f64>) -> DVector<f64> {
         DVector::from_fn(self.contacts(), |row, _| {
             let (radius, scale) = (radius[row], self.row_scale[row]);
             radius * scale / self.load_unit
@@ -177,13 +178,13 @@ impl ScaledProblem {
     }
 
     /// A combination of the scaled equations as a combination of the problem's own equations.
-    pub(super) fn unscaled_rows(&self, multipliers: &[f64]) -> Vec<f64> {
+    pub(crate) fn unscaled_rows(&self, multipliers: &[f64]) -> Vec<f64> {
         multipliers.iter().zip(&self.row_scale).map(|(multiplier, scale)| multiplier * scale).collect()
     }
 
     /// The factor by which a column in the given state and the row of the same number enlarge the
     /// determinant of the unscaled matrix.
-    pub(super) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {
+    pub(crate) fn determinant_factor(&self, contact: usize, state: ContactState) -> f64 {
         let column_unit = if state == ContactState::Gap { self.load_unit } else { 1.0 };
         column_unit / self.row_scale[contact]
     }
@@ -202,13 +203,13 @@ fn lost_by_scaling(load: f64, scale: f64, unit: f64) -> f64 {
 }
 
 /// The number of patterns, gap states included, or the largest `u64` if that is less.
-pub(super) fn patterns_of(problem: ProblemView<'_>) -> u64 {
+pub(crate) fn patterns_of(problem: ProblemView<'_>) -> u64 {
     let states = (0..problem.contacts()).map(|contact| if problem.has_jump(contact) { 3 } else { 2 });
     states.fold(1, u64::saturating_mul)
 }
 
 /// The smallest power of two above `size`, kept within the range where its reciprocal is finite;
 /// 1 for zero.
-pub(super) fn power_of_two_above(size: f64) -> f64 {
+pub(crate) fn power_of_two_above(size: f64) -> f64 {
     if size == 0.0 { 1.0 } else { (size.log2().floor() + 1.0).clamp(-1000.0, 1000.0).exp2() }
 }

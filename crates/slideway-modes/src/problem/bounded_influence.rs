@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{IntervalModeProblem, IntervalModeProblemError};
-use super::matrix::IntervalMatrix;
 use crate::interval::Interval;
-use crate::{BySide, ModeProblemError, ProblemPart, Side};
+use crate::interval_matrix::IntervalMatrix;
+use crate::problem::bounds::{IntervalModeProblem, IntervalModeProblemError};
+use crate::problem::mode_problem::ModeProblemError;
+use crate::problem::side::{BySide, ProblemPart, Side};
 
 /// Influence coefficients and friction parameters of `r` contacts within bounds: what
 /// [`IntervalModeProblem::from_influence`] needs. Each part may be exact.

@@ -2,44 +2,44 @@
 
 /// A set of contacts, bit by bit.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct ContactSet {
+pub(crate) struct ContactSet {
     words: Vec<u64>,
 }
 
 impl ContactSet {
     /// No contact, out of the given number of contacts.
-    pub(super) fn none_of(contacts: usize) -> Self {
+    pub(crate) fn none_of(contacts: usize) -> Self {
         Self { words: vec![0; contacts.div_ceil(64)] }
     }
 
-    pub(super) fn insert(&mut self, contact: usize) {
+    pub(crate) fn insert(&mut self, contact: usize) {
         self.words[contact / 64] |= 1 << (contact % 64);
     }
 
-    pub(super) fn remove(&mut self, contact: usize) {
+    pub(crate) fn remove(&mut self, contact: usize) {
         self.words[contact / 64] &= !(1 << (contact % 64));
     }
 
-    pub(super) fn contains(&self, contact: usize) -> bool {
+    pub(crate) fn contains(&self, contact: usize) -> bool {
         self.words[contact / 64] >> (contact % 64) & 1 == 1
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.words.iter().all(|&word| word == 0)
     }
 
     /// The number of contacts in the set.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
     /// Whether another set, of as many contacts, holds all of this one.
-    pub(super) fn is_within(&self, other: &Self) -> bool {
+    pub(crate) fn is_within(&self, other: &Self) -> bool {
         self.words.iter().zip(&other.words).all(|(own, others)| own & !others == 0)
     }
 
     /// The contacts of the set in increasing order.
-    pub(super) fn iter(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> {
         (0..64 * self.words.len()).filter(|&contact| self.contains(contact))
     }
 }
