@@ -83,7 +83,7 @@ fn a_stage_imports_only_stages_to_its_left() {
 #[test]
 fn one_module_knows_the_solver_of_linear_programs() {
     let knows: Vec<PathBuf> =
-        files(&source()).into_iter().filter(|file| code(file).join("\n").contains("microlp")).collect();
+        files(&source()).into_iter().filter(|file| code(file).join("\n").contains("simplex::")).collect();
     assert_eq!(knows, [source().join("pattern").join("program.rs")]);
 }
 
