@@ -4,6 +4,7 @@
 //! built in, a wide one, so that what is laid out with it has room in the others.
 
 use std::collections::HashMap;
+#[cfg(feature = "png")]
 use std::fmt::Write;
 use std::sync::LazyLock;
 
