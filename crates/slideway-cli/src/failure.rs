@@ -75,6 +75,8 @@ pub(crate) enum Failure {
     /// Parquet files need a feature that the program was built without.
     #[cfg(not(feature = "parquet"))]
     WithoutParquet,
+    /// Pictures of pixels need a feature that the program was built without.
+    WithoutPixels,
     /// There is no solution of the wanted number.
     NoSuchSolution { count: usize },
     /// An answer that is no text would go to a terminal.
@@ -171,6 +173,7 @@ impl Failure {
             }
             #[cfg(not(feature = "parquet"))]
             Self::WithoutParquet => "this program was built without support for Parquet files".to_owned(),
+            Self::WithoutPixels => "this program was built without support for PNG and GIF".to_owned(),
             Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
@@ -212,6 +215,9 @@ impl Failure {
             Self::WithoutParquet => Some(
                 "build it with `cargo build --release --features parquet`, or use .csv or .npz".to_owned(),
             ),
+            Self::WithoutPixels => {
+                Some("build it with its default features, or use .svg or .html".to_owned())
+            }
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),

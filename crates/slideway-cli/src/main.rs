@@ -7,6 +7,7 @@ mod failure;
 mod input;
 mod output;
 mod picture;
+mod pixels;
 mod table;
 mod threads;
 mod time_series;

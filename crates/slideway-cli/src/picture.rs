@@ -3,8 +3,8 @@
 use crate::arguments::{Destination, ModelArguments, PlotArguments};
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::pixels;
 use slideway_pictures::NotFinite;
-use slideway_pictures::raster::png;
 use std::path::Path;
 
 /// Format of a picture.
@@ -25,12 +25,12 @@ impl Picture {
     /// The format of a file.
     ///
     /// # Errors
-    /// If its ending names none.
+    /// If its ending names none, or one that this program was built without.
     pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         match ending.to_ascii_lowercase().as_str() {
             "svg" => Ok(Self::Svg),
-            "png" => Ok(Self::Png),
+            "png" => pixels::are_there().map(|()| Self::Png),
             _ => Err(Failure::FileFormat { path: path.to_owned(), known: &ENDINGS }),
         }
     }
@@ -44,7 +44,10 @@ impl Picture {
             return Ok(None);
         }
         let known = &ENDINGS_WITH_JSON;
-        Self::of(path).map(Some).map_err(|_| Failure::FileFormat { path: path.to_owned(), known })
+        Self::of(path).map(Some).map_err(|failure| match failure {
+            Failure::FileFormat { path, .. } => Failure::FileFormat { path, known },
+            other => other,
+        })
     }
 
     /// Writes a picture that was made as SVG, with two pixels for each of its units if it is to have pixels.
@@ -68,9 +71,7 @@ impl Picture {
         let svg = svg?;
         match self {
             Self::Svg => output.write_bytes(svg.as_bytes()),
-            Self::Png => output.write_bytes(
-                &png(&svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })?,
-            ),
+            Self::Png => output.write_bytes(&pixels::png(&svg, scale)?),
         }
     }
 }

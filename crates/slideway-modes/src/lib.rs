@@ -120,3 +120,8 @@ pub use solutions::{
 };
 pub use status::Status;
 pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};
+
+/// The example of the README runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

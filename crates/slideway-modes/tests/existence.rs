@@ -1,13 +1,10 @@
 //! Where modes exist along a line of parameters: the paper's intervals, closed forms, and dense scanning.
 
-mod klepp_example;
-mod search_support;
-
 use std::error::Error;
 
-use klepp_example::{example, reference};
+use crate::klepp_example::{example, reference};
+use crate::search_support::Random;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use search_support::Random;
 use slideway_modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, Limit, ModeInterval, ModeProblemLine, OutputBound,
     counts,

@@ -4,9 +4,7 @@
 use std::error::Error;
 use std::ops::ControlFlow;
 
-mod klepp_example;
-
-use klepp_example::{example, reference};
+use crate::klepp_example::{example, reference};
 use nalgebra::DMatrix;
 use slideway_modes::certificate::{IntervalMatrix, IntervalModeProblem};
 use slideway_modes::{

@@ -1,9 +1,7 @@
 //! The pruned search against the enumeration of all patterns, on random instances of many kinds.
 
-mod search_support;
-
+use crate::search_support::{self, Random, assert_same_as_enumeration, run, switches};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use search_support::{Random, assert_same_as_enumeration, run, switches};
 use slideway_modes::{
     Completeness, Limits, ModeProblem, ModeProblemError, SearchOptions, StopReason, enumerate, search,
 };

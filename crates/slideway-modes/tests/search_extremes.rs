@@ -1,12 +1,10 @@
 //! The search on numbers from all over the range of floating point: what it calls proven, exact decisions of every
 //! pattern confirm.
 
-mod search_support;
-
 use std::ops::ControlFlow;
 
+use crate::search_support::{Random, patterns, switches};
 use nalgebra::{DMatrix, DVector};
-use search_support::{Random, patterns, switches};
 use slideway_modes::certificate::{Decision, ExactSet, decide};
 use slideway_modes::{Completeness, ContactState, ModeProblem, SearchOptions, search};
 

@@ -1,10 +1,8 @@
 //! Coupling of low rank: proven answers by subdivision, the same as those of branch and bound and of
 //! the enumeration of all patterns.
 
-mod search_support;
-
+use crate::search_support::{Random, assert_same_as_enumeration, low_rank, run};
 use nalgebra::{DMatrix, DVector};
-use search_support::{Random, assert_same_as_enumeration, low_rank, run};
 use slideway_modes::{Arguments, Completeness, Method, ModeProblem, SearchOptions};
 
 fn with_cells() -> SearchOptions {

@@ -1,9 +1,7 @@
 //! What the search proves of problems with exact numbers, against the decision of every pattern.
 
-mod search_support;
-
+use crate::search_support::{Random, patterns, run, switches};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use search_support::{Random, patterns, run, switches};
 use slideway_modes::certificate::{Decision, ExactSet, decide};
 use slideway_modes::{
     Arguments, Certificate, Completeness, ContactState, Limits, Method, ModeProblem, ModeProblemError,

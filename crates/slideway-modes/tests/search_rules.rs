@@ -1,10 +1,8 @@
 //! One problem for each argument of the pruned search that loses solutions if the argument is wrong,
 //! and what the search says of its own work.
 
-mod search_support;
-
+use crate::search_support::{self, Random, run, switches};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use search_support::{Random, run, switches};
 use slideway_modes::certificate::proves_empty;
 use slideway_modes::{
     Arguments, Completeness, ContactState, ExclusionArgument, Method, ModeProblem, ModeProblemError,

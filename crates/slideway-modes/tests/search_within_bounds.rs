@@ -1,11 +1,9 @@
 //! The search on problems whose numbers lie within bounds, against samples from within the bounds.
 
-mod search_support;
-
 use std::ops::ControlFlow;
 
+use crate::search_support::{self, Random, patterns};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use search_support::{Random, patterns};
 use slideway_modes::certificate::{Decision, ExactSet, Interval, IntervalModeProblem, decide};
 use slideway_modes::{
     Arguments, Certificate, Completeness, ContactState, Method, ModeProblem, SearchOptions, SearchResult,

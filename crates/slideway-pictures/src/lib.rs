@@ -1,7 +1,10 @@
 //! Pictures of slideway's results.
 //!
-//! The library [`slideway`] computes and knows no pictures; this crate turns its values into SVG (and PNG), without
+//! The library [`slideway`] computes and knows no pictures; this crate turns its values into SVG, HTML, PNG and GIF, without
 //! computing anything of mechanics. Like the library it reads no file and no clock, and prints nothing.
+//!
+//! # Features
+//! - `png` (on unless told otherwise): pictures of pixels, `raster` and [`motion::Animation::to_gif`].
 
 mod coordinate;
 pub mod drawing;
@@ -9,6 +12,7 @@ pub mod map;
 pub mod motion;
 pub mod page;
 pub mod plot;
+#[cfg(feature = "png")]
 pub mod raster;
 pub mod theme;
 pub mod typeface;

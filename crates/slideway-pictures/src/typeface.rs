@@ -4,6 +4,7 @@
 //! built in, a wide one, so that what is laid out with it has room in the others.
 
 use std::collections::HashMap;
+#[cfg(feature = "png")]
 use std::fmt::Write;
 use std::sync::LazyLock;
 
@@ -21,6 +22,7 @@ static GLYPHS: LazyLock<HashMap<char, Glyph>> =
 struct Glyph {
     advance: f64,
     /// The data of an SVG path: M, L, Q and Z with absolute places.
+    #[cfg_attr(not(feature = "png"), expect(dead_code, reason = "letters of pixels alone have outlines"))]
     outline: &'static str,
 }
 
@@ -45,6 +47,7 @@ pub fn width(text: &str, size: f64) -> f64 {
 }
 
 /// Outlines of a text as the data of an SVG path, beginning at (x, y) on the base line.
+#[cfg(feature = "png")]
 pub(crate) fn outlines(text: &str, size: f64, x: f64, y: f64) -> String {
     let mut out = String::new();
     let (mut pen, scale) = (x, size / UNITS);
@@ -63,6 +66,7 @@ pub(crate) fn outlines(text: &str, size: f64, x: f64, y: f64) -> String {
 }
 
 /// The commands of a path, each with its letter before its places.
+#[cfg(feature = "png")]
 fn commands(outline: &str) -> impl Iterator<Item = &str> {
     let starts = outline.match_indices(|c: char| c.is_ascii_uppercase()).map(|(at, _)| at);
     let ends = starts.clone().skip(1).chain([outline.len()]);
@@ -84,6 +88,7 @@ mod tests {
     use super::*;
 
     /// The outline of the bar of the letter I in DejaVu Sans: 201 to 403 wide, 1493 high.
+    #[cfg(feature = "png")]
     #[test]
     fn outlines_are_scaled_and_put_in_their_place() {
         let outline = outlines("I", UNITS, 10.0, 2000.0);

@@ -115,7 +115,7 @@ fn a_floor_of_motion_imports_only_floors_below() {
 #[test]
 fn one_module_knows_the_solver_of_linear_programs() {
     let knows: Vec<PathBuf> =
-        files(&source()).into_iter().filter(|file| code(file).join("\n").contains("microlp")).collect();
+        files(&source()).into_iter().filter(|file| code(file).join("\n").contains("simplex::")).collect();
     assert_eq!(knows, [source().join("pattern").join("program.rs")]);
 }
 
@@ -155,6 +155,27 @@ fn the_library_has_no_files_no_clock_and_no_output() {
             for forbidden in ["std::fs", "std::time", "std::env", "std::process", "println!", "eprintln!"] {
                 assert!(!line.contains(forbidden), "{}: {}", file.display(), line.trim());
             }
+        }
+    }
+}
+
+/// Tests are named one by one (`autotests = false`), so that most of them share a program.
+#[test]
+fn no_file_of_tests_is_forgotten() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for package in ["slideway", "slideway-modes"].map(|name| crates.join(name)) {
+        let manifest = fs::read_to_string(package.join("Cargo.toml")).unwrap();
+        let together = fs::read_to_string(package.join("tests/all.rs")).unwrap();
+        for entry in fs::read_dir(package.join("tests")).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            let run = if path.join("main.rs").is_file() {
+                manifest.contains(&format!("path = \"tests/{name}/main.rs\""))
+            } else {
+                path.extension().is_none_or(|ending| ending != "rs")
+                    || together.contains(&format!("mod {name};"))
+            };
+            assert!(run || name == "all", "{} is not run", path.display());
         }
     }
 }

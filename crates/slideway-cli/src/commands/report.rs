@@ -55,7 +55,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         limits: &limits,
         figures: &figures,
     };
-    let html = to_html(&page).map_err(|fault| Failure::Picture { reason: fault.reason })?;
+    let html = to_html(&page)?;
     output.write(&html)?;
     Ok(Outcome::Done)
 }

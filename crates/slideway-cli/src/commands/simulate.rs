@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
+use crate::pixels;
 use crate::table::{Metadata, unfinished};
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
@@ -18,9 +19,8 @@ use slideway::model::{Model, Setting, SettingKind};
 use slideway::motion::{self, End, History, SimulateOptions, Thorough};
 use slideway::progress::Progress;
 use slideway::report::finite;
-use slideway_pictures::motion::{AnimationOptions, GifFault, animation, motion_figure, portrait_figure};
+use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
 use slideway_pictures::plot::to_svg;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Rows of a table that are too many to be meant.
@@ -277,25 +277,10 @@ impl<'a> Files<'a> {
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };
             let animation = animation(history, &options, theme);
-            // What was simulated until the time was up is shown whole, unless someone interrupts.
-            let time_was_up = watch.halt().is_some();
-            let mut progress = |progress: &Progress| match watch.look(progress) {
-                ControlFlow::Break(()) if time_was_up && watch.halt() != Some(Halt::Interrupted) => {
-                    ControlFlow::Continue(())
-                }
-                flow => flow,
-            };
             let bytes = match format {
                 AnimationFormat::Html => animation.to_html()?.into_bytes(),
                 AnimationFormat::Svg => animation.to_svg()?.into_bytes(),
-                AnimationFormat::Gif => match animation.to_gif(&mut progress) {
-                    Ok(bytes) => bytes,
-                    Err(GifFault::Ended) => {
-                        let (halt, path) = (watch.halt().unwrap_or(Halt::Interrupted), output.path());
-                        return Err(Failure::Halted { halt, path });
-                    }
-                    Err(fault) => return Err(Failure::Picture { reason: fault.to_string() }),
-                },
+                AnimationFormat::Gif => pixels::gif(&animation, watch, output)?,
             };
             output.write_bytes(&bytes)?;
         }
@@ -316,7 +301,7 @@ impl AnimationFormat {
         match path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase).as_deref() {
             Some("html" | "htm") => Ok(Self::Html),
             Some("svg") => Ok(Self::Svg),
-            Some("gif") => Ok(Self::Gif),
+            Some("gif") => pixels::are_there().map(|()| Self::Gif),
             _ => Err(Failure::FileFormat { path: path.to_owned(), known: &[".html", ".svg", ".gif"] }),
         }
     }

@@ -1,5 +1,6 @@
 //! The mechanism moving: one drawing for each frame, contact modes exaggerated.
 
+#[cfg(feature = "png")]
 use super::gif::{self, GifFault};
 use super::page;
 use crate::coordinate::{NotFinite, finished, finished_parts};
@@ -8,6 +9,7 @@ use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, 
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample};
+#[cfg(feature = "png")]
 use slideway::progress::Callback;
 
 /// Frames for a second on the clock.
@@ -91,6 +93,7 @@ impl Animation {
     ///
     /// # Errors
     /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s, or the callback broke.
+    #[cfg(feature = "png")]
     pub fn to_gif(&self, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
         gif::write(self, callback)
     }

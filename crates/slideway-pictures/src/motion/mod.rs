@@ -7,10 +7,13 @@
 
 mod animation;
 mod figure;
+#[cfg(feature = "png")]
 mod gif;
 mod page;
+#[cfg(feature = "png")]
 mod palette;
 
 pub use animation::{Animation, AnimationOptions, animation};
 pub use figure::{motion_figure, portrait_figure};
+#[cfg(feature = "png")]
 pub use gif::GifFault;

@@ -13,6 +13,7 @@ const CAPTION: f64 = 78.0;
 /// From the left edge to the words (drawing units).
 const INDENT: f64 = 12.0;
 /// How far the background of a frame that stands still goes beyond its edges (drawing units).
+#[cfg(feature = "png")]
 const BLEED: f64 = 2.0;
 /// At most so many events are told in an SVG document.
 const MOST_TOLD: usize = 200;
@@ -180,6 +181,7 @@ pub(super) fn svg(animation: &Animation) -> String {
 }
 
 /// One frame as a document that stands still, with what is told at its time; its sides are whole numbers.
+#[cfg(feature = "png")]
 pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
     let [width, height] = still_size(animation);
     let corner = animation.bounds.least;
@@ -211,6 +213,7 @@ pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
 }
 
 /// Width and height of a frame that stands still (drawing units).
+#[cfg(feature = "png")]
 pub(super) fn still_size(animation: &Animation) -> [f64; 2] {
     let size = animation.bounds.size();
     [size.x.ceil(), (size.y + CAPTION).ceil()]

@@ -3,19 +3,22 @@
 //! Light or dark as the reader's machine asks for, and with a style for print. The drawing is part of the page; figures are
 //! pictures within it, in both themes.
 
-mod context;
+//!
+//! # Files
+//! `head.html` is the head with the style, with names in double braces for what [`head`] fills in; `body.rs` writes the rest.
 
-use crate::coordinate::finished;
+mod body;
+
+use crate::coordinate::{NotFinite, finished};
 use crate::drawing::Sheet;
+use crate::drawing::svg::{Colour, rules};
 use crate::escaped;
-use context::Context;
-use minijinja::{AutoEscape, Environment, Output, State, Value};
+use crate::theme::{DARK, LIGHT, Theme};
 use slideway::limits::LimitsReport;
 use slideway::printable::lines;
 use slideway::report::Report;
-use thiserror::Error;
 
-const TEMPLATE: &str = include_str!("report.html");
+const HEAD: &str = include_str!("head.html");
 
 /// What a page tells.
 #[derive(Debug, Clone, Copy)]
@@ -49,42 +52,42 @@ pub struct Figure {
     pub dark: String,
 }
 
-/// The page could not be filled: a number that cannot be drawn, or a fault of its template.
-#[derive(Debug, Error)]
-#[error("the page could not be made: {reason}")]
-pub struct PageFault {
-    /// What the template engine says.
-    pub reason: String,
-}
-
 /// The page as HTML. Every name and text from the model is escaped, and its characters that are not seen stand as their
 /// numbers ([`slideway::printable`]).
 ///
 /// # Errors
-/// If a place or a size in its drawing is infinite or undefined; a fault of the template, which the tests exclude.
-pub fn to_html(page: &Page<'_>) -> Result<String, PageFault> {
-    let fault = |error: minijinja::Error| PageFault { reason: format!("{error:#}") };
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.set_formatter(write_escaped);
-    environment.set_trim_blocks(true);
-    environment.set_lstrip_blocks(true);
-    environment.add_filter("number", |value: f64| crate::drawing::number(value));
-    environment.add_filter("signs", |pattern: &str| crate::drawing::signs(pattern));
-    environment.add_filter("precise", |value: f64| slideway::report::precise(value));
-    environment.add_template("report.html", TEMPLATE).map_err(fault)?;
-    let template = environment.get_template("report.html").map_err(fault)?;
-    let html = template.render(Context::of(page)).map_err(fault)?;
-    finished(html).map_err(|fault| PageFault { reason: fault.to_string() })
+/// If a place or a size in its drawing is infinite or undefined.
+pub fn to_html(page: &Page<'_>) -> Result<String, NotFinite> {
+    finished(format!("{}<body>\n{}</body>\n</html>", head(&page.sheet.title), body::body(page)))
 }
 
-/// Writes a value of the template; text keeps its lines.
-fn write_escaped(out: &mut Output<'_>, state: &State<'_, '_>, value: &Value) -> Result<(), minijinja::Error> {
-    match value.as_str().filter(|_| !value.is_safe()) {
-        Some(text) => {
-            let lines: Vec<String> = lines(text).split('\n').map(escaped).collect();
-            out.write_str(&lines.join("\n")).map_err(minijinja::Error::from)
-        }
-        None => minijinja::escape_formatter(out, state, value),
-    }
+/// The head of the page, which goes on until the body begins.
+fn head(title: &str) -> String {
+    let filled = |part: &str| {
+        let Some((name, rest)) = part.split_once(" }}") else { return part.to_owned() };
+        let value = match name {
+            "title" => text(title),
+            "light" => variables(&LIGHT),
+            "dark" => variables(&DARK),
+            "rules" => rules(&Colour::variables()),
+            other => unreachable!("head.html has no `{other}`"),
+        };
+        value + rest
+    };
+    HEAD.split("{{ ").map(filled).collect()
+}
+
+/// Text, escaped, with its lines.
+fn text(text: &str) -> String {
+    let lines = lines(text);
+    lines.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
+}
+
+/// The colours of a theme as CSS variables.
+fn variables(theme: &Theme) -> String {
+    let Colour { background, ink, muted, body, reaction, friction, load, velocity } = Colour::of_theme(theme);
+    format!(
+        "--background: {background}; --ink: {ink}; --muted: {muted}; --body: {body}; --reaction: {reaction}; \
+         --friction: {friction}; --load: {load}; --velocity: {velocity};"
+    )
 }

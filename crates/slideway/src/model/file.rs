@@ -1,50 +1,16 @@
 //! The shape of a model file: one type for each table, from which both the reader and the JSON Schema come.
 //!
-//! The doc comments of this file are what an editor shows for each key.
+//! The doc comments of this file, and those of `schema.rs`, are what an editor shows for each key. `schema.json` is
+//! what they give; a test holds it to them.
 
-use super::quantity::{Components, Direction, Gravity, Name, PerSide, Place, Quantity, Span};
+use super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeMap;
-
-/// A planar mechanism with sliding joints: one slideway model file.
-#[derive(JsonSchema)]
-#[schemars(deny_unknown_fields)]
-#[expect(dead_code, reason = "only its schema is used: the tables are read one entry at a time")]
-pub(super) struct ModelFile {
-    /// One line that says what the mechanism is.
-    title: Option<Name>,
-    /// What it shows, in as many words as needed.
-    description: Option<Name>,
-    /// Where it comes from.
-    source: Option<Name>,
-    /// Acceleration of free fall: a number (downwards, along -y) or its components [x, y]. Default: none.
-    gravity: Option<Gravity>,
-    /// Time of the state, `t` in expressions (s). Default: 0.
-    time: Option<Quantity>,
-    /// Named numbers that any expression may use and that `--set name=value` overrides.
-    parameters: Option<BTreeMap<String, Quantity>>,
-    /// Functions given by values, which expressions may call: `push(t)` for `[tables.push]`.
-    tables: Option<BTreeMap<String, TableTable>>,
-    /// Points in world coordinates [x, y] of the reference drawing.
-    points: Option<BTreeMap<String, Components>>,
-    /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
-    bodies: BTreeMap<String, BodyTable>,
-    /// Hinges and sliding joints, each between two bodies or a body and `ground`.
-    joints: BTreeMap<String, JointTable>,
-    /// Forces, torques, springs and dampers.
-    loads: Option<BTreeMap<String, LoadTable>>,
-    /// Prescribed motions, each with the unknown force or torque that produces it.
-    drives: Option<BTreeMap<String, DriveTable>>,
-    /// The chosen coordinates: as many as there are degrees of freedom.
-    coordinates: Option<BTreeMap<String, CoordinateTable>>,
-    /// What a motion in time is watched for, beside what the joints do.
-    events: Option<BTreeMap<String, EventTable>>,
-}
 
 /// A function of one argument, linear between its values.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct TableTable {
     /// The arguments, numbers with or without a unit, which must not fall; the value jumps where two are equal.
     pub(super) argument: Vec<Quantity>,
@@ -55,7 +21,8 @@ pub(super) struct TableTable {
 }
 
 /// What a table says outside its arguments.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(super) enum BeyondName {
     /// The first value before them, the last after them.
@@ -65,8 +32,8 @@ pub(super) enum BeyondName {
 }
 
 /// Something that happens when a quantity passes through zero.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct EventTable {
     /// The quantity, of coordinates, rates and time.
     pub(super) zero_of: Quantity,
@@ -77,7 +44,8 @@ pub(super) struct EventTable {
 }
 
 /// In which direction a quantity passes through zero.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Deserialize, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum CrossingDirection {
     /// From negative to positive.
@@ -90,8 +58,8 @@ pub enum CrossingDirection {
 }
 
 /// A rigid body.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct BodyTable {
     /// The points that move with the body.
     pub(super) points: Option<Vec<Name>>,
@@ -108,8 +76,8 @@ pub(super) struct BodyTable {
 }
 
 /// Shape of a homogeneous body: exactly one of the keys.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct ShapeTable {
     /// A thin bar between two points: m l^2/12.
     pub(super) bar: Option<[Place; 2]>,
@@ -119,32 +87,17 @@ pub(super) struct ShapeTable {
     pub(super) disc: Option<Quantity>,
 }
 
-/// A joint between two bodies.
-#[derive(JsonSchema)]
-#[schemars(tag = "type", rename_all = "snake_case")]
-#[expect(dead_code, clippy::large_enum_variant, reason = "only its schema is used: no value is ever made")]
-pub(super) enum JointTable {
-    /// A frictionless hinge.
-    Hinge(HingeTable),
-    /// A carriage, sledge or bushing with a contact at each end.
-    BlockSlider(BlockSliderTable),
-    /// A slider pressed on one side along its whole length: one normal force and a couple.
-    GuidedSlider(GuidedSliderTable),
-    /// A pin in a slot, free to rotate: one contact.
-    PinInSlot(PinInSlotTable),
-}
-
 /// A frictionless hinge.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct HingeTable {
     /// The two hinged points, each as "body.point". The hinge force is counted on the first body.
     pub(super) between: [Name; 2],
 }
 
 /// A block with a contact at each end.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct BlockSliderTable {
     /// The body that is the block, or "ground".
     pub(super) block: Name,
@@ -181,8 +134,8 @@ pub(super) struct BlockSliderTable {
 }
 
 /// What differs at one end of a block.
-#[derive(Deserialize, JsonSchema, Default)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize, Default)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct EndTable {
     /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
     pub(super) carried_by: Option<CarriedBy>,
@@ -199,8 +152,8 @@ pub(super) struct EndTable {
 }
 
 /// A slider with one normal force and a couple.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct GuidedSliderTable {
     /// The body that is the block, or "ground".
     pub(super) block: Name,
@@ -233,8 +186,8 @@ pub(super) struct GuidedSliderTable {
 }
 
 /// A pin in a slot.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct PinInSlotTable {
     /// The body that carries the pin, or "ground".
     pub(super) block: Name,
@@ -259,8 +212,8 @@ pub(super) struct PinInSlotTable {
 }
 
 /// What stops a block at both ends of its travel, or at one.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct StopTable {
     /// Coefficient of restitution at both ends, from 0 to 1: the part of the velocity with which the block comes back.
     pub(super) restitution: Option<Quantity>,
@@ -275,8 +228,8 @@ pub(super) struct StopTable {
 }
 
 /// What stops a block at one end of its travel.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct StopAtEndTable {
     /// Coefficient of restitution, from 0 to 1.
     pub(super) restitution: Option<Quantity>,
@@ -287,7 +240,8 @@ pub(super) struct StopAtEndTable {
 }
 
 /// How block and guide lie in each other.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Fit {
     /// The block is inside the guide.
@@ -297,7 +251,8 @@ pub(super) enum Fit {
 }
 
 /// What a contact at the end of a block travels with.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum CarriedBy {
     /// The contact is a material point of the block.
@@ -307,7 +262,8 @@ pub enum CarriedBy {
 }
 
 /// Where the friction that comes from the preload acts.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PreloadLine {
     /// At the face that is pressed, as in the paper.
@@ -316,28 +272,9 @@ pub enum PreloadLine {
     Centre,
 }
 
-/// A force, torque, spring or damper.
-#[derive(JsonSchema)]
-#[schemars(tag = "type", rename_all = "snake_case")]
-#[expect(dead_code, reason = "only its schema is used: no value is ever made")]
-pub(super) enum LoadTable {
-    /// A force at a point.
-    Force(ForceTable),
-    /// A torque on a body.
-    Torque(TorqueTable),
-    /// A linear spring between two points.
-    Spring(SpringTable),
-    /// A linear damper between two points.
-    Damper(DamperTable),
-    /// A linear torsional spring between two bodies.
-    TorsionalSpring(TorsionalSpringTable),
-    /// A linear torsional damper between two bodies.
-    TorsionalDamper(TorsionalDamperTable),
-}
-
 /// A force at a point of a body.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct ForceTable {
     /// Where the force acts, as "body.point".
     pub(super) at: Name,
@@ -354,7 +291,8 @@ pub(super) struct ForceTable {
 }
 
 /// In which frame a force's direction is fixed.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ForceFrame {
     /// Fixed in space.
@@ -364,8 +302,8 @@ pub enum ForceFrame {
 }
 
 /// A torque on a body, counter-clockwise positive.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct TorqueTable {
     /// The body on which it acts.
     pub(super) body: Name,
@@ -376,8 +314,8 @@ pub(super) struct TorqueTable {
 }
 
 /// A linear spring between two points.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct SpringTable {
     /// Its end points, each as "body.point".
     pub(super) between: [Name; 2],
@@ -388,8 +326,8 @@ pub(super) struct SpringTable {
 }
 
 /// A linear damper between two points.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct DamperTable {
     /// Its end points, each as "body.point".
     pub(super) between: [Name; 2],
@@ -398,8 +336,8 @@ pub(super) struct DamperTable {
 }
 
 /// A linear torsional spring between two bodies.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct TorsionalSpringTable {
     /// The two bodies; one may be "ground".
     pub(super) between: [Name; 2],
@@ -410,8 +348,8 @@ pub(super) struct TorsionalSpringTable {
 }
 
 /// A linear torsional damper between two bodies.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct TorsionalDamperTable {
     /// The two bodies; one may be "ground".
     pub(super) between: [Name; 2],
@@ -420,8 +358,8 @@ pub(super) struct TorsionalDamperTable {
 }
 
 /// A prescribed motion and the unknown force or torque that produces it.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct DriveTable {
     /// The coordinate whose motion is prescribed.
     pub(super) coordinate: Name,
@@ -434,8 +372,8 @@ pub(super) struct DriveTable {
 }
 
 /// Line of action of a drive's force.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct DriveForceTable {
     /// Where the force acts, as "body.point".
     pub(super) at: Name,
@@ -448,8 +386,8 @@ pub(super) struct DriveForceTable {
 }
 
 /// The bodies on which a drive's torque acts.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct DriveTorqueTable {
     /// The body on which it acts.
     pub(super) body: Name,
@@ -458,8 +396,8 @@ pub(super) struct DriveTorqueTable {
 }
 
 /// A chosen coordinate: exactly one of `slide`, `rotation`, `x`, `y`.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct CoordinateTable {
     /// Displacement of the block of this sliding joint against its guide, positive in the direction `along`.
     pub(super) slide: Option<Name>,

@@ -31,8 +31,8 @@
 //! ```
 //!
 //! # Files
-//! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `structure.rs` checks
-//! a parsed file against the schema, `sections.rs` deserializes entry by entry, `read/` resolves names,
+//! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what both
+//! give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs` deserializes entry by entry, `read/` resolves names,
 //! `check.rs` judges the whole, `settings.rs` applies changes.
 
 mod check;
@@ -42,6 +42,8 @@ mod formula;
 mod quantity;
 mod range;
 mod read;
+#[cfg(test)]
+mod schema;
 mod sections;
 mod settings;
 mod stop;
@@ -484,6 +486,8 @@ impl Model {
     }
 }
 
+const SCHEMA: &str = include_str!("schema.json");
+
 /// JSON Schema of the model-file format, made from the types that read it.
 ///
 /// ```
@@ -491,7 +495,5 @@ impl Model {
 /// assert_eq!(schema["title"], "Slideway model");
 /// ```
 pub fn json_schema() -> serde_json::Value {
-    let mut schema = schemars::schema_for!(file::ModelFile);
-    schema.insert("title".to_owned(), "Slideway model".into());
-    schema.into()
+    serde_json::from_str(SCHEMA).expect("the schema is JSON")
 }

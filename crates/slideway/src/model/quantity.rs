@@ -1,8 +1,6 @@
 //! The kinds of value that a model file holds: names, quantities, places, directions, each with its place.
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
-use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use toml::Spanned;
@@ -21,18 +19,6 @@ impl<'de> Deserialize<'de> for Name {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let spanned = Spanned::<String>::deserialize(deserializer)?;
         Ok(Self { span: spanned.span(), text: spanned.into_inner() })
-    }
-}
-
-impl JsonSchema for Name {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        "Name".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "string" })
     }
 }
 
@@ -79,18 +65,6 @@ impl<'de> Deserialize<'de> for Quantity {
     }
 }
 
-impl JsonSchema for Quantity {
-    fn schema_name() -> Cow<'static, str> {
-        "Quantity".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "description": "A plain number in SI units, a number with a unit such as \"25 mm\", or an expression such as \"2*l*cos(alpha)\".",
-            "type": ["number", "string"]
-        })
-    }
-}
-
 /// Two quantities [x, y].
 pub(super) type Components = [Quantity; 2];
 
@@ -122,8 +96,8 @@ pub(super) enum PerSide {
 }
 
 /// The values of the two sides of contact.
-#[derive(Debug, Clone, serde::Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct Sides {
     /// Value where the normal force is positive.
     pub(super) plus: Quantity,
@@ -275,46 +249,5 @@ impl<'de> Deserialize<'de> for PerSide {
 impl<'de> Deserialize<'de> for Gravity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserialize_either(deserializer)
-    }
-}
-
-/// Schema of a value that is either of two forms.
-fn either_schema(first: &Schema, second: &Schema) -> Schema {
-    json_schema!({ "anyOf": [first, second] })
-}
-
-impl JsonSchema for Place {
-    fn schema_name() -> Cow<'static, str> {
-        "Place".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<Components>())
-    }
-}
-
-impl JsonSchema for Direction {
-    fn schema_name() -> Cow<'static, str> {
-        "Direction".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<[Name; 2]>())
-    }
-}
-
-impl JsonSchema for PerSide {
-    fn schema_name() -> Cow<'static, str> {
-        "PerSide".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Sides>())
-    }
-}
-
-impl JsonSchema for Gravity {
-    fn schema_name() -> Cow<'static, str> {
-        "Gravity".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Components>())
     }
 }

@@ -14,12 +14,13 @@
 //! `pattern` is what `standstill` and `motion` share: what joints and contacts do (`phase.rs`), as linear
 //! equations and inequalities. `friction.rs` is Coulomb's law of a contact, with preloads, and when a guided
 //! slider tips; `affine.rs` solves the equations, of statics or of motion, that are added; `program.rs` asks
-//! the linear programs of what they leave open, the only place that knows the solver.
+//! the linear programs of what they leave open, the only place that knows their solver (`simplex.rs`).
 
 mod affine;
 mod friction;
 pub(crate) mod phase;
 mod program;
+mod simplex;
 
 pub(crate) use affine::{Affine, AffineSet, Expression};
 pub(crate) use friction::{Bound, Friction, Law, face, without_tipping};

@@ -1,7 +1,7 @@
 //! A region of points within linear inequalities, and the linear programs that ask for its extent.
 
 use super::Affine;
-use microlp::{ComparisonOp, Error, OptimizationDirection, Problem, SolveOptions, Variable};
+use super::simplex::{Optimum, least};
 use nalgebra::Vector3;
 
 /// Greater slacks are not sought: the reactions of a wedged block may grow without bound.
@@ -14,10 +14,6 @@ const MOST_OF_TWO: usize = 20;
 const UNBOUNDED: f64 = 1e9;
 /// A direction counts as one of recession if it misses no constraint by more than this.
 const RECESSION: f64 = 1e-10;
-/// The solver may miss a constraint by this, the least that it takes.
-const FEASIBILITY: f64 = 1e-10;
-/// Constraints are multiplied by this power of two, so that the solver misses them by no more than about 1e-14.
-const MAGNIFIED: f64 = 8192.0;
 /// Optima below this are rounding errors of terms of order one.
 const NOTHING: f64 = 1e-12;
 
@@ -54,17 +50,19 @@ impl Region {
         Ok((slacks.fold(GREATEST, f64::min), point))
     }
 
+    /// The greatest `t` that no slack is below, from where all unknowns are zero.
     fn highest_by_simplex(&self) -> Result<Vec<f64>, Unsolved> {
-        let mut problem = Problem::new(OptimizationDirection::Maximize);
-        let unknowns = free_unknowns(&mut problem, &vec![0.0; self.dimension]);
-        let least = problem.add_var(1.0, (f64::NEG_INFINITY, GREATEST));
-        for slack in &self.slacks {
-            let mut row = terms(&unknowns, slack);
-            row.push((least, -MAGNIFIED));
-            problem.add_constraint(&row[..], ComparisonOp::Ge, -MAGNIFIED * slack.constant);
+        let lowest = self.slacks.iter().map(|slack| slack.constant).fold(GREATEST, f64::min);
+        let cap = Affine { coefficients: vec![0.0; self.dimension], constant: GREATEST };
+        let rows: Vec<Affine> = self.slacks.iter().chain([&cap]).map(|slack| with(slack, -1.0)).collect();
+        let cost = last(self.dimension, -1.0);
+        match least(&cost, &rows, &last(self.dimension, lowest))? {
+            Optimum::At(mut point) => {
+                point.truncate(self.dimension);
+                Ok(point)
+            }
+            Optimum::Unbounded => Err(Unsolved),
         }
-        let (_, point) = optimum(&problem, &unknowns)?.ok_or(Unsolved)?;
-        if point.iter().all(|value| value.is_finite()) { Ok(point) } else { Err(Unsolved) }
     }
 
     /// The region with every slack greater by the same amount.
@@ -97,59 +95,49 @@ impl Region {
         if self.recedes(function, sign)? {
             return Ok(None);
         }
-        let mut problem = Problem::new(OptimizationDirection::Minimize);
-        let costs: Vec<f64> = function.coefficients.iter().map(|coefficient| sign * coefficient).collect();
-        let unknowns = free_unknowns(&mut problem, &costs);
-        for slack in self.slacks.iter().filter(|slack| slack.varies()) {
-            let row = terms(&unknowns, slack);
-            problem.add_constraint(&row[..], ComparisonOp::Ge, -MAGNIFIED * slack.constant);
-        }
-        let without_noise = |value: f64| if value.abs() <= NOTHING { 0.0 } else { value };
-        let least = optimum(&problem, &unknowns)?.map(|(least, _)| without_noise(least + constant));
-        Ok(least.filter(|least| least.abs() < UNBOUNDED))
+        let cost: Vec<f64> = function.coefficients.iter().map(|coefficient| sign * coefficient).collect();
+        let rows: Vec<Affine> = self.slacks.iter().filter(|slack| slack.varies()).cloned().collect();
+        let (_, inside) = self.highest()?;
+        let Optimum::At(point) = least(&cost, &rows, &inside)? else { return Ok(None) };
+        let least = sign * function.at(&point);
+        let without_noise = if least.abs() <= NOTHING { 0.0 } else { least };
+        Ok(Some(without_noise).filter(|least| least.abs() < UNBOUNDED))
     }
 
     /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function falls:
-    /// the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d = -1` is not positive.
+    /// the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d <= -1` is not positive.
     fn recedes(&self, function: &Affine, sign: f64) -> Result<bool, Unsolved> {
-        let mut problem = Problem::new(OptimizationDirection::Minimize);
-        let unknowns = free_unknowns(&mut problem, &vec![0.0; self.dimension]);
-        let margin = problem.add_var(1.0, (-1.0, f64::INFINITY));
-        for slack in self.slacks.iter().filter(|slack| slack.varies()) {
-            let mut row = terms(&unknowns, slack);
-            row.push((margin, MAGNIFIED));
-            problem.add_constraint(&row[..], ComparisonOp::Ge, 0.0);
+        let homogeneous = |slack: &Affine| Affine { coefficients: slack.coefficients.clone(), constant: 0.0 };
+        let falls = Affine {
+            coefficients: function.coefficients.iter().map(|coefficient| -sign * coefficient).collect(),
+            constant: -1.0,
+        };
+        let slope: f64 = function.coefficients.iter().map(|coefficient| coefficient * coefficient).sum();
+        let mut start: Vec<f64> = falls.coefficients.iter().map(|coefficient| coefficient / slope).collect();
+        let cone: Vec<Affine> = self.slacks.iter().filter(|slack| slack.varies()).map(homogeneous).collect();
+        let missed = cone.iter().map(|slack| -slack.at(&start)).fold(-1.0, f64::max);
+        let mut rows: Vec<Affine> = cone.iter().map(|slack| with(slack, 1.0)).collect();
+        rows.push(with(&falls, 0.0));
+        rows.push(Affine { coefficients: last(self.dimension, 1.0), constant: 1.0 });
+        start.push(missed);
+        match least(&last(self.dimension, 1.0), &rows, &start)? {
+            Optimum::At(point) => Ok(point[self.dimension] <= RECESSION),
+            Optimum::Unbounded => Err(Unsolved),
         }
-        problem.add_constraint(&terms(&unknowns, function)[..], ComparisonOp::Eq, -MAGNIFIED * sign);
-        let (margin, _) = optimum(&problem, &unknowns)?.ok_or(Unsolved)?;
-        Ok(margin <= RECESSION)
     }
 }
 
-fn free_unknowns(problem: &mut Problem, costs: &[f64]) -> Vec<Variable> {
-    costs.iter().map(|cost| problem.add_var(*cost, (f64::NEG_INFINITY, f64::INFINITY))).collect()
+/// A function with one more unknown.
+fn with(function: &Affine, coefficient: f64) -> Affine {
+    let coefficients = function.coefficients.iter().copied().chain([coefficient]).collect();
+    Affine { coefficients, constant: function.constant }
 }
 
-/// The terms of a function, magnified.
-fn terms(unknowns: &[Variable], function: &Affine) -> Vec<(Variable, f64)> {
-    let pairs = unknowns.iter().copied().zip(function.coefficients.iter().copied());
-    let terms = pairs.filter(|(_, coefficient)| *coefficient != 0.0);
-    terms.map(|(unknown, coefficient)| (unknown, MAGNIFIED * coefficient)).collect()
-}
-
-/// The optimum of a problem that has feasible points, and these unknowns there; nothing where it is unbounded.
-fn optimum(problem: &Problem, unknowns: &[Variable]) -> Result<Option<(f64, Vec<f64>)>, Unsolved> {
-    let mut options = SolveOptions::default();
-    options.tolerances.feasibility = FEASIBILITY;
-    match problem.solve_with(options) {
-        Ok(outcome) => {
-            let solution = outcome.into_solution().map_err(|_| Unsolved)?;
-            let point = unknowns.iter().map(|unknown| solution[*unknown]).collect();
-            Ok(Some((solution.objective(), point)).filter(|(objective, _)| objective.is_finite()))
-        }
-        Err(Error::Unbounded) => Ok(None),
-        Err(_) => Err(Unsolved),
-    }
+/// Zeros, and a value for the unknown that comes last.
+fn last(dimension: usize, value: f64) -> Vec<f64> {
+    let mut values = vec![0.0; dimension + 1];
+    values[dimension] = value;
+    values
 }
 
 /// One unknown: the optimum is where a rising and a falling function meet, or a rising one reaches the greatest value.

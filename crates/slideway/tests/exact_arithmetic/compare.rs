@@ -8,7 +8,7 @@ use slideway::modes::{Arguments, SearchOptions};
 use slideway::raw_problem::{RawProblem, RawReport, RawSolution, Unknowns, solve, to_json, to_text};
 use slideway::report::{Status, Style};
 
-use crate::oracle::{State, Truth, exact, truth};
+use super::oracle::{State, Truth, exact, truth};
 
 /// What a campaign met.
 #[derive(Debug, Default)]

@@ -1,0 +1,276 @@
+//! The body of a page: one function for each part of it.
+
+use super::{Figure, Page, text};
+use crate::drawing::svg::{self, Colours, Frame};
+use crate::drawing::{number, signs};
+use slideway::limits::{LimitsReport, ModeLimits};
+use slideway::report::{JointMode, Report, Solution, followed, precise};
+use std::fmt::Display;
+
+/// Everything between the ends of `body`.
+pub(super) fn body(page: &Page<'_>) -> String {
+    let states = page.report.map(states).unwrap_or_default();
+    format!(
+        "{}\n{}\n{}\n{}\n{}\n<footer class=\"quiet\">\n<p>Made by <code>{}</code>, slideway {}.</p>\n</footer>\n",
+        header(page, !states.is_empty()),
+        drawing(page),
+        solutions(&states),
+        limits(page),
+        model(page),
+        text(page.command),
+        env!("CARGO_PKG_VERSION"),
+    )
+}
+
+/// The parts one after the other.
+fn all<T>(items: impl IntoIterator<Item = T>, part: impl Fn(T) -> String) -> String {
+    items.into_iter().map(part).collect()
+}
+
+/// So many of something.
+fn count(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
+}
+
+fn header(page: &Page<'_>, has_states: bool) -> String {
+    let answer = match page.report {
+        Ok(report) => answer(report),
+        Err(refused) => {
+            let reasons = all(refused, |line| format!("<p>{}</p>\n", text(line)));
+            let words = "The kinetic problem has no answer in this state.";
+            format!("<p class=\"answer\" id=\"answer\"><strong>{words}</strong></p>\n{reasons}")
+        }
+    };
+    let solutions = if has_states { "<a href=\"#solutions\">Solutions</a>" } else { "" };
+    let limits = if has_limits(page) { "<a\nhref=\"#limits\">Limits</a>" } else { "" };
+    format!(
+        "<header>\n<h1>{}</h1>\n{answer}<nav><a href=\"#drawing\">Drawing</a>{solutions}{limits}\
+         <a href=\"#model\">Model</a></nav>\n</header>\n",
+        text(&page.sheet.title)
+    )
+}
+
+/// The state that was solved, and how many solutions it has.
+fn answer(report: &Report) -> String {
+    let model = &report.model;
+    let drives = match model.drives {
+        0 => String::new(),
+        number => format!(",\n{}", count(number, "drive", "drives")),
+    };
+    let coordinates: Vec<String> = report
+        .state
+        .iter()
+        .map(|coordinate| {
+            let (name, unit) = (text(&coordinate.name), text(coordinate.unit));
+            format!(
+                "{name} = {} {unit}, rate\n{} {unit}/s",
+                number(coordinate.value),
+                number(coordinate.rate)
+            )
+        })
+        .collect();
+    let followed =
+        report.steps_from_drawing.map_or_else(String::new, |steps| format!("; {}", text(&followed(steps))));
+    let complete = if report.complete == "proven" {
+        "The list is proven complete."
+    } else {
+        "That these are all is not proven."
+    };
+    format!(
+        "<p>{},\n{},\n{}{drives}.\nState: {}{followed}.</p>\n\
+         <p class=\"answer\" id=\"answer\"><strong>{}</strong>\n{complete}</p>\n{}",
+        count(model.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+        count(model.bodies, "body", "bodies"),
+        count(model.contacts, "contact", "contacts"),
+        coordinates.join("; "),
+        text(&crate::drawing::answer(report)),
+        all(&report.open, |line| format!("<p>{}</p>\n", text(line))),
+    )
+}
+
+fn drawing(page: &Page<'_>) -> String {
+    let frame = Frame {
+        bounds: page.sheet.bounds,
+        title: &page.sheet.title,
+        description: &page.sheet.description,
+        width: None,
+        colours: Colours::Page,
+    };
+    format!(
+        "<section id=\"drawing\">\n<h2>Drawing</h2>\n<div class=\"drawing\">\n{}\n</div>\n<p class=\"quiet\">Play in the \
+         guides is exaggerated. Forces act on the block, at the place where it is pressed.</p>\n</section>\n",
+        svg::document(&page.sheet.scene, &frame)
+    )
+}
+
+/// The solutions and the preload-gap states, each with its heading.
+fn states(report: &Report) -> Vec<(String, &Solution)> {
+    let heading = |kind: &str, index: usize, count: &str, solution: &Solution| {
+        format!("{kind} {} of {count}: {}", index + 1, signs(&solution.pattern))
+    };
+    let of = |kind: &'static str, count, states| {
+        let numbered = <[Solution]>::iter(states).enumerate();
+        numbered.map(move |(index, state)| (heading(kind, index, count, state), state))
+    };
+    of("Solution", &report.count, &report.solutions)
+        .chain(of("Preload gap", &report.gap_state_count, &report.preload_gap_states))
+        .collect()
+}
+
+fn solutions(states: &[(String, &Solution)]) -> String {
+    if states.is_empty() {
+        return String::new();
+    }
+    let states = all(states, |(heading, solution)| state(heading, solution));
+    format!("<section id=\"solutions\">\n<h2>Solutions</h2>\n{states}</section>\n")
+}
+
+fn state(heading: &str, solution: &Solution) -> String {
+    let joints: Vec<String> = solution.joints.iter().map(|joint| joint_mode(joint, ": ")).collect();
+    let end = if joints.is_empty() { "" } else { "." };
+    format!(
+        "<section class=\"state\">\n<h3>{}</h3>\n<p>{}{end}\n{}</p>\n<div class=\"wide\">\n\
+         <table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">Normal force in N</th>\
+         <th class=\"number\">Friction in N</th>\n<th class=\"number\">Sliding in m/s</th></tr></thead>\n<tbody>\n{}\
+         </tbody>\n</table>\n<table class=\"rest\">\n<thead><tr><th>Of</th><th>What</th><th class=\"number\">Value</th>\
+         <th>Unit</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n</section>\n",
+        text(heading),
+        joints.join("; "),
+        text(&solution.attainability.in_words()),
+        contacts(solution),
+        everything_else(solution),
+    )
+}
+
+fn joint_mode(joint: &JointMode, between: &str) -> String {
+    format!("{}{between}{}", text(&joint.name), text(&joint.mode))
+}
+
+fn contacts(solution: &Solution) -> String {
+    all(&solution.contacts, |contact| {
+        format!(
+            "<tr><td>{}</td><td class=\"number\">{}</td>\n<td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+            text(&contact.name),
+            number(contact.normal_force),
+            number(contact.friction_force),
+            number(contact.sliding_velocity),
+        )
+    })
+}
+
+/// Rows of what is no contact: accelerations, efforts, hinge forces.
+fn everything_else(solution: &Solution) -> String {
+    let coordinates = all(&solution.coordinates, |coordinate| {
+        let value = format!("{}</td>\n", number(coordinate.acceleration));
+        row(&coordinate.name, "acceleration", value, &coordinate.unit.replace("^2", "²"))
+    });
+    let drives = all(&solution.drives, |drive| {
+        row(&drive.name, "effort", format!("{}</td>", number(drive.effort)), drive.unit)
+    });
+    let hinges = all(&solution.hinges, |hinge| {
+        pair(&hinge.name, &format!("hinge force on {}", hinge.on), hinge.force, "N")
+    });
+    let bodies = all(&solution.bodies, |body| {
+        let angular = format!("{}</td>", number(body.angular_acceleration));
+        pair(&body.name, "acceleration", body.acceleration, "m/s²")
+            + &row("", "angular acceleration", angular, "rad/s²")
+    });
+    coordinates + &drives + &hinges + &bodies
+}
+
+/// A row with one value, which brings the end of its cell.
+fn row(of: &str, what: &str, value: impl Display, unit: &str) -> String {
+    let (of, what, unit) = (text(of), text(what), text(unit));
+    format!("<tr><td>{of}</td><td>{what}</td><td class=\"number\">{value}<td>{unit}</td></tr>\n")
+}
+
+/// A row with the two components of a vector.
+fn pair(of: &str, what: &str, [x, y]: [f64; 2], unit: &str) -> String {
+    format!(
+        "<tr><td>{}</td><td>{}</td>\n<td class=\"number\">({}, {})</td><td>{unit}</td></tr>\n",
+        text(of),
+        text(what),
+        number(x),
+        number(y)
+    )
+}
+
+fn has_limits(page: &Page<'_>) -> bool {
+    !page.limits.is_empty() || !page.figures.is_empty()
+}
+
+fn limits(page: &Page<'_>) -> String {
+    if !has_limits(page) {
+        return String::new();
+    }
+    let (limits, figures) = (all(page.limits, limits_of), all(page.figures, figure));
+    format!("<section id=\"limits\">\n<h2>Limits</h2>\n{limits}{figures}</section>\n")
+}
+
+/// The limits over one quantity.
+fn limits_of(limits: &LimitsReport) -> String {
+    let name = match limits.vary.name.as_str() {
+        "friction" => "Factor of all coefficients of friction",
+        name => name,
+    };
+    format!(
+        "<h3>{}, from\n{} to {} (SI units)</h3>\n{}<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
+         <th class=\"number\">From</th><th class=\"number\">To</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
+         <tbody>\n{}</tbody>\n</table>\n</div>\n<p class=\"quiet\">{}</p>\n",
+        text(name),
+        precise(limits.vary.from),
+        precise(limits.vary.to),
+        all(&limits.conclusion, |line| format!("<p class=\"conclusion\">{}</p>\n", text(line))),
+        all(&limits.modes, mode),
+        text(&limits.guarantee),
+    )
+}
+
+/// The row of a mode.
+fn mode(mode: &ModeLimits) -> String {
+    let end = |value: Option<f64>| value.map(precise).unwrap_or_default();
+    let at = if mode.to_at.is_empty() { String::new() } else { format!(": {}", mode.to_at.join(", ")) };
+    let joints: Vec<String> = mode.joints.iter().map(|joint| joint_mode(joint, " ")).collect();
+    format!(
+        "<tr><td class=\"signs\">{}</td>\n<td class=\"number\">{}</td>\n<td class=\"number\">{}</td>\n<td>{}{}</td>\n\
+         <td>{}</td></tr>\n",
+        text(&signs(&mode.pattern)),
+        end(mode.from),
+        end(mode.to),
+        text(&mode.to_is.replace('_', " ")),
+        text(&at),
+        joints.join("; "),
+    )
+}
+
+/// A figure in both themes, each picture as an address that holds it.
+fn figure(figure: &Figure) -> String {
+    let caption = text(&figure.caption);
+    let [light, dark] = [&figure.light, &figure.dark].map(|svg| address(svg));
+    format!(
+        "<figure>\n<img class=\"on-light\" src=\"{light}\" alt=\"{caption}\">\n\
+         <img class=\"on-dark\" src=\"{dark}\" alt=\"{caption}\">\n<figcaption>{caption}</figcaption>\n</figure>\n"
+    )
+}
+
+/// A picture as an address that holds all of it (RFC 2397).
+fn address(svg: &str) -> String {
+    let byte = |byte: u8| match byte {
+        b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' | b'/' | b':' | b'=' => {
+            char::from(byte).to_string()
+        }
+        other => format!("%{other:02X}"),
+    };
+    format!("data:image/svg+xml,{}", all(svg.bytes(), byte))
+}
+
+fn model(page: &Page<'_>) -> String {
+    let name = text(page.name);
+    let settings = if page.settings.is_empty() {
+        format!("<p>{name}</p>\n")
+    } else {
+        let settings = all(page.settings, |setting| format!("<li><code>{}</code></li>\n", text(setting)));
+        format!("<p>{name}, changed by</p>\n<ul>\n{settings}</ul>\n")
+    };
+    format!("<section id=\"model\">\n<h2>Model</h2>\n{settings}<pre>{}</pre>\n</section>\n", text(page.text))
+}

@@ -1,0 +1,156 @@
+//! What the types of a model file give as JSON Schema, which `schema.json` has to be.
+//!
+//! The program reads `schema.json`. If the test says that it differs, this makes it anew:
+//! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > /tmp/schema.json`, to be moved here.
+
+use super::file::{
+    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, EventTable, ForceTable,
+    GuidedSliderTable, HingeTable, PinInSlotTable, SpringTable, TableTable, TorqueTable,
+    TorsionalDamperTable, TorsionalSpringTable,
+};
+use super::quantity::{Components, Direction, Gravity, Name, PerSide, Place, Quantity, Sides};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// A planar mechanism with sliding joints: one slideway model file.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "only its schema is used: the tables are read one entry at a time")]
+struct ModelFile {
+    /// One line that says what the mechanism is.
+    title: Option<Name>,
+    /// What it shows, in as many words as needed.
+    description: Option<Name>,
+    /// Where it comes from.
+    source: Option<Name>,
+    /// Acceleration of free fall: a number (downwards, along -y) or its components [x, y]. Default: none.
+    gravity: Option<Gravity>,
+    /// Time of the state, `t` in expressions (s). Default: 0.
+    time: Option<Quantity>,
+    /// Named numbers that any expression may use and that `--set name=value` overrides.
+    parameters: Option<BTreeMap<String, Quantity>>,
+    /// Functions given by values, which expressions may call: `push(t)` for `[tables.push]`.
+    tables: Option<BTreeMap<String, TableTable>>,
+    /// Points in world coordinates [x, y] of the reference drawing.
+    points: Option<BTreeMap<String, Components>>,
+    /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
+    bodies: BTreeMap<String, BodyTable>,
+    /// Hinges and sliding joints, each between two bodies or a body and `ground`.
+    joints: BTreeMap<String, JointTable>,
+    /// Forces, torques, springs and dampers.
+    loads: Option<BTreeMap<String, LoadTable>>,
+    /// Prescribed motions, each with the unknown force or torque that produces it.
+    drives: Option<BTreeMap<String, DriveTable>>,
+    /// The chosen coordinates: as many as there are degrees of freedom.
+    coordinates: Option<BTreeMap<String, CoordinateTable>>,
+    /// What a motion in time is watched for, beside what the joints do.
+    events: Option<BTreeMap<String, EventTable>>,
+}
+
+/// A joint between two bodies.
+#[derive(JsonSchema)]
+#[schemars(tag = "type", rename_all = "snake_case")]
+#[expect(dead_code, clippy::large_enum_variant, reason = "only its schema is used: no value is ever made")]
+enum JointTable {
+    /// A frictionless hinge.
+    Hinge(HingeTable),
+    /// A carriage, sledge or bushing with a contact at each end.
+    BlockSlider(BlockSliderTable),
+    /// A slider pressed on one side along its whole length: one normal force and a couple.
+    GuidedSlider(GuidedSliderTable),
+    /// A pin in a slot, free to rotate: one contact.
+    PinInSlot(PinInSlotTable),
+}
+
+/// A force, torque, spring or damper.
+#[derive(JsonSchema)]
+#[schemars(tag = "type", rename_all = "snake_case")]
+#[expect(dead_code, reason = "only its schema is used: no value is ever made")]
+enum LoadTable {
+    /// A force at a point.
+    Force(ForceTable),
+    /// A torque on a body.
+    Torque(TorqueTable),
+    /// A linear spring between two points.
+    Spring(SpringTable),
+    /// A linear damper between two points.
+    Damper(DamperTable),
+    /// A linear torsional spring between two bodies.
+    TorsionalSpring(TorsionalSpringTable),
+    /// A linear torsional damper between two bodies.
+    TorsionalDamper(TorsionalDamperTable),
+}
+
+impl JsonSchema for Name {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Name".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string" })
+    }
+}
+
+impl JsonSchema for Quantity {
+    fn schema_name() -> Cow<'static, str> {
+        "Quantity".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A plain number in SI units, a number with a unit such as \"25 mm\", or an expression such as \"2*l*cos(alpha)\".",
+            "type": ["number", "string"]
+        })
+    }
+}
+
+/// Schema of a value that is either of two forms.
+fn either_schema(first: &Schema, second: &Schema) -> Schema {
+    json_schema!({ "anyOf": [first, second] })
+}
+
+impl JsonSchema for Place {
+    fn schema_name() -> Cow<'static, str> {
+        "Place".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<Components>())
+    }
+}
+
+impl JsonSchema for Direction {
+    fn schema_name() -> Cow<'static, str> {
+        "Direction".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<[Name; 2]>())
+    }
+}
+
+impl JsonSchema for PerSide {
+    fn schema_name() -> Cow<'static, str> {
+        "PerSide".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Sides>())
+    }
+}
+
+impl JsonSchema for Gravity {
+    fn schema_name() -> Cow<'static, str> {
+        "Gravity".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Components>())
+    }
+}
+
+#[test]
+fn the_schema_that_is_read_is_that_of_the_types() {
+    let mut schema = schema_for!(ModelFile);
+    schema.insert("title".to_owned(), "Slideway model".into());
+    let made = format!("{:#}\n", serde_json::Value::from(schema));
+    assert!(made == super::SCHEMA, "schema.json is not what the types give, which is\n{made}");
+}

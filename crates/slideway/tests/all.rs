@@ -1,0 +1,21 @@
+//! The tests of the library from outside, but for those that have a folder.
+//!
+//! One program, so that the library is linked once for all of them. A file of this folder is a module here, a folder with a
+//! `main.rs` is a program of its own; `architecture.rs` sees to it that none is forgotten.
+
+mod architecture;
+mod book;
+mod drawing;
+mod exact_arithmetic;
+mod expression;
+mod expression_properties;
+mod extremes;
+mod limits_curves;
+mod map;
+mod motion_outcomes;
+mod motion_reference;
+mod motions;
+mod mutations;
+mod raw_problem;
+mod settings;
+mod sweep;
