@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, limits_with, to_json, to_text};
+use slideway::limits::{LimitsOptions, Vary, limits_with, to_json, to_text};
 use slideway::model::Model;
 use slideway::report::Style;
 use std::ops::ControlFlow;
@@ -15,7 +15,11 @@ fuzz_target!(|input: (u8, bool, &str)| {
     let (number, both_directions, vary) = input;
     let models = gallery::MODELS;
     let model = Model::parse(models[usize::from(number) % models.len()].text).expect("the gallery is sound");
-    let options = LimitsOptions { both_directions, ..LimitsOptions::of(vary) };
+    let vary: Vary = match vary.parse() {
+        Ok(vary) => vary,
+        Err(faults) => return assert!(!faults.to_string().is_empty()),
+    };
+    let options = LimitsOptions::new(vary.clone()).both_directions(both_directions);
     let mut pieces = 0;
     let mut callback = |_: &_| {
         pieces += 1;

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 fn options() -> SolveOptions {
     let limits = Limits { solutions: 100, singular: 20, bases: 1000, ..Limits::default() };
     let search = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
-    SolveOptions { search, most: 10, margins: false }
+    SolveOptions::default().search(search).most(10).margins(false)
 }
 
 fuzz_target!(|text: &str| {

@@ -86,7 +86,7 @@ impl Texts {
                 SettingKind::Position => "--at ",
                 SettingKind::Rate => "--rate ",
                 // Its text is time=VALUE.
-                SettingKind::Time => "--",
+                _ => "--",
             };
             (format!("{option}{}", setting.text()), option.len())
         });

@@ -73,7 +73,7 @@ impl Input {
 
     /// The failure that these faults of another option of the command line are.
     pub(crate) fn refused_option(&self, option: Setting, faults: Faults) -> Failure {
-        let input = Self { settings: Settings::single(option), ..self.clone() };
+        let input = Self { settings: Settings::default().with(option), ..self.clone() };
         Failure::Input(Box::new(FaultyInput { input, faults }))
     }
 

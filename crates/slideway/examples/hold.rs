@@ -6,7 +6,7 @@ use slideway::{Faults, Model, Settings, gallery, hold};
 
 fn main() -> Result<(), Faults> {
     let bracket = Model::parse(gallery::find("bracket-on-pole").expect("in the gallery").text)?;
-    let options = HoldOptions { load: Some("W".to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load("W");
     for distance in ["200 mm", "300 mm", "310 mm", "400 mm"] {
         let at = bracket.with(&Settings::default().parameter("x", distance))?;
         let load = hold(&at, &options)?.load.expect("it is varied");

@@ -104,7 +104,7 @@ proptest! {
             }
             Ok(model) => {
                 let search = SearchOptions { nodes: 1000, ..SearchOptions::default() };
-                let options = SolveOptions { search, ..SolveOptions::default() };
+                let options = SolveOptions::default().search(search);
                 let report = solve::solve_with(&model, &options, &mut |_| ControlFlow::Continue(()));
                 if let Ok(report) = report {
                     let text = report::to_text(&report, report::Style::Plain);

@@ -13,11 +13,8 @@ pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = HoldOptions {
-        load: arguments.load.clone(),
-        vary: arguments.vary.clone(),
-        hold_drives: arguments.drives == Drives::Hold,
-    };
+    let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
+    (options.load, options.vary) = (arguments.load.clone(), arguments.vary.clone());
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = standstill::hold_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;

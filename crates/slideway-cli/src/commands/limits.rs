@@ -17,12 +17,10 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = LimitsOptions {
-        vary: arguments.vary.clone(),
-        max_reaction: arguments.max_reaction,
-        both_directions: arguments.both_directions,
-        effort: arguments.effort,
-    };
+    let options = LimitsOptions::new(arguments.vary.parse().map_err(|faults| input.refused(faults))?)
+        .max_reaction(arguments.max_reaction)
+        .both_directions(arguments.both_directions)
+        .effort(arguments.effort);
     let mut watch = Watch::new(arguments.time.time_limit);
     let mut look = |progress: &Progress| watch.look(progress);
     let report = if let Some((picture, file)) = plot {

@@ -130,18 +130,17 @@ impl Question<'_> {
         }
         let longest_step = self.positive_time("longest-step", arguments.longest_step.as_deref())?;
         let initial = arguments.mode.as_deref().map(|text| self.mode(text)).transpose()?;
-        let options = SimulateOptions {
-            tolerance: arguments.tolerance,
-            longest_step,
-            most_steps: arguments.max_steps,
-            most_events: arguments.max_events,
-            reaction_limit: arguments.max_reaction,
-            initial,
-            branches: arguments.branch.clone(),
-            prefers_sliding: arguments.prefer == Preference::Sliding,
-            ..SimulateOptions::new(end - start)
-        };
-        Ok(options.with_events_of(self.mechanism))
+        let mut options = SimulateOptions::new(end - start)
+            .tolerance(arguments.tolerance)
+            .longest_step(longest_step)
+            .most_steps(arguments.max_steps)
+            .most_events(arguments.max_events)
+            .reaction_limit(arguments.max_reaction)
+            .branches(arguments.branch.iter().copied())
+            .prefers_sliding(arguments.prefer == Preference::Sliding)
+            .with_events_of(self.mechanism);
+        options.initial = initial;
+        Ok(options)
     }
 
     /// The step of the table.
@@ -176,8 +175,7 @@ impl Question<'_> {
 
     /// A time of the command line (s).
     fn time(&self, name: &str, text: &str) -> Result<f64, Failure> {
-        let setting =
-            Setting { kind: SettingKind::Time, name: name.to_owned(), value: text.trim().to_owned() };
+        let setting = Setting::new(SettingKind::Time, name, text.trim());
         let value = self.model.setting_value(&setting);
         value.map_err(|faults| self.input.refused_option(setting, faults))
     }

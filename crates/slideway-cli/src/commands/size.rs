@@ -17,12 +17,9 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = arguments.against(names).and_then(|against| {
-        let options = SizeOptions {
-            vary: arguments.vary.clone(),
-            margin: arguments.margin,
-            against,
-            both_directions: arguments.both_directions,
-        };
+        let options = SizeOptions::new(arguments.vary.parse()?, arguments.margin)
+            .against(against)
+            .both_directions(arguments.both_directions);
         size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;

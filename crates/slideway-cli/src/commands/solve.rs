@@ -14,11 +14,8 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = SolveOptions {
-        search: arguments.search.options(),
-        most: arguments.search.max_solutions,
-        ..SolveOptions::default()
-    };
+    let search = &arguments.search;
+    let options = SolveOptions::default().search(search.options()).most(search.max_solutions);
     let mut watch = Watch::new(arguments.search.time.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
         .map_err(|faults| input.refused(faults))?;

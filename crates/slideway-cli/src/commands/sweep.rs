@@ -23,7 +23,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let destination = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = arguments.options();
+    let options = arguments.options().map_err(|faults| input.refused(faults))?;
     let path = destination.path().filter(|path| !is_special(path));
     let limit = arguments.time.time_limit;
     let mut watch = if path.is_some() { Watch::new(limit) } else { Watch::beside_rows(limit) };
@@ -35,7 +35,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
         Some(file) => Some(Plotting::new(&sweep, arguments, file, model.title.as_deref())?),
         None => None,
     };
-    let layout = Layout::of(&sweep, options.vary.len(), options.attainability);
+    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
     let encoder = Encoder::new(format, layout, Metadata::of(&input));
     let work = Work { sweep: &sweep, encoder, plot };
     match path {

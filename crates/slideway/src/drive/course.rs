@@ -4,7 +4,7 @@ use super::efforts::Efforts;
 use super::report::{BlowUp, CourseDirection, CourseRow};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, find, guarantee};
+use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, Vary, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::solve::{Stages, pattern};
@@ -30,7 +30,7 @@ pub(super) fn direction(
     direction: &'static str,
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
-    let options = LimitsOptions { effort: 0, ..LimitsOptions::of(&varied.name) };
+    let options = LimitsOptions::new(Vary::usual(&varied.name)).effort(0);
     let found = find(varied, range, &options, work.part(0, 2))?;
     let efforts = |value: f64| {
         let goes_on = !work.part(1, 2).is_over();

@@ -86,11 +86,12 @@ pub struct Curves {
 /// As [`limits`](super::limits); a model without drives has no efforts.
 ///
 /// ```
-/// use slideway::limits::{LimitsOptions, Quantity, limits_with_curves};
+/// use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
 /// use slideway::model::Model;
 ///
 /// let model = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
-/// let (report, curves) = limits_with_curves(&model, &LimitsOptions::of("mu"), Quantity::NormalForce)?;
+/// let options = LimitsOptions::new(Vary::usual("mu"));
+/// let (report, curves) = limits_with_curves(&model, &options, Quantity::NormalForce)?;
 /// assert_eq!(curves.forwards.len(), report.modes.len());
 /// assert_eq!(curves.series[0].name, "guide.front");
 /// # Ok::<(), slideway::fault::Faults>(())

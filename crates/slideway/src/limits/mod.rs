@@ -1,13 +1,13 @@
 //! Limits: for which values of a parameter each contact mode exists, and what ends it.
 //!
 //! ```
-//! use slideway::limits::{LimitsOptions, limits};
+//! use slideway::limits::{LimitsOptions, Vary, limits};
 //! use slideway::model::{Model, Settings};
 //!
 //! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
 //! let settings = Settings::default().parameter("F_20", "0").parameter("direction", "-1");
 //! let model = Model::parse(text)?.with(&settings)?;
-//! let report = limits(&model, &LimitsOptions::of("mu_1=0..0.8"))?;
+//! let report = limits(&model, &LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)))?;
 //! // Klepp (2002), section 7: moving to the left it jams from mu_1 = 0.4526 on.
 //! let last = report.modes.last().expect("two modes");
 //! assert_eq!(last.to_is, "locking");
@@ -16,7 +16,7 @@
 //! ```
 //!
 //! # Files
-//! `limits` varies a parameter: `varied.rs` is what is varied (with a `Follower` for the positions from value
+//! `limits` varies a parameter: `vary.rs` is what is asked for, `varied.rs` is what is varied (with a `Follower` for the positions from value
 //! to value), `solve::Parts` the mode problem at one value, with the couples of guided sliders.
 //! `model/dependence.rs` decides from the formulas whether that is affine in it; `closed_form.rs` has
 //! `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs` asks the certified
@@ -37,6 +37,7 @@ mod report;
 mod scan;
 mod text;
 mod varied;
+mod vary;
 
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
 pub(crate) use find::{Found, find};
@@ -51,9 +52,9 @@ pub(crate) use text::no_answer;
 pub use text::to_text;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
+pub use vary::Vary;
 
-use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
-use crate::mechanism::MAGNITUDES;
+use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -67,9 +68,11 @@ const USUAL_FRICTION: f64 = 1.0;
 
 /// What to find the limits of.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct LimitsOptions {
-    /// "NAME" or "NAME=FROM..TO": a parameter, a coordinate, or [`FRICTION`].
-    pub vary: String,
+    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to twice its value, but
+    /// at least to 1; whatever else is varied needs a range.
+    pub vary: Vary,
     /// Modes count only where no normal force exceeds this (N).
     pub max_reaction: Option<f64>,
     /// Whether motion in the opposite direction is looked at, too.
@@ -81,8 +84,29 @@ pub struct LimitsOptions {
 
 impl LimitsOptions {
     /// The limits of what is named, in the direction of the model, whatever the reactions, with the usual effort.
-    pub fn of(vary: &str) -> Self {
-        Self { vary: vary.to_owned(), max_reaction: None, both_directions: false, effort: EFFORT }
+    pub fn new(vary: Vary) -> Self {
+        Self { vary, max_reaction: None, both_directions: false, effort: EFFORT }
+    }
+
+    /// Modes count only where no normal force exceeds this (N).
+    #[must_use]
+    pub fn max_reaction(mut self, force: impl Into<Option<f64>>) -> Self {
+        self.max_reaction = force.into();
+        self
+    }
+
+    /// Whether motion in the opposite direction is looked at, too.
+    #[must_use]
+    pub fn both_directions(mut self, both: bool) -> Self {
+        self.both_directions = both;
+        self
+    }
+
+    /// With so many certified searches in each direction at most.
+    #[must_use]
+    pub fn effort(mut self, searches: u64) -> Self {
+        self.effort = searches;
+        self
     }
 }
 
@@ -128,20 +152,14 @@ struct Analysis {
 
 impl Analysis {
     fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
-        let (name, range) = match options.vary.split_once('=') {
-            Some((name, range)) => (name.trim(), Some(range)),
-            None => (options.vary.trim(), None),
-        };
-        let varied = Varied::new(model, name)?;
-        let shown_in = varied.shown_in(range.unwrap_or_default());
-        let range = match range {
-            Some(text) => given_range(&varied, text)?,
-            None => usual_range(model, &varied)?,
-        };
+        let vary = &options.vary;
+        let varied = Varied::new(model, &vary.name)?;
+        let shown_in = vary.shown_in(&varied);
+        let range = vary.ends(&varied, || usual_range(model, &varied))?;
         let directions = 1 + usize::from(options.both_directions);
         let found = find(&varied, range, options, work.part(0, directions))?;
         let reversed = if options.both_directions {
-            let varied = Varied::new(&model.reversed(), name)?;
+            let varied = Varied::new(&model.reversed(), &vary.name)?;
             let found = find(&varied, range, options, work.part(1, directions))?;
             Some((varied, found))
         } else {
@@ -154,33 +172,6 @@ impl Analysis {
         let reversed = self.reversed.as_ref().map(|(_, found)| found);
         report::report(naming, &self.varied, self.range, (&self.found, reversed))
     }
-}
-
-/// The range that is written as FROM..TO.
-///
-/// # Errors
-/// A text that is no range, or a range that is reversed, empty, too great to compute with, or one of coefficients of friction
-/// that begins below zero.
-pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
-    let what = varied.in_words();
-    let Some((from, to)) = text.split_once("..") else {
-        return Err(fault(FaultKind::MalformedRange { text: text.to_owned(), name: varied.name.clone() }));
-    };
-    let (from, to) = (varied.value_of(from)?, varied.value_of(to)?);
-    if from.abs().max(to.abs()) > *MAGNITUDES.end() {
-        return Err(fault(FaultKind::Overflow { quantity: format!("the range of {}", varied.name) }));
-    }
-    if from > to {
-        return Err(fault(FaultKind::ReversedRange { what, from, to }));
-    }
-    if from == to {
-        return Err(fault(FaultKind::EmptyRange { what, from }));
-    }
-    if from < 0.0 && varied.is_itself_friction() {
-        let problem = AxisProblem::NegativeCoefficients { from, to: to.min(0.0) };
-        return Err(fault(FaultKind::Axis { text: format!("{}={}", varied.name, text.trim()), problem }));
-    }
-    Ok([from, to])
 }
 
 /// The range of a coefficient of friction, or of their factor; whatever else is varied needs one.

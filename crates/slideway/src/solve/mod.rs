@@ -62,6 +62,7 @@ use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SolveOptions {
     /// Limits of the search.
     pub search: SearchOptions,
@@ -75,6 +76,29 @@ impl Default for SolveOptions {
     /// The defaults of the search, 1000 of each kind, margins.
     fn default() -> Self {
         Self { search: SearchOptions::default(), most: 1000, margins: true }
+    }
+}
+
+impl SolveOptions {
+    /// With these limits of the search.
+    #[must_use]
+    pub fn search(mut self, search: SearchOptions) -> Self {
+        self.search = search;
+        self
+    }
+
+    /// With so many solutions, gap states and continua in the lists, each.
+    #[must_use]
+    pub fn most(mut self, most: usize) -> Self {
+        self.most = most;
+        self
+    }
+
+    /// Whether margins of friction are computed.
+    #[must_use]
+    pub fn margins(mut self, margins: bool) -> Self {
+        self.margins = margins;
+        self
     }
 }
 

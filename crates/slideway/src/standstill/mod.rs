@@ -19,7 +19,7 @@
 //! use slideway::standstill::{HoldOptions, hold};
 //!
 //! let bracket = Model::parse(slideway::gallery::find("bracket-on-pole").expect("in the gallery").text)?;
-//! let options = HoldOptions { load: Some("W".to_owned()), ..HoldOptions::default() };
+//! let options = HoldOptions::default().load("W");
 //! let load = |settings: Settings| -> Result<_, slideway::fault::Faults> {
 //!     Ok(hold(&bracket.with(&settings)?, &options)?.load.expect("it is varied"))
 //! };
@@ -72,6 +72,7 @@ const NO_INERTIA: f64 = 1e-12;
 
 /// What is asked of a mechanism at rest.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct HoldOptions {
     /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m.
     pub load: Option<String>,
@@ -80,6 +81,29 @@ pub struct HoldOptions {
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.
     pub hold_drives: bool,
+}
+
+impl HoldOptions {
+    /// Multiplies a load, or the effort of a drive, by a factor.
+    #[must_use]
+    pub fn load(mut self, name: &str) -> Self {
+        self.load = Some(name.to_owned());
+        self
+    }
+
+    /// Varies a parameter of static friction for the threshold of self-locking.
+    #[must_use]
+    pub fn vary(mut self, parameter: &str) -> Self {
+        self.vary = Some(parameter.to_owned());
+        self
+    }
+
+    /// Whether drives hold their coordinates.
+    #[must_use]
+    pub fn hold_drives(mut self, hold: bool) -> Self {
+        self.hold_drives = hold;
+        self
+    }
 }
 
 /// Whether a mechanism stays at rest in its position; the rates of the model are taken as zero.
@@ -154,7 +178,7 @@ pub(crate) fn self_locking_factor(
     load: &str,
     work: Work<'_>,
 ) -> Result<(Option<f64>, usize), Faults> {
-    let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load(load);
     let setup = Setup::new(model, &options)?;
     check_states(&setup)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;

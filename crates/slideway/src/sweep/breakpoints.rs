@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::rows::Breakpoint;
-use crate::limits::{LimitsOptions, ModeLimits, limits_with};
+use crate::limits::{LimitsOptions, ModeLimits, Vary, limits_with};
 use crate::model::Model;
 use crate::progress::Callback;
 
@@ -28,8 +28,7 @@ pub(super) fn between(
 ) -> Option<(Vec<Inserted>, Option<String>)> {
     // Listed values are those that are wanted.
     let Some([from, to]) = axis.values.range() else { return Some((Vec::new(), None)) };
-    let vary = format!("{}={from:e}..{to:e}", axis.quantity.name);
-    let options = LimitsOptions { effort: 0, ..LimitsOptions::of(&vary) };
+    let options = LimitsOptions::new(Vary::between(&axis.quantity.name, from, to)).effort(0);
     let report = match limits_with(model, &options, callback) {
         Ok(report) => report?,
         Err(faults) => return Some((Vec::new(), Some(faults.to_string()))),

@@ -160,7 +160,8 @@ mod tests {
     fn sweep(name: &str, parameter: (&str, &str), axes: &[&str]) -> (Sweep, bool) {
         let model = Model::parse(gallery::find(name).unwrap().text).unwrap();
         let model = model.with(&Settings::default().parameter(parameter.0, parameter.1)).unwrap();
-        let sweep = Sweep::new(&model, &SweepOptions::of(axes)).unwrap();
+        let sweep =
+            Sweep::new(&model, &SweepOptions::grid(axes.iter().map(|axis| axis.parse().unwrap()))).unwrap();
         let together = sweep.plan.together.is_some();
         (sweep, together)
     }

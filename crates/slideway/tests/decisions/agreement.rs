@@ -138,7 +138,7 @@ fn slips(release: &slideway::standstill::Release) -> String {
 #[test]
 fn mechanisms_at_rest_do_what_hold_says() {
     let mut random = Random(1781);
-    let options = HoldOptions { hold_drives: true, ..HoldOptions::default() };
+    let options = HoldOptions::default().hold_drives(true);
     let (mut compared, mut held, mut released, mut both, mut partly) = (0, 0, 0, 0, 0);
     for entry in MODELS {
         for _ in 0..25 {

@@ -2,7 +2,7 @@
 
 use crate::answers::{assert_close, model, parameters};
 use slideway::drive::{DriveOptions, DriveReport, EfficiencyKind, drive};
-use slideway::limits::{LimitsOptions, limits};
+use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::Verdict;
 use slideway::size::{Against, SampleKind, SizeOptions, SizeReport, size};
@@ -20,7 +20,7 @@ fn example(name: &str) -> Model {
 }
 
 fn sized(model: &Model, vary: &str, margin: f64, against: Against) -> SizeReport {
-    let options = SizeOptions { against, ..SizeOptions::against_locking(vary, margin) };
+    let options = SizeOptions::new(vary.parse().expect("a range"), margin).against(against);
     size(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -44,12 +44,12 @@ fn only_end(report: &SizeReport) -> (f64, bool) {
 }
 
 fn held(model: &Model, load: &str) -> LoadReport {
-    let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load(load);
     hold(model, &options).expect("sound").load.expect("varied")
 }
 
 fn driven(model: &Model, vary: Option<&str>) -> DriveReport {
-    let options = DriveOptions { vary: vary.map(str::to_owned), ..DriveOptions::default() };
+    let options = DriveOptions::default().vary(vary.map(|vary| vary.parse().expect("a range")));
     drive(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -189,7 +189,7 @@ fn wedge_push_limit_and_angle() {
     assert_close(back, load * (alpha - 2.0 * rho).tan(), 0.0, 1e-12);
     assert_eq!((back_is, none), (EfficiencyKind::HeldByFriction, None), "2 rho > alpha");
     let lock = (45_f64.to_radians() - alpha / 2.0).tan();
-    let factor = limits(&model("wedge"), &LimitsOptions { effort: 0, ..LimitsOptions::of("friction") })
+    let factor = limits(&model("wedge"), &LimitsOptions::new(Vary::usual("friction")).effort(0))
         .expect("sound")
         .counts[0]
         .to;
@@ -303,7 +303,7 @@ fn infinite_margins_and_positions_that_do_not_exist_are_told() {
     assert!(straight.conclusion.iter().any(|sentence| sentence.contains("no friction, however great")));
 
     // The rod spans the offset of the piston only while l >= r sin(phi).
-    let options = SizeOptions::against_locking("l=20 mm..200 mm", 2.0);
+    let options = SizeOptions::new(Vary::between("l", "20 mm", "200 mm"), 2.0);
     let rod = size(&example("engine"), &options).expect("a report");
     let [gap] = &rod.without_position[..] else { panic!("{:#?}", rod.without_position) };
     assert_eq!(gap.from, 0.02);
@@ -317,7 +317,7 @@ fn infinite_margins_and_positions_that_do_not_exist_are_told() {
 fn the_smaller_margin_of_both_directions_counts() {
     // Pulled out, the drawer never jams: the other direction changes nothing.
     let both = |list: &[(&str, &str)]| {
-        let options = SizeOptions { both_directions: true, ..SizeOptions::against_locking("L", 2.0) };
+        let options = SizeOptions::new(Vary::usual("L"), 2.0).both_directions(true);
         size(&with("drawer", list), &options).expect("sound")
     };
     assert_close(only_end(&both(&[])).0, 0.36, 0.0, 1e-14);

@@ -336,8 +336,7 @@ fn check_values(solution: &Solution, values: &[RBig], context: &str) {
 
 fn report(text: &str) -> Report {
     let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
-    let options =
-        SolveOptions { search: SearchOptions::default(), margins: false, ..SolveOptions::default() };
+    let options = SolveOptions::default().search(SearchOptions::default()).margins(false);
     solve_with(&model, &options, &mut |_| ControlFlow::Continue(()))
         .unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }

@@ -7,7 +7,7 @@ use crate::answers::{
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::gallery::{self, MODELS};
-use slideway::model::{Model, SettingKind, Settings};
+use slideway::model::{Model, Setting, SettingKind, Settings};
 use slideway::report::Status;
 use slideway::solve::solve;
 use std::collections::BTreeSet;
@@ -45,7 +45,8 @@ fn every_command_of_the_comments_runs() {
                     "--rate" => SettingKind::Rate,
                     other => panic!("{other} in {line}"),
                 };
-                settings.push(kind, &pair[1]).unwrap();
+                let (name, value) = pair[1].split_once('=').unwrap();
+                settings = settings.with(Setting::new(kind, name, value));
             }
             report_with(&model(entry.name), &settings);
             commands += 1;

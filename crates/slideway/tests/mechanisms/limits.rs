@@ -7,7 +7,7 @@ use serde::Deserialize;
 use slideway::drive::{DriveOptions, drive};
 use slideway::fault::{FaultKind, Faults};
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, LimitsReport, ModeLimits, limits};
+use slideway::limits::{LimitsOptions, LimitsReport, ModeLimits, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::solve::solve;
 
@@ -37,7 +37,7 @@ struct Interval {
 
 fn of(name: &str, list: &[(&str, &str)], vary: &str) -> LimitsReport {
     let model = model(name).with(&parameters(list)).expect("sound settings");
-    limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of(vary) })
+    limits(&model, &LimitsOptions::new(vary.parse().expect("a range")).effort(0))
         .unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -94,7 +94,7 @@ fn one_two_and_three_solutions_with_the_erratum_s_value() {
 #[test]
 fn the_paper_s_conclusion_for_both_directions() {
     let model = model("klepp-2002").with(&parameters(&[("F_20", "0")])).expect("sound");
-    let options = LimitsOptions { both_directions: true, effort: 0, ..LimitsOptions::of("mu_1=0..0.8") };
+    let options = LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)).both_directions(true).effort(0);
     let report = limits(&model, &options).expect("sound");
     let [both, one] = &report.conclusion[..] else { panic!("{:?}", report.conclusion) };
     assert!(both.contains("0 to 0.45265396") && both.contains("oscillate"), "{both}");
@@ -104,7 +104,7 @@ fn the_paper_s_conclusion_for_both_directions() {
 /// Klepp (2002), section 7: mu_1b and mu_1a, where a reaction reaches a limit on this side and beyond mu_1*.
 #[test]
 fn greatest_reactions_bound_modes_on_both_sides_of_locking() {
-    let options = LimitsOptions { max_reaction: Some(200.0), effort: 0, ..LimitsOptions::of("mu_1=0..0.8") };
+    let options = LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)).max_reaction(200.0).effort(0);
     let settings = |direction| parameters(&[("F_20", "0"), ("direction", direction)]);
     let of = |direction| limits(&model("klepp-2002").with(&settings(direction)).unwrap(), &options).unwrap();
     let (forwards, backwards) = (of("1"), of("-1"));
@@ -158,8 +158,7 @@ fn what_is_not_linear_is_bracketed_to_the_same_ends() {
     let text = gallery::find("klepp-2002").expect("in the gallery").text;
     let squared = text.replace("\nmu_1 = 0.5 ", "\nx = 0.7\nmu_1 = \"x^2\" ");
     let model = Model::parse(&squared).expect("sound");
-    let report =
-        limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0..0.9") }).expect("sound");
+    let report = limits(&model, &LimitsOptions::new(Vary::between("x", 0.0, 0.9)).effort(0)).expect("sound");
     assert_eq!(report.method, "bracketing");
     let straight = of("klepp-2002", &[], "mu_1=0..0.81");
     assert_eq!(report.modes.len(), straight.modes.len());
@@ -181,9 +180,9 @@ fn positions_that_cannot_be_assembled_are_no_locking() {
 }
 
 fn fault(vary: &str) -> FaultKind {
-    let faults: Faults =
-        limits(&model("klepp-2002"), &LimitsOptions { effort: 0, ..LimitsOptions::of(vary) })
-            .expect_err("a fault");
+    let found =
+        vary.parse().and_then(|vary| limits(&model("klepp-2002"), &LimitsOptions::new(vary).effort(0)));
+    let faults: Faults = found.expect_err("a fault");
     faults.sorted()[0].kind.clone()
 }
 
@@ -213,7 +212,7 @@ fn a_parameter_on_which_nothing_depends_has_the_same_limits_everywhere() {
         .replace("[parameters]", "[parameters]\nidle = 1");
     let model = Model::parse(&text).expect("sound");
     let report =
-        limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("idle=0..1") }).expect("sound");
+        limits(&model, &LimitsOptions::new(Vary::between("idle", 0.0, 1.0)).effort(0)).expect("sound");
     assert_eq!(report.method, "independent");
     assert_eq!(report.counts.len(), 1);
     assert!(report.conclusion[0].contains("the same in the whole range: one solution"));
@@ -226,7 +225,7 @@ proptest! {
     #[test]
     fn counts_agree_with_solutions_in_between(drawing in mechanisms()) {
         let model = Model::parse(&drawing.text()).expect("sound");
-        let Ok(report) = limits(&model, &LimitsOptions { effort: 0, ..LimitsOptions::of("friction=0..3") }) else {
+        let Ok(report) = limits(&model, &LimitsOptions::new(Vary::between("friction", 0.0, 3.0)).effort(0)) else {
             return Err(TestCaseError::reject("cannot be solved, or no friction"));
         };
         prop_assume!(solve(&model).is_ok_and(|solved| solved.rejected.is_empty()));
@@ -255,7 +254,7 @@ fn modes_on_both_sides_of_a_load_that_vanishes() {
         .collect();
     assert_eq!(told, [("+-", 0.0, 50.0), ("-+", -50.0, 0.0)]);
     assert_eq!(report.counts.len(), 1);
-    let options = DriveOptions { vary: Some("Q=-50 N..50 N".to_owned()), rows: 4 };
+    let options = DriveOptions::default().vary(Vary::between("Q", "-50 N", "50 N")).rows(4);
     let courses = drive(&model("drawer"), &options).expect("sound").course.expect("it is varied");
     for row in &courses.directions[0].rows {
         let settings = parameters(&[("Q", &format!("{:e}", row.at))]);

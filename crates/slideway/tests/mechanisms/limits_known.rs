@@ -4,7 +4,7 @@
 use crate::answers::{model, parameters};
 use slideway::fault::{AxisProblem, FaultKind};
 use slideway::gallery;
-use slideway::limits::{CountLimits, Known, LimitsOptions, LimitsReport, limits};
+use slideway::limits::{CountLimits, Known, LimitsOptions, LimitsReport, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
@@ -18,7 +18,7 @@ fn file(name: &str) -> Model {
 }
 
 fn with_effort(model: &Model, vary: &str, effort: u64) -> LimitsReport {
-    let options = LimitsOptions { effort, ..LimitsOptions::of(vary) };
+    let options = LimitsOptions::new(vary.parse().expect("a range")).effort(effort);
     limits(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -188,7 +188,7 @@ fn wide_ranges_have_the_ends_of_narrow_ones() {
 #[test]
 fn rates_are_varied_in_both_directions() {
     let sleeve = model("sleeve-on-arm");
-    let options = LimitsOptions { both_directions: true, effort: 0, ..LimitsOptions::of("omega=1..12") };
+    let options = LimitsOptions::new(Vary::between("omega", 1.0, 12.0)).both_directions(true).effort(0);
     let reversed = limits(&sleeve, &options).expect("sound").reversed.expect("asked for");
     for (value, expected) in [("2", 2.0), ("9", 9.0)] {
         let there = sleeve.with(&parameters(&[("omega", value)])).expect("sound").reversed();
@@ -218,8 +218,10 @@ fn reasons_are_the_true_ones() {
 #[test]
 fn ranges_that_make_no_sense_are_refused() {
     let drawer = model("drawer");
-    let fault =
-        |vary: &str| limits(&drawer, &LimitsOptions::of(vary)).expect_err(vary).sorted()[0].kind.clone();
+    let fault = |vary: &str| {
+        let found = vary.parse().and_then(|vary| limits(&drawer, &LimitsOptions::new(vary)));
+        found.expect_err(vary).sorted()[0].kind.clone()
+    };
     for vary in ["friction=nan..1", "friction=0..inf", "friction=0..1e400"] {
         assert!(matches!(fault(vary), FaultKind::Axis { problem: AxisProblem::Value { .. }, .. }), "{vary}");
     }
@@ -246,8 +248,7 @@ fn a_threshold_follows_the_formula_of_static_friction() {
     let of = |formula: &str| {
         let text = text.replace("\nmu = 0.2 ", "\np = 0.3\nmu = 0.05 ");
         let text = text.replace("mu_static = \"mu_static\"", &format!("mu_static = \"{formula}\""));
-        let options =
-            HoldOptions { load: Some("W".into()), vary: Some("p".into()), ..HoldOptions::default() };
+        let options = HoldOptions::default().load("W").vary("p");
         hold(&Model::parse(&text).expect("sound"), &options)
     };
     for (formula, expected) in [("p", 0.25), ("2*p + 0.05", 0.1)] {

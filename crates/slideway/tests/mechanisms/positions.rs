@@ -8,7 +8,7 @@ use rstest::rstest;
 use slideway::configuration::{Configuration, Follower};
 use slideway::fault::{FaultKind, Faults};
 use slideway::ids::{BodyId, Frame};
-use slideway::limits::{LimitsOptions, limits};
+use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::{Model, Settings};
 use slideway::report::Status;
@@ -317,9 +317,9 @@ fn every_report_says_that_a_state_was_followed() {
         let options = SimulateOptions::new(0.01);
         let simulated = motion::report(&simulate(model, &options).unwrap(), &options);
         let found =
-            limits::limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of("mu=0..1") }).unwrap();
+            limits::limits(model, &LimitsOptions::new(Vary::between("mu", 0.0, 1.0)).effort(0)).unwrap();
         let along =
-            limits::limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0..0.1") }).unwrap();
+            limits::limits(model, &LimitsOptions::new(Vary::between("x", 0.0, 0.1)).effort(0)).unwrap();
         assert!(
             along.guarantee.contains("Each position was followed from the drawing"),
             "{}",
@@ -401,7 +401,7 @@ proptest! {
 #[test]
 fn modes_end_where_sliding_reverses() {
     let model = Model::parse(BRANCH).unwrap();
-    let options = LimitsOptions { effort: 0, ..LimitsOptions::of("q0=-0.103..-0.1") };
+    let options = LimitsOptions::new(Vary::between("q0", -0.103, -0.1)).effort(0);
     let modes = limits(&model, &options).unwrap().modes;
     let [ends, begins]: [_; 2] = modes.try_into().unwrap();
     assert_eq!(

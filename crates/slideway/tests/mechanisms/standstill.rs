@@ -7,7 +7,7 @@ use slideway::model::{Model, Settings};
 use slideway::standstill::{ContactRange, HoldOptions, HoldReport, LoadReport, Range, Verdict, hold};
 
 fn options(load: &str) -> HoldOptions {
-    HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() }
+    HoldOptions::default().load(load)
 }
 
 fn held(name: &str, settings: &[(&str, &str)], options: &HoldOptions) -> HoldReport {
@@ -85,7 +85,7 @@ fn a_wide_bracket_wedges_at_any_distance() {
 
 #[test]
 fn a_parameter_can_be_varied_instead_of_all_coefficients() {
-    let vary = HoldOptions { vary: Some("mu_static".to_owned()), ..options("W") };
+    let vary = options("W").vary("mu_static");
     let report = held("bracket-on-pole", &[("x", "0.5 m")], &vary);
     let found = &load(&report).threshold;
     assert_eq!(found.varied, "mu_static");
@@ -239,7 +239,7 @@ fn a_drawer_jams_from_its_length_over_twice_the_offset_on(#[values("0 m", "0.1 m
     // Q / (1 + 2 mu a / L) to Q / (1 - 2 mu a / L)
     assert_range(load(&report).held[0], 20.0 / 1.45, 20.0 / 0.55, 1e-12);
     // Held at the handle the same efforts are a range.
-    let holding = HoldOptions { hold_drives: true, ..HoldOptions::default() };
+    let holding = HoldOptions::default().hold_drives(true);
     let report = held("drawer", &[("h", h)], &holding);
     let effort = report.at_rest.expect("it holds").reactions.drives[0].effort;
     assert_range(effort, 20.0 / 1.45, 20.0 / 0.55, 1e-12);
@@ -509,7 +509,7 @@ fn a_guided_slider_that_would_tip_can_do_neither() {
 fn a_load_comes_before_a_drive_of_the_same_name() {
     let text = slideway::gallery::find("drawer").expect("in the gallery").text;
     let text = text.replace("[drives.push]", "[drives.resistance]");
-    let holding = HoldOptions { hold_drives: true, ..options("resistance") };
+    let holding = options("resistance").hold_drives(true);
     let report = held_text(&text, &holding);
     assert_eq!((load(&report).unit, report.holds), ("", true));
     assert_eq!(report.holding_drives, ["resistance"]);
@@ -526,8 +526,8 @@ fn sticking_and_slipping_joints_coexist() {
 #[rstest]
 #[case(options("Q"), "there is no load named `Q`")]
 #[case(options("spring"), "there is nothing of the load spring at rest, so no factor changes it")]
-#[case(HoldOptions { vary: Some("mu_9".to_owned()), ..options("P") }, "there is no parameter named `mu_9`")]
-#[case(HoldOptions { vary: Some("alpha".to_owned()), ..options("P") }, "`alpha` is no parameter of static friction alone")]
+#[case(options("P").vary("mu_9"), "there is no parameter named `mu_9`")]
+#[case(options("P").vary("alpha"), "`alpha` is no parameter of static friction alone")]
 fn faulty_questions_are_refused(#[case] options: HoldOptions, #[case] message: &str) {
     let model = model("klepp-2002").with(&parameters(&[("P", "1 N")])).expect("sound settings");
     let faults = hold(&model, &options).expect_err("refused");
