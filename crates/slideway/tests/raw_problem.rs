@@ -7,7 +7,7 @@ use slideway::modes::{Limits, SearchOptions};
 use slideway::raw_problem::{
     Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_json, to_npz, to_text,
 };
-use slideway::report::{Status, Style};
+use slideway::report::{Proof, Status, Style};
 use std::ops::ControlFlow;
 
 fn solved(problem: &RawProblem) -> RawReport {
@@ -83,7 +83,7 @@ proptest! {
         let report = solved(&problem);
         let identity = DMatrix::identity(q.len(), q.len());
         prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&identity, &m, &q));
-        prop_assert_eq!(report.complete, "proven");
+        prop_assert_eq!(report.complete, Proof::Proven);
         for solution in &report.solutions {
             let Unknowns::Complementary { z, w } = &solution.unknowns else { panic!("z and w") };
             let largest = z.iter().chain(w).fold(1.0_f64, |largest, value| largest.max(*value));
@@ -103,7 +103,7 @@ proptest! {
         let report = solved(&RawProblem::from_json(json.as_bytes()).unwrap());
         // x = z - w, |x| = z + w: (B - A) w - (-A - B) z = b
         prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&(&b - &a), &(-&a - &b), &q));
-        prop_assert_eq!(report.complete, "proven");
+        prop_assert_eq!(report.complete, Proof::Proven);
         for solution in &report.solutions {
             let Unknowns::AbsoluteValue { x } = &solution.unknowns else { panic!("x") };
             let x = DVector::from_column_slice(x);
@@ -231,7 +231,7 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
     );
     assert_eq!(
         (report.complete, report.count.as_str(), report.gap_state_count.as_str()),
-        ("proven", "2", "1")
+        (Proof::Proven, "2", "1")
     );
     assert_eq!((report.faces.solutions.as_str(), report.faces.gap_states.as_str()), ("0", "2"));
     let [state] = report.gap_states.as_slice() else { panic!("one state") };
@@ -270,7 +270,7 @@ fn values_of_nearly_singular_patterns_are_as_accurate_as_others() {
 #[test]
 fn values_beyond_floating_point_numbers_are_told_as_text() {
     let report = solution_of(r#"{"type": "lcp", "M": [[1e-300, 0], [0, 1]], "q": [-1e10, -1]}"#);
-    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
     let [solution] = report.solutions.as_slice() else { panic!("one solution") };
     assert_eq!(solution.signs, [1, 1]);
     // The numbers are exact, and so is what is left over.
@@ -303,7 +303,7 @@ fn values_too_small_for_floating_point_numbers_are_not_zero() {
 fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
     let report =
         solution_of(r#"{"type": "lcp", "M": [[1e-300, -1e-300], [-1e-300, 1e-300]], "q": [-1e10, 1e10]}"#);
-    assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
+    assert_eq!((report.status, report.complete), (Status::Continuum, Proof::Proven));
     let Unknowns::Complementary { z, .. } = &report.continua[0].parts[0].vertices[0] else {
         panic!("z and w")
     };
@@ -316,7 +316,7 @@ fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
 fn sums_of_an_absolute_value_equation_are_not_rounded() {
     let json = r#"{"type": "ave", "A": [[1e16, -1e16], [1, -1]], "B": [[1, 0], [0, 0]], "b": [1, 0]}"#;
     let report = solution_of(json);
-    assert_eq!((report.count.as_str(), report.complete), ("2", "proven"));
+    assert_eq!((report.count.as_str(), report.complete), ("2", Proof::Proven));
     let told: Vec<&Unknowns> = report.solutions.iter().map(|solution| &solution.unknowns).collect();
     assert_eq!(told, [1.0, -1.0].map(|x| Unknowns::AbsoluteValue { x: vec![x, x] }).each_ref());
 }
@@ -327,7 +327,7 @@ fn jumps_differ_if_they_differ_at_all() {
     let json = r#"{"type": "modes", "columns_positive": [[1]], "columns_negative": [[-1]],
         "right_hand_side": [-1.00000000000005], "jumps_positive": [[1]], "jumps_negative": [[1.0000000000001]]}"#;
     let report = solution_of(json);
-    assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+    assert_eq!((report.status, report.complete), (Status::PreloadGap, Proof::Proven));
     assert!((report.gap_states[0].gaps[0].lambda - 0.5).abs() < 2e-3);
 }
 
@@ -337,7 +337,7 @@ fn a_search_that_ends_early_never_says_none() {
     let problem = RawProblem::LinearComplementarity { m, q: DVector::from_element(12, -1.0) };
     let options = SearchOptions { nodes: 1, ..SearchOptions::default() };
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!((report.status, report.complete, report.partial), (Status::Unknown, "not proven", true));
+    assert_eq!((report.status, report.complete, report.partial), (Status::Unknown, Proof::NotProven, true));
     assert_eq!(report.open.len(), 1);
     let report = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Break(())).unwrap();
     assert_eq!(report.status, Status::Unknown);
@@ -348,7 +348,7 @@ fn without_proofs_nothing_is_proven() {
     let problem = RawProblem::from_json(br#"{"M": [[2]], "q": [-4]}"#).unwrap();
     let options = SearchOptions { certify: false, ..SearchOptions::default() };
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!((report.count.as_str(), report.complete), ("1", "not proven"));
+    assert_eq!((report.count.as_str(), report.complete), ("1", Proof::NotProven));
 }
 
 /// `w = 0` for every `z >= 0`: one orthant, whose 7 faces are what the other patterns admit.
@@ -356,7 +356,7 @@ fn without_proofs_nothing_is_proven() {
 fn an_orthant_is_one_continuum() {
     let problem = lcp(DMatrix::zeros(3, 3), &[0.0; 3]);
     let report = solved(&problem);
-    assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
+    assert_eq!((report.status, report.complete), (Status::Continuum, Proof::Proven));
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
     assert_eq!((report.faces.solutions.as_str(), report.faces.continua.as_str()), ("1", "6"));
     assert!(report.solutions.is_empty());
@@ -431,7 +431,7 @@ fn a_limit_of_solutions_is_told() {
     // z = 0 and w = 1, or z = 1 and w = 0, for each of three unknowns.
     let problem = lcp(-DMatrix::identity(3, 3), &[1.0; 3]);
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!((report.count.as_str(), report.complete, report.partial), ("2", "not proven", true));
+    assert_eq!((report.count.as_str(), report.complete, report.partial), ("2", Proof::NotProven, true));
     assert!(report.open[0].starts_with("the limit of 2 solutions of a group"), "{:?}", report.open);
 }
 
@@ -445,7 +445,7 @@ fn a_pile_without_friction_has_a_solution_within_rounding() {
         [2.0, 3.0, 3.0, 0.0].iter().enumerate().fold(0.0, |sum, (at, z)| sum - m[(row, at)] * z)
     });
     let report = solved(&lcp(m.clone(), q.as_slice()));
-    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     let within = report.within_rounding.as_ref().unwrap();
     assert_eq!(within.answer, "solution");
     let Some(Unknowns::Complementary { z, w }) = &within.unknowns else { panic!("z and w") };

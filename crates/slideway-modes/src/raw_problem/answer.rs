@@ -8,13 +8,13 @@ use super::report::{Faces, RawGroup, RawReport, RawShares, RawSolution, SCHEMA, 
 use super::residual::Equations;
 use super::values::Values;
 use super::{RawKind, RawProblem};
-use crate::Status;
 use crate::certificate::{Decision, Interval, decide};
 use crate::progress::Callback;
 use crate::{
     CombinedState, Completeness, ContactState, GroupReport, GroupState, ModeProblem, ModeProblemError,
     SearchOptions, SearchResult, SolutionProduct, StopReason, search,
 };
+use crate::{Proof, Status};
 
 /// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
 const ENCLOSURE_WORK: f64 = 3e7;
@@ -62,7 +62,7 @@ pub fn solve_with(
         kind: raw.kind(),
         size: problem.contacts(),
         status: status(&result, &counts),
-        complete: if open.is_empty() { "proven" } else { "not proven" },
+        complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
         partial: is_partial(result.completeness),
         open,
         count: counts.points.to_string(),

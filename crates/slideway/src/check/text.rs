@@ -116,7 +116,7 @@ impl Text<'_> {
         let joints = report.joints.iter().map(|joint| {
             vec![
                 joint.name.clone(),
-                joint.kind.to_owned(),
+                joint.kind.to_string(),
                 joint.joins.join(", "),
                 joint.constraints.to_string(),
                 optional(joint.overlap),
@@ -131,7 +131,7 @@ impl Text<'_> {
         let coordinates = report.coordinates.iter().map(|coordinate| {
             vec![
                 coordinate.name.clone(),
-                coordinate.kind.to_owned(),
+                coordinate.kind.to_string(),
                 driven_by(report, &coordinate.name),
                 format!("{} {}", number(coordinate.value), coordinate.unit),
                 format!("{} {}/s", number(coordinate.rate), coordinate.unit),

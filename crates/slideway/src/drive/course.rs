@@ -1,7 +1,7 @@
 //! The efforts over a parameter, a coordinate or friction.
 
 use super::efforts::Efforts;
-use super::report::{BlowUp, CourseDirection, CourseRow};
+use super::report::{Approach, BlowUp, CourseDirection, CourseRow, Sense};
 use super::state::growing_ends;
 use crate::fault::Faults;
 use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, Vary, find, guarantee};
@@ -27,7 +27,7 @@ const GROWTH: f64 = 30.0;
 pub(super) fn direction(
     varied: &Varied,
     (range, steps): ([f64; 2], usize),
-    direction: &'static str,
+    direction: Sense,
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
     let options = LimitsOptions::new(Vary::usual(&varied.name)).effort(0);
@@ -75,7 +75,7 @@ fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Foun
                 };
                 places.iter().zip(values).map(one).collect()
             };
-            for (side, efforts) in [("below", &pair[0].1), ("above", &pair[1].1)] {
+            for (side, efforts) in [(Approach::Below, &pair[0].1), (Approach::Above, &pair[1].1)] {
                 let efforts = sign(efforts);
                 poles.push(BlowUp {
                     at: place,

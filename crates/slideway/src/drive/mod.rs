@@ -38,8 +38,8 @@ mod state;
 mod text;
 
 pub use report::{
-    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution,
-    Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
+    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport,
+    DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense, to_json,
 };
 pub use text::to_text;
 
@@ -120,8 +120,8 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         name: drive.name.to_string(),
         unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
     });
-    let (state, forwards) = state::direction(model, "model", work.part(0, 4))?;
-    let (_, opposite) = state::direction(&reversed, "reversed", work.part(1, 4))?;
+    let (state, forwards) = state::direction(model, Sense::Model, work.part(0, 4))?;
+    let (_, opposite) = state::direction(&reversed, Sense::Reversed, work.part(1, 4))?;
     let mut report = DriveReport {
         schema: SCHEMA,
         title: model.title.clone(),
@@ -145,8 +145,8 @@ fn course(
     let range = vary.ends(&varied, || usual_range(model, &varied))?;
     let opposite = Varied::new(reversed, &vary.name)?;
     let steps = rows.clamp(2, GREATEST_ROWS) - 1;
-    let (guarantee, forwards) = course::direction(&varied, (range, steps), "model", work.part(0, 2))?;
-    let (_, backwards) = course::direction(&opposite, (range, steps), "reversed", work.part(1, 2))?;
+    let (guarantee, forwards) = course::direction(&varied, (range, steps), Sense::Model, work.part(0, 2))?;
+    let (_, backwards) = course::direction(&opposite, (range, steps), Sense::Reversed, work.part(1, 2))?;
     Ok(Course {
         vary: VariedQuantity::new(&varied, range, varied.present()?),
         directions: vec![forwards, backwards],

@@ -1,7 +1,8 @@
 //! Driven motion as text for people.
 
 use super::report::{
-    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
+    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency,
+    EfficiencyKind, Sense,
 };
 use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
@@ -41,8 +42,8 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
     sentences
 }
 
-fn moving(direction: &str) -> &'static str {
-    if direction == "model" { "Moving as in the model" } else { "Moving the other way" }
+fn moving(direction: Sense) -> &'static str {
+    if direction == Sense::Model { "Moving as in the model" } else { "Moving the other way" }
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
@@ -96,7 +97,7 @@ fn without_bound(report: &DriveReport, blow_up: &BlowUp) -> String {
         [] => String::new(),
         contacts => format!(", as the normal forces of {} do", contacts.join(", ")),
     };
-    let from = if blow_up.side == "above" { " from above" } else { "" };
+    let from = if blow_up.side == Approach::Above { " from above" } else { "" };
     format!(
         "the {what} of {} {verb} without bound{from} in the mode {}{also}",
         growing.join(", "),

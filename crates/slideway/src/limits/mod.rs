@@ -3,6 +3,7 @@
 //! ```
 //! use slideway::limits::{LimitsOptions, Vary, limits};
 //! use slideway::model::{Model, Settings};
+//! use slideway::report::ModeEndCause;
 //!
 //! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
 //! let settings = Settings::default().parameter("F_20", "0").parameter("direction", "-1");
@@ -10,7 +11,7 @@
 //! let report = limits(&model, &LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)))?;
 //! // Klepp (2002), section 7: moving to the left it jams from mu_1 = 0.4526 on.
 //! let last = report.modes.last().expect("two modes");
-//! assert_eq!(last.to_is, "locking");
+//! assert_eq!(last.to_is, ModeEndCause::Locking);
 //! assert!((last.to.unwrap_or_default() - 0.452_653_96).abs() < 1e-8);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
@@ -44,8 +45,8 @@ pub(crate) use find::{Found, find};
 pub(crate) use guarantee::guarantee;
 pub(crate) use report::Naming;
 pub use report::{
-    CountLimits, Direction, EndReaction, Known, LimitsReport, ModeLimits, RangeWithoutProblem, SCHEMA,
-    VariedQuantity, to_json,
+    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
+    SCHEMA, VariedQuantity, to_json,
 };
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;

@@ -11,7 +11,7 @@ use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{JointMode, indented_json, locked};
+use crate::report::{JointMode, ModeEndCause, indented_json, locked};
 use crate::solve::{mode_in_words, pattern, signs};
 use serde::Serialize;
 
@@ -32,8 +32,8 @@ pub struct LimitsReport {
     /// where they are those of the drawing, and where a coordinate is varied: then `guarantee` tells of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
-    /// "closed form", "bracketing", or "independent".
-    pub method: &'static str,
+    /// How the ends of modes were found.
+    pub method: LimitsMethod,
     /// What the method can miss, in words.
     pub guarantee: String,
     /// The modes in the direction of the model's rates.
@@ -50,6 +50,20 @@ pub struct LimitsReport {
     pub reversed: Option<Direction>,
     /// What it comes to, in words.
     pub conclusion: Vec<String>,
+}
+
+/// How the ends of modes were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum LimitsMethod {
+    /// As zeros of determinants.
+    #[serde(rename = "closed form")]
+    ClosedForm,
+    /// Between values that were tried.
+    Bracketing,
+    /// Nothing depends on what is varied.
+    Independent,
 }
 
 /// What is varied, in SI units.
@@ -105,11 +119,10 @@ pub struct ModeLimits {
     pub from: Option<f64>,
     /// Where it ends.
     pub to: Option<f64>,
-    /// Why it begins there: "range", "locking", "side_change", "gap_closes", "tipping", "greatest_reaction",
-    /// "reversal" or "no_mode_problem".
-    pub from_is: &'static str,
-    /// Why it ends there, likewise.
-    pub to_is: &'static str,
+    /// Why it begins there.
+    pub from_is: ModeEndCause,
+    /// Why it ends there.
+    pub to_is: ModeEndCause,
     /// The contacts or guided sliders that begin it.
     pub from_at: Vec<String>,
     /// The contacts or guided sliders that end it.
@@ -257,8 +270,6 @@ impl Naming {
 
     fn mode(&self, mode: &ModeInterval) -> ModeLimits {
         let signs = signs(&mode.pattern);
-        let (from_is, from_at) = self.cause(&mode.from.cause);
-        let (to_is, to_at) = self.cause(&mode.to.cause);
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
             let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
             EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
@@ -270,24 +281,22 @@ impl Naming {
             signs,
             from: finite(mode.from.at),
             to: finite(mode.to.at),
-            from_is,
-            to_is,
-            from_at,
-            to_at,
+            from_is: (&mode.from.cause).into(),
+            to_is: (&mode.to.cause).into(),
+            from_at: self.ends_at(&mode.from.cause),
+            to_at: self.ends_at(&mode.to.cause),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
         }
     }
 
-    fn cause(&self, cause: &EndCause) -> (&'static str, Vec<String>) {
+    /// The contacts or guided sliders at which a mode ends.
+    fn ends_at(&self, cause: &EndCause) -> Vec<String> {
         match cause {
-            EndCause::Range => ("range", Vec::new()),
-            EndCause::Locking => ("locking", Vec::new()),
-            EndCause::SideChange(contacts) => ("side_change", self.contacts(contacts)),
-            EndCause::GapCloses(contacts) => ("gap_closes", self.contacts(contacts)),
-            EndCause::OutputBound(bounds) => ("tipping", self.guided(bounds)),
-            EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", self.contacts(contacts)),
-            EndCause::Reversal => ("reversal", Vec::new()),
-            EndCause::NoProblem => ("no_mode_problem", Vec::new()),
+            EndCause::SideChange(contacts)
+            | EndCause::GapCloses(contacts)
+            | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
+            EndCause::OutputBound(bounds) => self.guided(bounds),
+            EndCause::Range | EndCause::Locking | EndCause::Reversal | EndCause::NoProblem => Vec::new(),
         }
     }
 
@@ -337,9 +346,9 @@ pub(super) fn report(
         vary: VariedQuantity::new(varied, range, value),
         steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
         method: match found.method {
-            Method::ClosedForm => "closed form",
-            Method::Same { .. } => "independent",
-            Method::Bracketing => "bracketing",
+            Method::ClosedForm => LimitsMethod::ClosedForm,
+            Method::Same { .. } => LimitsMethod::Independent,
+            Method::Bracketing => LimitsMethod::Bracketing,
         },
         guarantee,
         modes: forwards.modes,

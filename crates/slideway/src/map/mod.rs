@@ -36,6 +36,7 @@ use crate::report::finite;
 use class::ClassKey;
 use evaluate::Evaluator;
 use refine::{Grid, Raster};
+use serde::Serialize;
 
 /// Pixels of the usual map along each side.
 const USUAL_SIZE: usize = 400;
@@ -45,7 +46,8 @@ const USUAL_PROBE: usize = 8;
 pub const GREATEST_SIZE: usize = 8192;
 
 /// What the colours of a map tell.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ColourBy {
     /// The number of solutions, and of states with the preload between the faces.

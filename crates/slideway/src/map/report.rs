@@ -21,8 +21,8 @@ pub struct MapReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
-    /// "solutions", "modes", "margin" or "jam".
-    pub colour_by: &'static str,
+    /// What the colours tell.
+    pub colour_by: ColourBy,
     /// From left to right.
     pub x: MapAxis,
     /// From bottom to top.
@@ -145,12 +145,7 @@ pub(super) fn report(
     MapReport {
         schema: SCHEMA,
         title: model.title.clone(),
-        colour_by: match options.colour_by {
-            ColourBy::Solutions => "solutions",
-            ColourBy::Modes => "modes",
-            ColourBy::Margin => "margin",
-            ColourBy::Jam => "jam",
-        },
+        colour_by: options.colour_by,
         x: axis(&axes[0], raster.grid.width),
         y: axis(&axes[1], raster.grid.height),
         classes,

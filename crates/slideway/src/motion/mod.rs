@@ -62,11 +62,11 @@ mod tests;
 use crate::pattern::phase;
 pub use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
 pub use equations::Drift;
-pub use event::{Cause, Event};
+pub use event::{Cause, CauseKind, Event};
 pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use report::{
-    BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
+    BranchReport, CauseReport, EndKind, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
     SampledReport, SimulateReport, StatisticsReport, report, to_json,
 };
 pub use rules::{Decisions, Hold, Instant, Jam, Successor, Successors, Thorough};

@@ -5,6 +5,7 @@
 
 mod attainability;
 mod csv;
+mod end;
 mod finite;
 mod json;
 pub(crate) mod number;
@@ -14,6 +15,7 @@ mod text;
 
 pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
 pub use csv::to_csv;
+pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented as indented_json;
 pub use json::to_json;
@@ -23,7 +25,7 @@ pub(crate) use text::{count, locked, spaced};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
 use serde::Serialize;
-pub use slideway_modes::Status;
+pub use slideway_modes::{Proof, Status};
 
 /// Version of the layout of a [`Report`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/solve/2";
@@ -36,11 +38,11 @@ pub struct Report {
     pub schema: &'static str,
     /// How many solutions there are; of those that were found if the search ended early.
     pub status: Status,
-    /// "proven" or "not proven": whether these are certainly all solutions of the mechanism, rounding included.
-    pub complete: &'static str,
+    /// Whether these are certainly all solutions of the mechanism, rounding included.
+    pub complete: Proof,
     /// Whether the search ended before every possibility was dealt with.
     pub partial: bool,
-    /// What remains open, in words; empty if `complete` is "proven".
+    /// What remains open, in words; empty if `complete` is [`Proof::Proven`].
     pub open: Vec<String>,
     /// Number of solutions, as decimal text: it may be beyond any integer type, and more than are listed.
     pub count: String,
@@ -285,8 +287,8 @@ pub struct ModeMargin {
     /// The factor; absent if the mode never ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// "nothing", "locking", "side_change", "gap_closes" or "tipping".
-    pub ends_with: &'static str,
+    /// What ends it.
+    pub ends_with: ModeEndCause,
     /// The contacts that end it.
     pub contacts: Vec<String>,
 }

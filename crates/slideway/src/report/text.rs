@@ -4,8 +4,8 @@ use super::number::{against, number};
 use super::page::Page;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, JointMode, ModeMargin, PatternSummary, Persistence, Report,
-    Solution, Status, UncertainMode,
+    CertificateKind, ClosestMode, Contact, JointMode, ModeEndCause, ModeMargin, PatternSummary, Persistence,
+    Report, Solution, Status, UncertainMode,
 };
 use std::fmt::Write;
 
@@ -368,9 +368,9 @@ fn margin_in_words(margin: &ModeMargin) -> String {
     };
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {
-        "locking" => "locking".to_owned(),
-        "side_change" => format!("{contacts} changes side"),
-        "gap_closes" => format!("the gap of {contacts} closes"),
+        ModeEndCause::Locking => "locking".to_owned(),
+        ModeEndCause::SideChange => format!("{contacts} changes side"),
+        ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
         _ => "a guided slider tips".to_owned(),
     };
     format!("the mode ends at {} times the friction: {end}", number(factor))

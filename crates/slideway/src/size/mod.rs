@@ -29,7 +29,7 @@ mod text;
 mod words;
 
 pub use report::{
-    MarginKind, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, to_json,
+    MarginKind, MetEnd, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, to_json,
 };
 pub use text::to_text;
 

@@ -68,14 +68,29 @@ pub struct MetInterval {
     pub from: f64,
     /// Where it ends.
     pub to: f64,
-    /// Why it begins there: "range", "margin" (it is just met), "jump" (the margin jumps) or "no_position".
-    pub from_is: &'static str,
-    /// Why it ends there, likewise.
-    pub to_is: &'static str,
+    /// Why it begins there.
+    pub from_is: MetEnd,
+    /// Why it ends there.
+    pub to_is: MetEnd,
     /// The margin outside of the beginning where it jumps; null where it is infinite, or does not jump.
     pub from_jumps_to: Option<f64>,
     /// The same at the end.
     pub to_jumps_to: Option<f64>,
+}
+
+/// Why an interval ends in which the wanted margin is met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum MetEnd {
+    /// The range ends.
+    Range,
+    /// The margin is just met.
+    Margin,
+    /// The margin jumps.
+    Jump,
+    /// The mechanism cannot be assembled or solved beyond.
+    NoPosition,
 }
 
 /// What a sample says.
@@ -172,12 +187,12 @@ fn interval([from, to]: &[End; 2]) -> MetInterval {
     }
 }
 
-fn cause(end: &End) -> &'static str {
+fn cause(end: &End) -> MetEnd {
     match end.cause {
-        Cause::Range => "range",
-        Cause::Margin => "margin",
-        Cause::Jump(_) => "jump",
-        Cause::NoPosition => "no_position",
+        Cause::Range => MetEnd::Range,
+        Cause::Margin => MetEnd::Margin,
+        Cause::Jump(_) => MetEnd::Jump,
+        Cause::NoPosition => MetEnd::NoPosition,
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a design comes to, in words.
 
-use super::report::{MarginKind, MetInterval, Sample, SampleKind, SizeReport};
+use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Place;
 use crate::report::number::number;
 use crate::report::number::precise;
@@ -74,9 +74,9 @@ impl Words<'_> {
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
         let bare = precise(interval.from);
         match (interval.from_is, interval.to_is) {
-            ("range", "range") => format!("anything from {bare} to {to}"),
-            (_, "range") => format!("at least {from} (looked at up to {to})"),
-            ("range", _) => format!("at most {to} (looked at down to {from})"),
+            (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
+            (_, MetEnd::Range) => format!("at least {from} (looked at up to {to})"),
+            (MetEnd::Range, _) => format!("at most {to} (looked at down to {from})"),
             _ if interval.from == interval.to => format!("{from} alone"),
             _ => format!("from {bare} to {to}"),
         }

@@ -19,7 +19,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Report, Status};
+use crate::report::{self, Proof, Report, Status};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -82,7 +82,7 @@ impl<'a> Answer<'a> {
         Ok(Report {
             schema: report::SCHEMA,
             status: status(undecided, solutions.len(), gaps.len(), continua.len()),
-            complete: if open.is_empty() { "proven" } else { "not proven" },
+            complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
             partial: found.is_partial(),
             open,
             count,

@@ -134,13 +134,16 @@ fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval) -> report::ModeMargin
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
-    let (ends_with, contacts) = match &mode.to.cause {
-        EndCause::Range | EndCause::Reversal | EndCause::NoProblem => ("nothing", Vec::new()),
-        EndCause::Locking => ("locking", Vec::new()),
-        EndCause::SideChange(contacts) => ("side_change", names(contacts)),
-        EndCause::GapCloses(contacts) => ("gap_closes", names(contacts)),
-        EndCause::OutputBound(_) => ("tipping", Vec::new()),
-        EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", names(contacts)),
+    let cause = &mode.to.cause;
+    let ends_with = match cause {
+        EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
+        cause => cause.into(),
+    };
+    let contacts = match cause {
+        EndCause::SideChange(contacts)
+        | EndCause::GapCloses(contacts)
+        | EndCause::GreatestNormalForce(contacts) => names(contacts),
+        _ => Vec::new(),
     };
     report::ModeMargin { factor: mode.to.at.is_finite().then_some(mode.to.at), ends_with, contacts }
 }

@@ -5,6 +5,7 @@ use super::rows::Breakpoint;
 use crate::limits::{LimitsOptions, ModeLimits, Vary, limits_with};
 use crate::model::Model;
 use crate::progress::Callback;
+use crate::report::ModeEndCause;
 
 /// Ends that are nearer to each other than this part of the range are one.
 const SAME: f64 = 1e-12;
@@ -53,12 +54,12 @@ pub(super) fn between(
 
 /// Both ends of a mode, unless they are those of the range.
 fn ends(mode: &ModeLimits) -> impl Iterator<Item = (f64, Breakpoint)> {
-    let cause = |word: &str| match word {
-        "locking" => Some(Breakpoint::Locking),
-        "side_change" => Some(Breakpoint::SideChange),
-        "gap_closes" => Some(Breakpoint::GapCloses),
-        "tipping" => Some(Breakpoint::Tipping),
-        "reversal" | "no_mode_problem" => Some(Breakpoint::NotSolved),
+    let cause = |cause: ModeEndCause| match cause {
+        ModeEndCause::Locking => Some(Breakpoint::Locking),
+        ModeEndCause::SideChange => Some(Breakpoint::SideChange),
+        ModeEndCause::GapCloses => Some(Breakpoint::GapCloses),
+        ModeEndCause::Tipping => Some(Breakpoint::Tipping),
+        ModeEndCause::Reversal | ModeEndCause::NoModeProblem => Some(Breakpoint::NotSolved),
         _ => None,
     };
     let ends = [(mode.from, cause(mode.from_is)), (mode.to, cause(mode.to_is))];

@@ -6,7 +6,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 use slideway::modes::{Arguments, SearchOptions};
 use slideway::raw_problem::{RawProblem, RawReport, RawSolution, Unknowns, solve, to_json, to_text};
-use slideway::report::{Status, Style};
+use slideway::report::{Proof, Status, Style};
 
 use crate::oracle::{State, Truth, exact, truth};
 
@@ -57,7 +57,7 @@ fn count(report: &RawReport, tally: &mut Tally) {
 }
 
 fn check(report: &RawReport, truth: &Truth, context: &str) {
-    assert_eq!(report.complete, "proven", "{context}");
+    assert_eq!(report.complete, Proof::Proven, "{context}");
     assert_eq!(report.continuum_count != "0", truth.continuum, "{context}");
     let (gaps, points): (Vec<&State>, Vec<&State>) =
         truth.states.iter().partition(|state| state.is_gap_state());

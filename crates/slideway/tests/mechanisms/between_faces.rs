@@ -64,7 +64,7 @@ fn sweeps_have_the_states_of_solve() {
     for vary in
         ["a=10 deg..80 deg:9", "P=-20..20:5", "friction=0..2:5", "mu=0.1..0.4:4", "M=-1..1:9", "x=0..1:3"]
     {
-        let sweep = Sweep::new(&slope, &SweepOptions::of(&[vary])).expect("sound");
+        let sweep = Sweep::new(&slope, &SweepOptions::grid([vary.parse().expect("an axis")])).expect("sound");
         let mut points = 0;
         sweep.run(&mut sweep.start(), &Rows::clone, &mut |rows: Vec<Rows>, _| {
             for rows in rows {

@@ -1,11 +1,11 @@
 //! The derivations of the book's page "Design", evaluated here on their own, against what the programs say.
 
 use crate::answers::{assert_close, model, parameters};
-use slideway::drive::{DriveOptions, DriveReport, EfficiencyKind, drive};
+use slideway::drive::{Approach, DriveOptions, DriveReport, EfficiencyKind, drive};
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::Verdict;
-use slideway::size::{Against, SampleKind, SizeOptions, SizeReport, size};
+use slideway::size::{Against, MetEnd, SampleKind, SizeOptions, SizeReport, size};
 use slideway::standstill::{HoldOptions, LoadReport, hold};
 
 const MARGINS: [f64; 3] = [1.0, 1.5, 2.0];
@@ -37,8 +37,8 @@ fn to_hold(load: &str) -> Against {
 fn only_end(report: &SizeReport) -> (f64, bool) {
     let [met] = &report.met[..] else { panic!("{:#?}", report.met) };
     match (met.from_is, met.to_is) {
-        ("margin", "range") => (met.from, true),
-        ("range", "margin") => (met.to, false),
+        (MetEnd::Margin, MetEnd::Range) => (met.from, true),
+        (MetEnd::Range, MetEnd::Margin) => (met.to, false),
         _ => panic!("{met:?}"),
     }
 }
@@ -209,7 +209,10 @@ fn wedge_push_limit_and_angle() {
     }
     // At 22.928 deg the iteration for eigenvalues fails at first.
     let report = against_locking(&model("wedge"), "alpha", 2.0);
-    assert_eq!((report.met.len(), report.met[0].from_is, report.met[0].to_is), (1, "range", "range"));
+    assert_eq!(
+        (report.met.len(), report.met[0].from_is, report.met[0].to_is),
+        (1, MetEnd::Range, MetEnd::Range)
+    );
 }
 
 /// The load drives the wedge out if alpha > 2 rho.
@@ -266,7 +269,7 @@ fn a_press_locks_where_its_rod_is_too_steep() {
     let course = &report.course.as_ref().expect("asked for").directions[0];
     let [blow_up] = &course.blow_ups[..] else { panic!("{:#?}", course.blow_ups) };
     assert_close(blow_up.at, locked, 0.0, 1e-12);
-    assert_eq!((blow_up.side, &blow_up.efforts[..]), ("below", &[-1_i8][..]));
+    assert_eq!((blow_up.side, &blow_up.efforts[..]), (Approach::Below, &[-1_i8][..]));
     assert!(course.rows.iter().all(|row| (row.at <= blow_up.at) == row.pattern.is_some()));
     let (angle, above) = only_end(&against_locking(&example("press"), "angle=5 deg..89 deg", 1.5));
     assert!(!above);
@@ -289,8 +292,11 @@ fn an_engine_needs_ever_more_force_towards_its_dead_centres() {
     }
     assert!(!course.blow_ups.is_empty());
     assert!(course.blow_ups.iter().all(|blow_up| blow_up.at.abs() < 1e-9), "{:#?}", course.blow_ups);
-    let sides: Vec<(&str, i8)> = course.blow_ups.iter().map(|one| (one.side, one.efforts[0])).collect();
-    assert!(sides.contains(&("above", 1)) && sides.iter().any(|(side, _)| *side == "below"), "{sides:?}");
+    let sides: Vec<(Approach, i8)> = course.blow_ups.iter().map(|one| (one.side, one.efforts[0])).collect();
+    assert!(
+        sides.contains(&(Approach::Above, 1)) && sides.iter().any(|(side, _)| *side == Approach::Below),
+        "{sides:?}"
+    );
 }
 
 // What the answers have to say where there is no number.
@@ -299,7 +305,10 @@ fn an_engine_needs_ever_more_force_towards_its_dead_centres() {
 fn infinite_margins_and_positions_that_do_not_exist_are_told() {
     let straight = against_locking(&example("engine"), "l=60 mm..200 mm", 2.0);
     assert_eq!(straight.present.is, SampleKind::Infinite);
-    assert_eq!((straight.met.len(), straight.met[0].from_is, straight.met[0].to_is), (1, "range", "range"));
+    assert_eq!(
+        (straight.met.len(), straight.met[0].from_is, straight.met[0].to_is),
+        (1, MetEnd::Range, MetEnd::Range)
+    );
     assert!(straight.conclusion.iter().any(|sentence| sentence.contains("no friction, however great")));
 
     // The rod spans the offset of the piston only while l >= r sin(phi).
@@ -324,7 +333,7 @@ fn the_smaller_margin_of_both_directions_counts() {
     // With the velocity reversed in the model, only the other direction jams.
     assert_close(only_end(&both(&[("v", "-0.1 m/s")])).0, 0.36, 0.0, 1e-14);
     let one = against_locking(&with("drawer", &[("v", "-0.1 m/s")]), "L", 2.0);
-    assert_eq!((one.met[0].from_is, one.met[0].to_is), ("range", "range"));
+    assert_eq!((one.met[0].from_is, one.met[0].to_is), (MetEnd::Range, MetEnd::Range));
 }
 
 /// Against margins computed one by one.

@@ -13,7 +13,7 @@
 use dashu_ratio::RBig;
 use slideway::model::Model;
 use slideway::modes::SearchOptions;
-use slideway::report::{Report, Solution, Status};
+use slideway::report::{Proof, Report, Solution, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -367,7 +367,7 @@ fn random_chains_have_the_states_that_rational_equations_of_motion_have() {
         assert!(report.status != Status::Unknown || !is_found, "{context}");
         if open.is_empty() {
             assert_ne!(report.status, Status::Unknown, "{context}");
-            assert!(report.complete == "proven" && report.undecided_modes.is_empty(), "{context}");
+            assert!(report.complete == Proof::Proven && report.undecided_modes.is_empty(), "{context}");
             clear += 1;
         }
         gaps += usize::from(expected.keys().any(|pattern| pattern.contains('0')));

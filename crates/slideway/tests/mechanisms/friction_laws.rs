@@ -6,9 +6,9 @@ use crate::answers::{assert_close, contact, parameters, report_on, try_report_on
 use slideway::drive::{DriveOptions, drive};
 use slideway::fault::FaultKind;
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, Vary, limits};
+use slideway::limits::{LimitsMethod, LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
-use slideway::report::Status;
+use slideway::report::{Proof, Status};
 use slideway::size::{SizeOptions, size};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
@@ -43,7 +43,7 @@ fn solve_takes_friction_at_the_speed_of_the_state_in_both_directions() {
     for (rate, v) in [("0.1", 0.1), ("-0.1", 0.1), ("0.4", 0.4), ("2.5e-9", 2.5e-9)] {
         let model = drawer().with(&Settings::default().rate("x", rate)).unwrap();
         let report = solve(&model).unwrap();
-        assert_eq!((report.status, report.complete), (Status::One, "proven"));
+        assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
         let mu = 0.3 + 0.5 * v;
         let solution = &report.solutions[0];
         let front = contact(solution, "guide.front");
@@ -69,10 +69,10 @@ fn limits_follow_friction_over_whatever_changes_it() {
         (end, report.method)
     };
     let (c, method) = locks("c=0..10");
-    assert_eq!(method, "closed form");
+    assert_eq!(method, LimitsMethod::ClosedForm);
     assert_close(c, (2.0 / 3.0 - 0.3) / 0.1, 0.0, 1e-12);
     let (v, method) = locks("v=0.01 m/s..2 m/s");
-    assert_eq!(method, "bracketing");
+    assert_eq!(method, LimitsMethod::Bracketing);
     assert_close(v, (2.0 / 3.0 - 0.3) / 0.5, 0.0, 1e-9);
     let (factor, _) = locks("friction=0..4");
     assert_close(factor, 2.0 / 3.0 / 0.35, 0.0, 1e-12);

@@ -8,7 +8,7 @@ use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::gallery::{self, MODELS};
 use slideway::model::{Model, Setting, SettingKind, Settings};
-use slideway::report::Status;
+use slideway::report::{Proof, Status};
 use slideway::solve::solve;
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ fn every_model_is_sound_and_says_what_it_shows() {
             continue;
         }
         let report = solve(&model).unwrap_or_else(|faults| panic!("{}: {faults}", entry.name));
-        assert!(report.complete == "proven", "{}", entry.name);
+        assert!(report.complete == Proof::Proven, "{}", entry.name);
         assert!(!report.solutions.is_empty(), "{}", entry.name);
         assert!(report.solutions.iter().all(|solution| solution.residual < 1e-12), "{}", entry.name);
     }
@@ -222,7 +222,7 @@ fn the_booms_patterns_grow_as_four_to_the_stages() {
     assert_eq!(report.patterns.unwrap().total, 4_u64.pow(3));
     assert!(only(&report).joints.iter().all(|joint| joint.mode.starts_with("tipped: ")));
     let retracting = report_with(&model("telescopic-boom"), &parameters(&[("mu", "0.4"), ("v", "-0.1 m/s")]));
-    assert_eq!(retracting.complete, "proven");
+    assert_eq!(retracting.complete, Proof::Proven);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use slideway::model::Model;
 use slideway::modes::Side;
 use slideway::motion::decision::{Standing, Successor, successors};
 use slideway::motion::{ContactPhase, End, JointPhase, Phase, SimulateOptions, simulate};
-use slideway::report::{CertificateKind, Report, Status};
+use slideway::report::{CertificateKind, Proof, Report, Status};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, Verdict, hold};
 use std::cell::Cell;
@@ -96,7 +96,7 @@ fn a_preload_that_differs_by_side_leaves_a_gap_where_faces_coincide() {
     assert_close(share, 0.598, 0.0, 1e-3);
     let model = Model::parse(PLATE).unwrap();
     let report = solve(&model).unwrap();
-    assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+    assert_eq!((report.status, report.complete), (Status::PreloadGap, Proof::Proven));
     let state = &report.preload_gap_states[0];
     assert_close(state.contacts[0].preload_share.unwrap(), share, 1.0, 1e-5);
     assert_close(state.contacts[1].normal_force, normal_force, 0.0, 1e-5);
@@ -160,7 +160,7 @@ fn both_ends_are_not_in_their_gaps_under_a_transverse_load() {
     //     rate -1: -N_r l/2 + 14 h/2 - (1 - 2 share) 6 h/2 - 0.1 = 0:  -1.2 + 1.4 - 0.6 (1 - 2 share) - 0.1 = 0, share 5/12
     for (rate, pattern, share, acceleration_x) in [(1.0, "+0", 0.25, -19.0), (-1.0, "0+", 5.0 / 12.0, 21.0)] {
         let report = drawer(rate, [1.0, -8.0]);
-        assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+        assert_eq!((report.status, report.complete), (Status::PreloadGap, Proof::Proven));
         assert!(report.undecided_modes.is_empty(), "{:?}", report.undecided_modes);
         let [state] = &report.preload_gap_states[..] else { panic!("one state") };
         assert_eq!(state.pattern, pattern);
@@ -292,7 +292,7 @@ fn whether_a_slider_pressed_against_its_other_face_tips_is_proven() {
     assert_close(state.contacts[0].couple.unwrap(), -0.3, 0.0, 1e-12);
     // With a torque of 1.3 N m more C = -1.6 N m; were the friction at the lower face it would be -1 N m.
     let report = guided("0", 0.2, 1.3, "10 N");
-    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     let report = guided("0", 0.2, -1.3, "10 N");
     assert_eq!((report.status, report.solutions[0].certificate), (Status::One, CertificateKind::Proven));
 }
@@ -301,7 +301,7 @@ fn whether_a_slider_pressed_against_its_other_face_tips_is_proven() {
 fn a_cart_whose_box_tips_has_no_solution() {
     let report = report_on(CART);
     // The only state that solves the equations tips the box: 2.76 N m of 2.35 N m.
-    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     assert!(report.undecided_modes.is_empty());
     assert_eq!(report.rejected.len(), 1);
 }

@@ -11,7 +11,7 @@ use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{Report, Solution, Status};
+use slideway::report::{Proof, Report, Solution, Status};
 
 const REFERENCE: &str = include_str!("../../../../reference/klepp-2002.toml");
 
@@ -99,7 +99,7 @@ fn settings(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Settin
 
 fn solved(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Report {
     let report = report_with(&model("klepp-2002"), &settings(scale, mu_1, preload, velocity));
-    assert_eq!(report.complete, "proven");
+    assert_eq!(report.complete, Proof::Proven);
     assert_eq!(report.patterns.unwrap().total, 8);
     report
 }

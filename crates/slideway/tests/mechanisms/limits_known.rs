@@ -4,7 +4,7 @@
 use crate::answers::{model, parameters};
 use slideway::fault::{AxisProblem, FaultKind};
 use slideway::gallery;
-use slideway::limits::{CountLimits, Known, LimitsOptions, LimitsReport, Vary, limits};
+use slideway::limits::{CountLimits, Known, LimitsMethod, LimitsOptions, LimitsReport, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
@@ -36,7 +36,7 @@ fn at(report: &LimitsReport, value: f64) -> &CountLimits {
 fn three_values_do_not_make_a_formula_affine() {
     let sledge = file("friction_with_a_bump");
     let report = with_effort(&sledge, "mu=0..1", EFFORT);
-    assert_eq!(report.method, "bracketing");
+    assert_eq!(report.method, LimitsMethod::Bracketing);
     assert_eq!(at(&report, 0.42).solutions, 0);
     assert_eq!(at(&report, 0.2).solutions, 1);
     assert_eq!(at(&report, 0.9).solutions, 1);
@@ -59,17 +59,17 @@ fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
         let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}"));
         of(&model, vary).method
     };
-    assert_eq!(method(drawer, "mu=0..0.5"), "closed form");
-    assert_eq!(method(drawer, "friction=0..2"), "closed form");
-    assert_eq!(method(drawer, "L=0.3 m..0.5 m"), "bracketing");
+    assert_eq!(method(drawer, "mu=0..0.5"), LimitsMethod::ClosedForm);
+    assert_eq!(method(drawer, "friction=0..2"), LimitsMethod::ClosedForm);
+    assert_eq!(method(drawer, "L=0.3 m..0.5 m"), LimitsMethod::Bracketing);
     let klepp = gallery::find("klepp-2002").expect("in the gallery").text;
     for (vary, expected) in [
-        ("F_20=0 N..20 N", "closed form"),
-        ("P=-5 N..5 N", "independent"),
-        ("c=0 N s/m..10 N s/m", "independent"),
-        ("g=1 m/s^2..20 m/s^2", "closed form"),
-        ("m=1 kg..2 kg", "bracketing"),
-        ("alpha=70 deg..80 deg", "bracketing"),
+        ("F_20=0 N..20 N", LimitsMethod::ClosedForm),
+        ("P=-5 N..5 N", LimitsMethod::Independent),
+        ("c=0 N s/m..10 N s/m", LimitsMethod::Independent),
+        ("g=1 m/s^2..20 m/s^2", LimitsMethod::ClosedForm),
+        ("m=1 kg..2 kg", LimitsMethod::Bracketing),
+        ("alpha=70 deg..80 deg", LimitsMethod::Bracketing),
     ] {
         // The preload `m*g` follows from both.
         assert_eq!(method(klepp, vary), expected, "{vary}");
@@ -86,14 +86,18 @@ fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
     for (one, other) in forces("0").iter().flatten().zip(forces("10 N s/m").iter().flatten()) {
         assert!((one - other).abs() <= 1e-12 * 9.81, "{one} {other}");
     }
-    let formulas = [("2*x/4 + 0.1", "closed form"), ("max(x, 0.3)", "bracketing"), ("x*x/x", "bracketing")];
+    let formulas = [
+        ("2*x/4 + 0.1", LimitsMethod::ClosedForm),
+        ("max(x, 0.3)", LimitsMethod::Bracketing),
+        ("x*x/x", LimitsMethod::Bracketing),
+    ];
     for (formula, expected) in formulas {
         let text = klepp.replace("\nmu_1 = 0.5 ", &format!("\nx = 0.5\nmu_1 = \"{formula}\" "));
         assert_eq!(method(&text, "x=0.1..0.8"), expected, "{formula}");
     }
     // The coefficient and an angle at once.
     let both = klepp.replace("alpha = \"80 deg\"", "alpha = \"80 deg + mu_1*1 deg\"");
-    assert_eq!(method(&both, "mu_1=0..0.8"), "bracketing");
+    assert_eq!(method(&both, "mu_1=0..0.8"), LimitsMethod::Bracketing);
 }
 
 /// Between the last value that was tried and the dead centre at 1 m contacts change side; there is a solution everywhere.
@@ -201,12 +205,12 @@ fn rates_are_varied_in_both_directions() {
 #[test]
 fn reasons_are_the_true_ones() {
     let report = of(&file("sash"), "mu=0..1");
-    assert_eq!(report.method, "closed form");
+    assert_eq!(report.method, LimitsMethod::ClosedForm);
     let [gap] = &report.without_mode_problem[..] else { panic!("{:?}", report.without_mode_problem) };
     assert_eq!([gap.from, gap.to], [0.3, 1.0]);
     assert!(gap.reason.contains("static friction"), "{}", gap.reason);
     let report = of(&file("sash"), "mu_s=0.25..1");
-    assert_eq!(report.method, "independent");
+    assert_eq!(report.method, LimitsMethod::Independent);
     assert!(report.guarantee.contains("hold"), "{}", report.guarantee);
     assert!(
         report.conclusion[0].contains("the same in the whole range: one solution"),

@@ -7,6 +7,7 @@ use crate::random_mechanisms::{cases, mechanisms};
 use proptest::prelude::*;
 use slideway::limits::{LimitsOptions, LimitsReport, ModeLimits, Vary, limits};
 use slideway::model::{Model, Settings};
+use slideway::report::ModeEndCause;
 use slideway::report::Status;
 use slideway::solve::{SolveOptions, solve, solve_with};
 use std::ops::ControlFlow;
@@ -44,7 +45,7 @@ fn ends(mode: &ModeLimits) -> [f64; 2] {
 /// The same intervals, each pattern's signs multiplied by a factor.
 fn same(one: &[ModeLimits], other: &[ModeLimits], factor: i8) -> Result<(), TestCaseError> {
     let list = |modes: &[ModeLimits], factor: i8| {
-        let mut list: Vec<(Vec<i8>, [f64; 2], &str)> = modes
+        let mut list: Vec<(Vec<i8>, [f64; 2], ModeEndCause)> = modes
             .iter()
             .map(|mode| (mode.signs.iter().map(|sign| factor * sign).collect(), ends(mode), mode.to_is))
             .collect();

@@ -2,7 +2,7 @@
 
 use crate::answers::{model, parameters, report};
 use slideway::model::Settings;
-use slideway::report::{Margins, Report, Style, to_text};
+use slideway::report::{Margins, ModeEndCause, Report, Style, to_text};
 use slideway::solve::solve;
 
 fn margins(report: &Report) -> &Margins {
@@ -17,7 +17,7 @@ fn a_drawer_has_the_textbook_s_margin() {
     assert!((margins(&report).no_solution.expect("it locks") - wanted).abs() < 1e-12);
     assert!((margins(&report).uniqueness.expect("lost") - wanted).abs() < 1e-12);
     let mode = report.solutions[0].margin.as_ref().expect("a margin");
-    assert_eq!(mode.ends_with, "locking");
+    assert_eq!(mode.ends_with, ModeEndCause::Locking);
     assert!((mode.factor.expect("finite") - wanted).abs() < 1e-12);
 }
 

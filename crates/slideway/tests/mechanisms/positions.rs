@@ -11,7 +11,7 @@ use slideway::ids::{BodyId, Frame};
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::{Model, Settings};
-use slideway::report::Status;
+use slideway::report::{ModeEndCause, Proof, Status};
 
 /// Two more solutions of its joints pass near the way from the drawing, and folds are at q0 = -0.2518 and 0.0091.
 const BRANCH: &str = include_str!("branch.toml");
@@ -57,7 +57,7 @@ fn the_branch_of_the_drawing_is_kept_beside_others(
     }
     let report = report_with(&model, &Settings::default().position("q0", &q0.to_string()));
     assert_eq!(report.steps_from_drawing, Some(state.steps));
-    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
 }
 
 /// The normal forces are those of an independent review program, which found the positions by another way.
@@ -406,7 +406,7 @@ fn modes_end_where_sliding_reverses() {
     let [ends, begins]: [_; 2] = modes.try_into().unwrap();
     assert_eq!(
         (&*ends.pattern, ends.to_is, &*begins.pattern, begins.from_is),
-        ("+-+", "reversal", "+--", "reversal")
+        ("+-+", ModeEndCause::Reversal, "+--", ModeEndCause::Reversal)
     );
     let place = ends.to.unwrap();
     assert_close(begins.from.unwrap(), place, place, 1e-7);
