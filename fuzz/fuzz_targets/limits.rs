@@ -2,8 +2,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::Report;
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, Vary, limits_with, to_json, to_text};
+use slideway::limits::{LimitsOptions, Vary, limits_with};
 use slideway::model::Model;
 use slideway::report::Style;
 use std::ops::ControlFlow;
@@ -29,9 +30,9 @@ fuzz_target!(|input: (u8, bool, &str)| {
         Ok(Some(report)) => {
             let [from, to] = [report.vary.from, report.vary.to];
             assert!(from < to && (to - from).is_finite(), "{vary}: {from} to {to}");
-            let text = to_text(&report, Style::default());
+            let text = report.text(Style::default());
             assert!(!text.contains("NaN") && !text.contains(" inf"), "{text}");
-            assert!(!to_json(&report).is_empty());
+            assert!(!report.json().is_empty());
         }
         Ok(None) => {}
         Err(faults) => assert!(!faults.to_string().is_empty()),

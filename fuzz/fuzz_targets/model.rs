@@ -2,6 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::Report;
 use slideway::check;
 use slideway::model::Model;
 use slideway::modes::{Limits, SearchOptions};
@@ -28,6 +29,6 @@ fuzz_target!(|text: &str| {
     if let Ok(answer) = solve_with(&model, &options(), &mut |_| ControlFlow::Continue(())) {
         // JSON refuses numbers that are not finite by itself.
         let _ =
-            (report::to_text(&answer, Style::default()), report::to_csv(&answer), report::to_json(&answer));
+            (answer.text(Style::default()), answer.csv(), answer.json());
     }
 });

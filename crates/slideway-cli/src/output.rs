@@ -1,9 +1,9 @@
 //! Where answers and complaints go: standard output, a file that is written whole or not at all, standard error.
 
-use crate::arguments::Destination;
+use crate::arguments::{CheckFormat, Destination};
 use crate::failure::Failure;
 use anstream::{AutoStream, ColorChoice};
-use slideway::report::Style;
+use slideway::report::{Report, Style};
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -117,6 +117,17 @@ impl Output {
             Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput { error }),
             _ => Ok(()),
         }
+    }
+
+    /// Writes a report in the form that is asked for.
+    ///
+    /// # Errors
+    /// As [`Output::write`].
+    pub(crate) fn tell(&self, report: &impl Report, format: CheckFormat) -> Result<(), Failure> {
+        self.write(&match format {
+            CheckFormat::Text => report.text(self.style()),
+            CheckFormat::Json => report.json(),
+        })
     }
 
     /// Writes the answer. A reader that goes away early (`| head`) has seen all it wanted.

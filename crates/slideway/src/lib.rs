@@ -26,7 +26,7 @@
 //! function:
 //!
 //! ```text
-//! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> Report
+//! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> SolveReport
 //! ```
 //!
 //! [`check::check`] stands beside it and says what a model consists of and what would keep it from being solved.
@@ -76,7 +76,7 @@ pub use limits::limits;
 pub use model::{Model, Settings};
 pub use motion::simulate;
 pub use nalgebra;
-pub use report::Report;
+pub use report::{Report, SolveReport};
 pub use size::size;
 pub use solve::solve;
 pub use standstill::hold;

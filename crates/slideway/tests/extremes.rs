@@ -6,11 +6,11 @@ use slideway::check::check;
 use slideway::fault::{FaultKind, Faults};
 use slideway::gallery::{find, telescopic_boom};
 use slideway::model::{Model, Settings};
-use slideway::report::{Proof, Report, Status};
+use slideway::report::{Proof, SolveReport, Status};
 use slideway::solve::solve;
 
 /// A weightless block pulled along its guide through its centre: nothing presses on the guide.
-fn pulled_along(kind: &str, angle: f64) -> Report {
+fn pulled_along(kind: &str, angle: f64) -> SolveReport {
     let text = format!(
         r#"
         [parameters]
@@ -143,7 +143,7 @@ fn enormous_friction_is_decided_by_proof() {
 /// The Painleve-Klein apparatus at its critical friction without loads: a ray of solutions N = t (-1, 1), t >= 0.
 /// With the hinge of the upper slider at the distance `offset` from its middle, the couple is C = offset N, and the
 /// slider can take up N L/2 with L = 60 mm.
-fn unloaded_at_critical_friction(offset: &str) -> Report {
+fn unloaded_at_critical_friction(offset: &str) -> SolveReport {
     let text = find("painleve-klein").unwrap().text.replace(
         "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\nat = \"B\"",
         &format!(

@@ -3,9 +3,10 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
+use slideway::Report;
 use slideway::modes::{Limits, SearchOptions};
 use slideway::raw_problem::{
-    Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_json, to_npz, to_text,
+    Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_npz,
 };
 use slideway::report::{Proof, Status, Style};
 use std::ops::ControlFlow;
@@ -160,8 +161,8 @@ proptest! {
         let ends = all.solutions.iter().filter(|one| !one.maximal).count();
         prop_assert_eq!(ends, report.faces.solutions.parse::<usize>().unwrap());
         prop_assert_eq!(report.solutions.len(), report.count.parse::<usize>().unwrap());
-        prop_assert!(to_json(&report).contains("slideway/modes/2"));
-        prop_assert!(to_text(&report, Style::Plain).contains("complete: "));
+        prop_assert!(report.json().contains("slideway/modes/2"));
+        prop_assert!(report.text(Style::Plain).contains("complete: "));
         prop_assert!(to_npz(&report).starts_with(b"PK"));
     }
 
@@ -186,7 +187,7 @@ proptest! {
         let solved = RawProblem::from_bytes(&bytes)
             .ok()
             .and_then(|problem| solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(())).ok());
-        prop_assert!(solved.is_none_or(|report| to_text(&report, Style::Plain).contains("complete: ")));
+        prop_assert!(solved.is_none_or(|report| report.text(Style::Plain).contains("complete: ")));
     }
 }
 
@@ -238,9 +239,9 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
     let shares: Vec<(usize, f64)> = state.gaps.iter().map(|gap| (gap.index, gap.lambda)).collect();
     assert_eq!(shares, [(0, 0.875), (1, 0.75)]);
     assert!(state.shares_vary && state.residual == Some(0.0) && !state.on_boundary);
-    let told = to_text(&report, Style::Plain);
+    let told = report.text(Style::Plain);
     assert!(told.contains("These shares are an example: others have the same values"), "{told}");
-    assert!(to_json(&report).contains("\"shares_vary\": true"));
+    assert!(report.json().contains("\"shares_vary\": true"));
 }
 
 /// A pattern whose determinant is 1e-12 of its terms. Elimination in fractions (Python's) gives, for these very numbers,
@@ -277,11 +278,11 @@ fn values_beyond_floating_point_numbers_are_told_as_text() {
     assert_eq!(solution.residual, Some(0.0));
     let [value] = solution.beyond_range.as_slice() else { panic!("one value") };
     assert_eq!((value.name, value.index, value.value.as_str()), ("z", 0, "9.9999999999999997e309"));
-    let json = to_json(&report);
+    let json = report.json();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["solutions"][0]["z"], serde_json::json!([null, 1.0]));
     assert_eq!(json["solutions"][0]["w"], serde_json::json!([0.0, 0.0]));
-    assert!(to_text(&report, Style::Plain).contains("9.9999999999999997e309"));
+    assert!(report.text(Style::Plain).contains("9.9999999999999997e309"));
     assert!(!to_npz(&report).is_empty());
 }
 
@@ -308,7 +309,7 @@ fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
         panic!("z and w")
     };
     assert!(z[0].is_nan() && z[1] == 0.0, "{z:?}");
-    assert!(to_text(&report, Style::Plain).contains("beyond the range of numbers"));
+    assert!(report.text(Style::Plain).contains("beyond the range of numbers"));
 }
 
 /// A + B = 1e16 + 1 is no floating-point number; x = (1, 1) and (-1, -1).
@@ -377,7 +378,7 @@ fn an_orthant_of_many_unknowns_is_told_in_few_words() {
     // 2^400 patterns, each with a face; all but the whole one and the end.
     assert!(report.faces.continua.starts_with("258224987808690858965591917200"));
     assert_eq!(report.continua[0].parts.len(), 400);
-    assert!(to_json(&report).len() < 500_000 && to_text(&report, Style::Plain).len() < 5000);
+    assert!(report.json().len() < 500_000 && report.text(Style::Plain).len() < 5000);
 }
 
 /// What is listed of each part is bounded, too.
@@ -389,7 +390,7 @@ fn a_cube_of_many_corners_lists_those_that_were_asked_for() {
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
     let part = &report.continua[0].parts[0];
     assert_eq!((part.vertices.len(), part.vertex_count), (4, 9));
-    assert!(to_text(&report, Style::Plain).contains("There are 5 ends and directions more"));
+    assert!(report.text(Style::Plain).contains("There are 5 ends and directions more"));
 }
 
 /// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and no
@@ -458,7 +459,7 @@ fn a_pile_without_friction_has_a_solution_within_rounding() {
     // The same in exact numbers: J^T z is that of the z above, (0.5, -0.2).
     let forces = [0, 1].map(|at| (0..4).map(|row| j[row][at] * z[row]).sum::<f64>());
     assert!((forces[0] - 0.5).abs() < 1e-14 && (forces[1] + 0.2).abs() < 1e-14, "{forces:?}");
-    assert!(to_text(&report, Style::Plain).contains("Hint: within rounding of the numbers (relative 1e-15)"));
+    assert!(report.text(Style::Plain).contains("Hint: within rounding of the numbers (relative 1e-15)"));
 }
 
 #[test]

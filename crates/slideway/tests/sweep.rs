@@ -5,7 +5,7 @@
 use rstest::rstest;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{Report, Status};
+use slideway::report::{SolveReport, Status};
 use slideway::solve::solve;
 use slideway::sweep::{
     Breakpoint, PointStatus, RowKind, RowVerdict, Rows, Sampling, Spread, Sweep, SweepOptions,
@@ -70,7 +70,7 @@ fn settings_of(sweep: &Sweep, varied: usize, values: &[f64], model: &Model) -> S
 
 /// Where the search decides less than each mode by itself, rows tell of corners of continua and of what is undecided: behind
 /// the states, with what `solve` says of them.
-fn check_without_state(rows: &Rows, found: &[usize], report: &Report) {
+fn check_without_state(rows: &Rows, found: &[usize], report: &SolveReport) {
     let corners = report.continua.iter().flat_map(|continuum| {
         let corners: Vec<Option<&[f64]>> = match &continuum.vertices[..] {
             [] => vec![None],
@@ -91,7 +91,7 @@ fn check_without_state(rows: &Rows, found: &[usize], report: &Report) {
     }
 }
 
-fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report: &Report) {
+fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report: &SolveReport) {
     let head = &rows.heads[range.start];
     let status = match report.status {
         Status::None => PointStatus::None,

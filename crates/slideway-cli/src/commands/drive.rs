@@ -1,7 +1,7 @@
 //! `slideway drive`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, DriveArguments};
+use crate::arguments::DriveArguments;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
@@ -20,10 +20,7 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => drive::to_text(&report, output.style()),
-        CheckFormat::Json => drive::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     let moves = report.directions.first().is_some_and(|direction| !direction.solutions.is_empty());
     Ok(if moves { Outcome::Done } else { Outcome::NoSolution })
 }

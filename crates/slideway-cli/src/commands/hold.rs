@@ -1,7 +1,7 @@
 //! `slideway hold`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, Drives, HoldArguments};
+use crate::arguments::{Drives, HoldArguments};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
@@ -18,10 +18,7 @@ pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = standstill::hold_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => standstill::to_text(&report, output.style()),
-        CheckFormat::Json => standstill::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(match (report.holds, report.undecided) {
         (true, _) => Outcome::Done,
         (false, 0) => Outcome::NoSolution,

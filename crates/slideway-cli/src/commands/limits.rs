@@ -1,7 +1,7 @@
 //! `slideway limits`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, LimitsArguments};
+use crate::arguments::LimitsArguments;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
@@ -33,9 +33,6 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         let found = limits::limits_with(&model, &options, &mut look);
         watch.whole(found.map_err(|faults| input.refused(faults))?)?
     };
-    output.write(&match arguments.format {
-        CheckFormat::Text => limits::to_text(&report, output.style()),
-        CheckFormat::Json => limits::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(Outcome::Done)
 }

@@ -7,9 +7,10 @@ use crate::input::Input;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::watch::Watch;
+use slideway::Report;
 use slideway::fault::Faults;
 use slideway::limits::Vary;
-use slideway::map::{MapOptions, map_with, to_json};
+use slideway::map::{MapOptions, map_with};
 use slideway_pictures::map::to_svg;
 
 /// Maps the plane of two quantities.
@@ -29,7 +30,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = map_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
-        None => output.write(&to_json(&report))?,
+        None => output.write(&report.json())?,
         Some(picture) => picture.write(to_svg(&report, arguments.theme.colours()), &output)?,
     }
     Ok(Outcome::Done)

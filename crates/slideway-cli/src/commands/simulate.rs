@@ -11,6 +11,7 @@ use crate::table::{Metadata, unfinished};
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
 use crate::watch::{self, Halt, Watch};
+use slideway::Report;
 use slideway::configuration::Configuration;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
@@ -78,8 +79,9 @@ impl Told {
     ) -> Result<Self, Faults> {
         let report = finite(motion::report(history, options))?;
         let text = match arguments.format {
-            CheckFormat::Text => motion::to_text(&report, output.style(), arguments.all_events),
-            CheckFormat::Json => motion::to_json(&report),
+            CheckFormat::Text if arguments.all_events => report.text_with_all_events(output.style()),
+            CheckFormat::Text => report.text(output.style()),
+            CheckFormat::Json => report.json(),
         };
         Ok(Self { text, outcome: outcome(&history.end) })
     }
@@ -92,8 +94,9 @@ impl Told {
     ) -> Result<Self, Faults> {
         let report = finite(motion::tree_report(tree, options))?;
         let text = match arguments.format {
-            CheckFormat::Text => motion::tree_to_text(&report, output.style(), arguments.all_events),
-            CheckFormat::Json => motion::tree_to_json(&report),
+            CheckFormat::Text if arguments.all_events => report.text_with_all_events(output.style()),
+            CheckFormat::Text => report.text(output.style()),
+            CheckFormat::Json => report.json(),
         };
         // The best that any motion comes to.
         let outcomes = tree.histories.iter().map(|branching| outcome(&branching.history.end));
@@ -262,7 +265,7 @@ impl<'a> Files<'a> {
                     let mut report = motion::report(history, options);
                     report.samples = Some(series);
                     let report = finite(report).map_err(|faults| input.refused(faults))?;
-                    output.write(&motion::to_json(&report))?;
+                    output.write(&report.json())?;
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! `slideway size`
 
 use crate::Outcome;
-use crate::arguments::{CheckFormat, SizeArguments};
+use crate::arguments::SizeArguments;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
@@ -23,9 +23,6 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
         size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => size::to_text(&report, output.style()),
-        CheckFormat::Json => size::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(if report.met.is_empty() { Outcome::NoSolution } else { Outcome::Done })
 }

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
-use slideway::report::{to_csv, to_json, to_text};
+use slideway::Report;
 use slideway::solve::{SolveOptions, solve_with};
 
 /// Finds and writes all solutions of a model.
@@ -21,9 +21,9 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
         .map_err(|faults| input.refused(faults))?;
     let halt = watch.finish();
     output.write(&match arguments.format {
-        Format::Text => to_text(&report, output.style()),
-        Format::Json => to_json(&report),
-        Format::Csv => to_csv(&report),
+        Format::Text => report.text(output.style()),
+        Format::Json => report.json(),
+        Format::Csv => report.csv(),
     })?;
     Ok(outcome(halt, report.status.into()))
 }

@@ -9,7 +9,7 @@ use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
 use crate::watch::{Alarm, Halt, Watch};
 use slideway::progress::Progress;
-use slideway::sweep::{Rows, Sweep, SweepState, to_text};
+use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
 use std::io::{self, IsTerminal, Write};
@@ -190,7 +190,7 @@ fn to_file(
     if let Some(plot) = work.plot {
         plot.write(&state)?;
     }
-    Output::standard(output.color()).write(&to_text(sweep, &state, output.style_of_text()))?;
+    Output::standard(output.color()).write(&sweep.text(&state, output.style_of_text()))?;
     Ok(Outcome::Done)
 }
 
@@ -227,7 +227,7 @@ fn stream(mut work: Work<'_>, output: &Output, mut watch: Watch) -> Result<Outco
         }
     }
     if !io::stdout().is_terminal() || output.path().is_some() {
-        complain(to_text(work.sweep, &state, output.style_of_text()).trim_end(), output.color());
+        complain(work.sweep.text(&state, output.style_of_text()).trim_end(), output.color());
     }
     if let Some(plot) = work.plot {
         plot.write(&state)?;

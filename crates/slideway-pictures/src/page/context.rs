@@ -5,7 +5,7 @@ use crate::drawing::svg::{self, Colour, Colours, Frame};
 use crate::theme::{DARK, LIGHT, Theme};
 use serde::Serialize;
 use slideway::limits::LimitsReport;
-use slideway::report::{Report, Solution, followed};
+use slideway::report::{Solution, SolveReport, followed};
 use std::fmt::Write;
 
 /// The values of the template.
@@ -22,7 +22,7 @@ pub(super) struct Context<'a> {
     dark: String,
     rules: String,
     drawing: String,
-    report: Option<&'a Report>,
+    report: Option<&'a SolveReport>,
     /// Why there is no report.
     refused: &'a [String],
     /// How the positions were reached.
@@ -93,7 +93,7 @@ fn drawing(page: &Page<'_>) -> String {
     svg::document(&page.sheet.scene, &frame)
 }
 
-fn states(report: &Report) -> Vec<StateView<'_>> {
+fn states(report: &SolveReport) -> Vec<StateView<'_>> {
     let view = |kind: &str, index: usize, count: &str, solution| StateView::of(kind, index, count, solution);
     let solutions = report.solutions.iter().enumerate();
     let gaps = report.preload_gap_states.iter().enumerate();

@@ -12,7 +12,7 @@ use context::Context;
 use minijinja::{AutoEscape, Environment, Output, State, Value};
 use slideway::limits::LimitsReport;
 use slideway::printable::lines;
-use slideway::report::Report;
+use slideway::report::SolveReport;
 use thiserror::Error;
 
 const TEMPLATE: &str = include_str!("report.html");
@@ -31,7 +31,7 @@ pub struct Page<'a> {
     /// The drawing of the mechanism and its solutions.
     pub sheet: &'a Sheet,
     /// All solutions, or why there is no answer.
-    pub report: Result<&'a Report, &'a [String]>,
+    pub report: Result<&'a SolveReport, &'a [String]>,
     /// For which values modes exist.
     pub limits: &'a [LimitsReport],
     /// Further figures.

@@ -15,8 +15,6 @@
 
 mod text;
 
-pub use text::to_text;
-
 use crate::configuration::{Configuration, Mobility, free_motions, motion_in_words, unit};
 use crate::fault::{FaultKind, Faults};
 use crate::ids::ContactId;
@@ -296,11 +294,6 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
         drives: drives(&mechanism),
         coordinates: coordinates(&mechanism),
     })
-}
-
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &CheckReport) -> String {
-    crate::report::indented_json(report)
 }
 
 fn finding(kind: &FaultKind) -> Finding {

@@ -5,18 +5,20 @@ use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, count, followed};
+use crate::report::{Report, Style, count, followed};
 use anstyle::AnsiColor;
 
-/// The report as text: the verdict first, then what the model consists of.
-pub fn to_text(report: &CheckReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.verdict();
-    text.mobility();
-    text.inertia();
-    text.tables();
-    text.text()
+impl Report for CheckReport {
+    /// The verdict first, then what the model consists of.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.verdict();
+        text.mobility();
+        text.inertia();
+        text.tables();
+        text.text()
+    }
 }
 
 type Text<'r> = Page<'r, CheckReport>;

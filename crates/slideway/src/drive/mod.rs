@@ -39,9 +39,8 @@ mod text;
 
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport,
-    DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense, to_json,
+    DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense,
 };
-pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, VariedQuantity, Vary};

@@ -1,7 +1,7 @@
 //! What is told of driven motion: plain data, which are the JSON output.
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
-use crate::report::{CoordinateState, JointMode, Status, Verdict, indented_json};
+use crate::report::{CoordinateState, JointMode, Status, Verdict};
 use serde::Serialize;
 
 /// Version of the layout of a [`DriveReport`]; changes whenever a field is renamed or removed.
@@ -174,11 +174,6 @@ pub struct CourseRow {
     pub power: Option<f64>,
     /// Against the same motion without friction.
     pub efficiency: Option<Efficiency>,
-}
-
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &DriveReport) -> String {
-    indented_json(report)
 }
 
 /// A direction of motion.

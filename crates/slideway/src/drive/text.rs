@@ -9,19 +9,21 @@ use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Status, Style, Verdict, spaced};
+use crate::report::{Report, Status, Style, Verdict, spaced};
 
-/// The report as text: what it comes to, the efforts in the state, and those over what is varied.
-pub fn to_text(report: &DriveReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    for direction in &report.directions {
-        text.direction(direction);
+impl Report for DriveReport {
+    /// What it comes to, the efforts in the state, and those over what is varied.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        for direction in &self.directions {
+            text.direction(direction);
+        }
+        if let Some(course) = &self.course {
+            text.course(course);
+        }
+        text.text()
     }
-    if let Some(course) = &report.course {
-        text.course(course);
-    }
-    text.text()
 }
 
 /// One sentence for each direction, and one for each factor of friction at which its efforts grow without bound.

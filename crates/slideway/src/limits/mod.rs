@@ -46,11 +46,10 @@ pub(crate) use guarantee::guarantee;
 pub(crate) use report::Naming;
 pub use report::{
     CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
-    SCHEMA, VariedQuantity, to_json,
+    SCHEMA, VariedQuantity,
 };
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
-pub use text::to_text;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;

@@ -11,7 +11,7 @@ use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{JointMode, ModeEndCause, indented_json, locked};
+use crate::report::{JointMode, ModeEndCause, locked};
 use crate::solve::{mode_in_words, pattern, signs};
 use serde::Serialize;
 
@@ -206,11 +206,6 @@ impl RangeWithoutProblem {
         let range = |gap: &super::find::Gap| Self { from: gap.from, to: gap.to, reason: gap.reason() };
         found.gaps.iter().map(range).collect()
     }
-}
-
-/// The report as indented JSON.
-pub fn to_json(report: &LimitsReport) -> String {
-    indented_json(report)
 }
 
 /// The names of a mechanism's parts, and how its guides lie.

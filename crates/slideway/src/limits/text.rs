@@ -5,18 +5,20 @@ use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{ModeEndCause, Style, followed, precise, spaced};
+use crate::report::{ModeEndCause, Report, Style, followed, precise, spaced};
 
-/// The report as text: what it comes to, the modes, the numbers of solutions.
-pub fn to_text(report: &LimitsReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.direction("", (&report.modes, &report.counts, &report.without_mode_problem));
-    if let Some(reversed) = &report.reversed {
-        let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
-        text.direction(", moving the other way", parts);
+impl Report for LimitsReport {
+    /// What it comes to, the modes, the numbers of solutions.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.direction("", (&self.modes, &self.counts, &self.without_mode_problem));
+        if let Some(reversed) = &self.reversed {
+            let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
+            text.direction(", moving the other way", parts);
+        }
+        text.text()
     }
-    text.text()
 }
 
 impl Page<'_, LimitsReport> {

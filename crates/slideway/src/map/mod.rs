@@ -26,7 +26,7 @@ mod refine;
 mod report;
 
 pub use class::ClassMeaning;
-pub use report::{MapAxis, MapClass, MapReport, SCHEMA, to_json};
+pub use report::{MapAxis, MapClass, MapReport, SCHEMA};
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{ShownIn, Varied, Vary};

@@ -67,12 +67,11 @@ pub use history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sa
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use report::{
     BranchReport, CauseReport, EndKind, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
-    SampledReport, SimulateReport, StatisticsReport, report, to_json,
+    SampledReport, SimulateReport, StatisticsReport, report,
 };
 pub use rules::{Decisions, Hold, Instant, Jam, Successor, Successors, Thorough};
 pub use series::{Column, Series};
-pub use text::{to_text, tree_to_text};
-pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report, tree_to_json};
+pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report};
 
 use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};

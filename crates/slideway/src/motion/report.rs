@@ -9,7 +9,7 @@ use super::series::Series;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
 use crate::report::number::number;
-use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
+use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
 
 /// Version of the layout of a [`SimulateReport`]; changes whenever a field is renamed or removed.
@@ -230,11 +230,6 @@ pub struct SampledReport {
     pub time: f64,
     /// The longest of the steps (s).
     pub longest_step: f64,
-}
-
-/// The report as indented JSON, ending in a line end; its version is in `schema`.
-pub fn to_json(report: &SimulateReport) -> String {
-    indented_json(report)
 }
 
 /// What is told of a motion that was simulated with these options.

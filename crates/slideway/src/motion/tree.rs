@@ -9,7 +9,6 @@ use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::progress::{Callback, Progress};
-use crate::report::indented_json;
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -117,9 +116,4 @@ pub fn tree_report(tree: &Tree, options: &SimulateOptions) -> TreeReport {
         complete: tree.complete,
         histories: tree.histories.iter().map(one).collect(),
     }
-}
-
-/// The report as indented JSON, ending in a line end; its version is in `schema`.
-pub fn tree_to_json(report: &TreeReport) -> String {
-    indented_json(report)
 }

@@ -29,9 +29,8 @@ mod text;
 mod words;
 
 pub use report::{
-    MarginKind, MetEnd, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, to_json,
+    MarginKind, MetEnd, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport,
 };
-pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::{Varied, Vary};

@@ -6,7 +6,6 @@ use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
 use crate::model::Model;
-use crate::report::indented_json;
 use serde::Serialize;
 
 /// Version of the layout of a [`SizeReport`]; changes whenever a field is renamed or removed.
@@ -127,11 +126,6 @@ pub struct RangeWithoutPosition {
     pub to: f64,
     /// Why, at its first value that was tried.
     pub reason: String,
-}
-
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &SizeReport) -> String {
-    indented_json(report)
 }
 
 /// What was sought, and what was found.

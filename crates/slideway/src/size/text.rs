@@ -2,18 +2,20 @@
 
 use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::quantity;
-use crate::report::Style;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
+use crate::report::{Report, Style};
 
-/// The report as text: what it comes to, where the margin is met, and a table of margins.
-pub fn to_text(report: &SizeReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.intervals();
-    text.margins();
-    text.text()
+impl Report for SizeReport {
+    /// What it comes to, where the margin is met, and a table of margins.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.intervals();
+        text.margins();
+        text.text()
+    }
 }
 
 impl Page<'_, SizeReport> {

@@ -19,7 +19,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Proof, Report, Status};
+use crate::report::{self, Proof, SolveReport, Status};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -53,7 +53,7 @@ pub(super) struct Answer<'a> {
 
 impl<'a> Answer<'a> {
     /// The report on all solutions.
-    pub(super) fn report(&self, found: &Found<'_>) -> Result<Report, Faults> {
+    pub(super) fn report(&self, found: &Found<'_>) -> Result<SolveReport, Faults> {
         let lists = found.lists();
         let mut tipping = Tipped::default();
         let mut states = States::default();
@@ -79,7 +79,7 @@ impl<'a> Answer<'a> {
         open.extend(tipping.unproven.iter().map(|joint| format!("that {joint} tips is not proven")));
         let undecided = !lists.undecided.is_empty() || found.is_partial();
         let outcomes = found.result.outcomes();
-        Ok(Report {
+        Ok(SolveReport {
             schema: report::SCHEMA,
             status: status(undecided, solutions.len(), gaps.len(), continua.len()),
             complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },

@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
 };
-use crate::report::{self, CriticalContact, Margins, Report};
+use crate::report::{self, CriticalContact, Margins, SolveReport};
 use nalgebra::DVector;
 
 /// The most patterns for which margins are computed.
@@ -21,7 +21,7 @@ const AT_ONCE: f64 = 1e-9;
 
 /// Adds the margins to a report, if there are few enough modes, and each can be followed.
 pub(super) fn add(
-    report: &mut Report,
+    report: &mut SolveReport,
     mechanism: &Mechanism,
     influence: &Influence,
     velocity_signs: &DVector<f64>,

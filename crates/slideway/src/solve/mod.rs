@@ -56,7 +56,7 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::Callback;
-use crate::report::{Report, finite};
+use crate::report::{SolveReport, finite};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
@@ -104,13 +104,13 @@ impl SolveOptions {
 
 /// All solutions of the kinetic problem of a model in its state, with their contact modes.
 ///
-/// The list is proven complete for the exact mechanism that the model describes, unless [`Report::complete`] says
+/// The list is proven complete for the exact mechanism that the model describes, unless [`SolveReport::complete`] says
 /// otherwise: the search holds for rigorous bounds of the influence coefficients ([`crate::enclosure`]).
 ///
 /// # Errors
 /// Whatever makes no sense in the model or its state. That there is no solution is no error, but
 /// [`crate::report::Status::None`].
-pub fn solve(model: &Model) -> Result<Report, Faults> {
+pub fn solve(model: &Model) -> Result<SolveReport, Faults> {
     solve_with(model, &SolveOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
@@ -122,7 +122,7 @@ pub fn solve_with(
     model: &Model,
     options: &SolveOptions,
     progress: &mut Callback<'_>,
-) -> Result<Report, Faults> {
+) -> Result<SolveReport, Faults> {
     let mut mechanism = Mechanism::new(model)?;
     check_size(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;

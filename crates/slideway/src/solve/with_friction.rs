@@ -10,7 +10,7 @@ use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
 use crate::model::Model;
 use crate::progress::Callback;
-use crate::report::{Report, finite};
+use crate::report::{SolveReport, finite};
 
 /// The answer of [`super::solve`] for a model and its stages with all coefficients of friction multiplied by a factor, without
 /// margins and uncertainty.
@@ -22,7 +22,7 @@ pub(crate) fn solve_with_friction(
     (stages, friction): (&Stages, f64),
     options: &SolveOptions,
     progress: &mut Callback<'_>,
-) -> Result<Report, Faults> {
+) -> Result<SolveReport, Faults> {
     let Stages { configuration, influence, velocity_signs, .. } = stages;
     let mechanism = rougher(&stages.mechanism, &|_| friction);
     let equations = KineticEquations::new(&mechanism, configuration)?;

@@ -49,7 +49,6 @@ pub use report::{
     AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, HingeRange, HoldReport,
     JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Verdict,
 };
-pub use text::to_text;
 
 use crate::configuration::{free_motions, motion_in_words, unit};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -183,11 +182,6 @@ pub(crate) fn self_locking_factor(
     check_states(&setup)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
-}
-
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &HoldReport) -> String {
-    crate::report::indented_json(report)
 }
 
 /// Patterns of sides, and of states of joints and sides.

@@ -4,22 +4,24 @@ use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold
 use crate::report::number::{against, number};
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, count, followed, spaced};
+use crate::report::{Report, Style, count, followed, spaced};
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
-/// The report as text: the verdict first, then load, reactions and release.
-pub fn to_text(report: &HoldReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.verdict();
-    text.load();
-    text.at_rest();
-    for (index, release) in report.releases.iter().enumerate() {
-        text.release(index, release);
+impl Report for HoldReport {
+    /// The verdict first, then load, reactions and release.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.verdict();
+        text.load();
+        text.at_rest();
+        for (index, release) in self.releases.iter().enumerate() {
+            text.release(index, release);
+        }
+        text.tried();
+        text.text()
     }
-    text.tried();
-    text.text()
 }
 
 type Text<'r> = Page<'r, HoldReport>;

@@ -63,7 +63,6 @@ pub use line::Line;
 pub use options::{GridAxis, GridValues, SampledAxis, SampledValues, SweepOptions, SweepPoints};
 pub use rows::{Breakpoint, PointStatus, RowHead, RowKind, RowVerdict, Rows};
 pub use summary::{Probability, Tally};
-pub use text::to_text;
 
 use crate::fault::{AxisProblem, Faults};
 use crate::mechanism::Mechanism;

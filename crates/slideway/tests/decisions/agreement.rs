@@ -7,7 +7,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
 use slideway::motion::JointPhase;
 use slideway::motion::decision::{Standing, successors};
-use slideway::report::Report;
+use slideway::report::SolveReport;
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
 
@@ -38,7 +38,7 @@ fn random_model(text: &str, random: &mut Random) -> Option<Model> {
     model.with(&settings).ok()
 }
 
-fn patterns(report: &Report) -> Vec<(String, Vec<f64>)> {
+fn patterns(report: &SolveReport) -> Vec<(String, Vec<f64>)> {
     let all = report.solutions.iter().chain(&report.preload_gap_states);
     let one = |solution: &slideway::report::Solution| {
         let signs = solution.signs.iter().map(|sign| match sign {

@@ -13,7 +13,7 @@
 use dashu_ratio::RBig;
 use slideway::model::Model;
 use slideway::modes::SearchOptions;
-use slideway::report::{Proof, Report, Solution, Status};
+use slideway::report::{Proof, Solution, SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -334,7 +334,7 @@ fn check_values(solution: &Solution, values: &[RBig], context: &str) {
     }
 }
 
-fn report(text: &str) -> Report {
+fn report(text: &str) -> SolveReport {
     let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
     let options = SolveOptions::default().search(SearchOptions::default()).margins(false);
     solve_with(&model, &options, &mut |_| ControlFlow::Continue(()))

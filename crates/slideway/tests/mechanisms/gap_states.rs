@@ -13,7 +13,7 @@ use slideway::model::Model;
 use slideway::modes::Side;
 use slideway::motion::decision::{Standing, Successor, successors};
 use slideway::motion::{ContactPhase, End, JointPhase, Phase, SimulateOptions, simulate};
-use slideway::report::{CertificateKind, Proof, Report, Status};
+use slideway::report::{CertificateKind, Proof, SolveReport, Status};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, Verdict, hold};
 use std::cell::Cell;
@@ -121,7 +121,7 @@ fn a_preload_that_differs_by_side_leaves_a_gap_where_faces_coincide() {
 }
 
 /// A drawer with a packing at either end, pressed down by 8 N through a point above its middle.
-fn drawer(rate: f64, load: [f64; 2]) -> Report {
+fn drawer(rate: f64, load: [f64; 2]) -> SolveReport {
     report_on(&format!(
         r#"
         [points]
@@ -184,7 +184,7 @@ fn a_found_state_is_the_answer_whatever_is_open_beside_it() {
 }
 
 /// A guided slider with a packing, no transverse load, a force along it, and a couple.
-fn guided(preload: &str, height: f64, couple: f64, across: &str) -> Report {
+fn guided(preload: &str, height: f64, couple: f64, across: &str) -> SolveReport {
     report_on(&format!(
         r#"
         [parameters]
@@ -388,7 +388,7 @@ struct Numbers {
 }
 
 /// The numbers of eq. (6) from the influence coefficients of the report.
-fn numbers(drawing: &Drawing, report: &Report) -> Numbers {
+fn numbers(drawing: &Drawing, report: &SolveReport) -> Numbers {
     let contacts = drawing.contacts();
     let speeds = velocity_signs(drawing);
     let r = contacts.len();
@@ -479,7 +479,7 @@ fn admits(mut matrix: DMatrix<f64>, right: &DVector<f64>, digits: &[usize]) -> O
 }
 
 /// All patterns with a state in the report, tipping or not.
-fn reported(report: &Report) -> BTreeSet<String> {
+fn reported(report: &SolveReport) -> BTreeSet<String> {
     let states = report.solutions.iter().chain(&report.preload_gap_states);
     let rejected = report.rejected.iter().map(|rejection| rejection.pattern.clone());
     states.flat_map(|state| state.patterns.clone()).chain(rejected).collect()

@@ -11,7 +11,7 @@ use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{Proof, Report, Solution, Status};
+use slideway::report::{Proof, Solution, SolveReport, Status};
 
 const REFERENCE: &str = include_str!("../../../../reference/klepp-2002.toml");
 
@@ -97,7 +97,7 @@ fn settings(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Settin
         .parameter("direction", &velocity.to_string())
 }
 
-fn solved(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Report {
+fn solved(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> SolveReport {
     let report = report_with(&model("klepp-2002"), &settings(scale, mu_1, preload, velocity));
     assert_eq!(report.complete, Proof::Proven);
     assert_eq!(report.patterns.unwrap().total, 8);
@@ -175,7 +175,7 @@ fn the_friction_is_what_the_applied_forces_and_inertia_leave(#[values(1.0, -1.0)
 }
 
 /// The sign patterns of the solutions, sorted.
-fn found_signs(report: &Report) -> Vec<String> {
+fn found_signs(report: &SolveReport) -> Vec<String> {
     let mut found: Vec<String> = report.solutions.iter().map(signs).collect();
     found.sort_unstable();
     found
@@ -380,7 +380,7 @@ fn the_file_as_it_stands_is_the_case_with_three_solutions() {
     assert_eq!(report, solved_as_printed());
 }
 
-fn solved_as_printed() -> Report {
+fn solved_as_printed() -> SolveReport {
     report_with(&model("klepp-2002"), &Settings::default().parameter("F_20", "m*g").parameter("mu_1", "0.5"))
 }
 

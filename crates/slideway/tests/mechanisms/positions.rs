@@ -308,7 +308,7 @@ fn every_report_says_that_a_state_was_followed() {
     use slideway::motion::{SimulateOptions, simulate};
     use slideway::report::{Style, followed};
     use slideway::standstill::HoldOptions;
-    use slideway::{check, limits, motion, standstill};
+    use slideway::{Report, check, limits, motion, standstill};
     let drawer = crate::answers::model("drawer");
     let moved = drawer.with(&Settings::default().position("x", "0.05")).unwrap();
     let told = |model: &Model| {
@@ -326,10 +326,10 @@ fn every_report_says_that_a_state_was_followed() {
             along.guarantee
         );
         [
-            (checked.steps_from_drawing, check::to_text(&checked, Style::Plain)),
-            (held.steps_from_drawing, standstill::to_text(&held, Style::Plain)),
-            (simulated.steps_from_drawing, motion::to_text(&simulated, Style::Plain, false)),
-            (found.steps_from_drawing, limits::to_text(&found, Style::Plain)),
+            (checked.steps_from_drawing, checked.text(Style::Plain)),
+            (held.steps_from_drawing, held.text(Style::Plain)),
+            (simulated.steps_from_drawing, simulated.text(Style::Plain)),
+            (found.steps_from_drawing, found.text(Style::Plain)),
         ]
     };
     for (steps, text) in told(&moved) {

@@ -2,7 +2,7 @@
 
 use crate::answers::{acceleration, assert_close, model, only, parameters, report, report_on, report_with};
 use slideway::model::Model;
-use slideway::report::{Proof, Report, Status};
+use slideway::report::{Proof, SolveReport, Status};
 
 const CASE: [(&str, &str); 4] = [("mu_1", "0.24"), ("F_20", "0"), ("F_30", "0.5*m*g"), ("direction", "1")];
 
@@ -96,7 +96,7 @@ fn a_gap_beside_solutions_does_not_change_the_status() {
 }
 
 /// A sledge without weight, preloaded at both ends, with a torque.
-fn preloaded_sledge(moment: f64, front: f64, rear: f64) -> Report {
+fn preloaded_sledge(moment: f64, front: f64, rear: f64) -> SolveReport {
     report_on(&format!(
         r#"
         [bodies.sledge]

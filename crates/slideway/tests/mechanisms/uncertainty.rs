@@ -4,7 +4,7 @@ use crate::answers::{model, report, report_with};
 use slideway::fault::FaultKind;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{Persistence, Report, Uncertainty};
+use slideway::report::{Persistence, SolveReport, Uncertainty};
 use slideway::solve::solve;
 
 fn uncertainty(name: &str, list: &[(&str, &str)]) -> Uncertainty {
@@ -60,7 +60,7 @@ fn no_solution_at_any_value_is_missing() {
     }
 }
 
-fn check_sample(whole: &Uncertainty, sample: &Report) {
+fn check_sample(whole: &Uncertainty, sample: &SolveReport) {
     let solutions = sample.solutions.len();
     assert!(whole.least_solutions <= solutions && whole.most_solutions.is_none_or(|most| solutions <= most));
     for state in sample.solutions.iter().chain(&sample.preload_gap_states) {
