@@ -150,3 +150,11 @@ pub(crate) enum TableFormat {
     #[cfg(feature = "parquet")]
     Parquet,
 }
+
+impl TableFormat {
+    /// The endings of files.
+    pub(crate) fn endings() -> Vec<String> {
+        let forms = Self::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        forms.map(|form| format!(".{}", form.get_name())).collect()
+    }
+}

@@ -1,9 +1,9 @@
 //! `slideway check`
 
-use crate::Outcome;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use slideway::check::{self};
 

@@ -1,9 +1,9 @@
 //! `slideway draw`
 
-use crate::Outcome;
 use crate::arguments::{DrawArguments, PictureTheme, Which};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::{Picture, SHARPNESS};
 use crate::watch::{Watch, outcome};

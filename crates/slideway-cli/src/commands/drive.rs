@@ -1,9 +1,9 @@
 //! `slideway drive`
 
-use crate::Outcome;
 use crate::arguments::DriveArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};

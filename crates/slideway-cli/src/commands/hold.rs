@@ -1,9 +1,9 @@
 //! `slideway hold`
 
-use crate::Outcome;
 use crate::arguments::{Drives, HoldArguments};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::standstill::{self, HoldOptions};

@@ -1,9 +1,9 @@
 //! `slideway limits`
 
-use crate::Outcome;
 use crate::arguments::LimitsArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture;
 use crate::watch::Watch;

@@ -1,9 +1,9 @@
 //! `slideway map`
 
-use crate::Outcome;
 use crate::arguments::{Destination, MapArguments};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::watch::Watch;

@@ -1,9 +1,9 @@
 //! `slideway modes`
 
-use crate::Outcome;
 use crate::arguments::{ModesArguments, ModesFormat, SearchArguments};
 use crate::failure::Failure;
 use crate::input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;

@@ -1,9 +1,9 @@
 //! `slideway report`
 
-use crate::Outcome;
 use crate::arguments::ReportArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::configuration::Configuration;

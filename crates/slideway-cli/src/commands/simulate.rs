@@ -1,16 +1,17 @@
 //! `slideway simulate`
 
-use crate::Outcome;
 use crate::arguments::{CheckFormat, Preference, SimulateArguments};
 use crate::failure::Failure;
+use crate::halt::Halt;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
 use crate::table::{Metadata, unfinished};
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
-use crate::watch::{self, Halt, Watch};
+use crate::watch::{self, Watch};
 use slideway::Report;
 use slideway::configuration::Configuration;
 use slideway::fault::{Fault, FaultKind, Faults};

@@ -1,9 +1,9 @@
 //! `slideway size`
 
-use crate::Outcome;
 use crate::arguments::SizeArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::size::{self, SizeOptions};

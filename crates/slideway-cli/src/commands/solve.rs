@@ -1,9 +1,9 @@
 //! `slideway solve`
 
-use crate::Outcome;
 use crate::arguments::{Format, SolveArguments};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;

@@ -1,13 +1,14 @@
 //! `slideway sweep`
 
-use crate::Outcome;
 use crate::arguments::{SweepArguments, TableFormat};
 use crate::failure::Failure;
+use crate::halt::Halt;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
-use crate::watch::{Alarm, Halt, Watch};
+use crate::watch::{Alarm, Watch};
 use slideway::progress::Progress;
 use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
@@ -57,7 +58,10 @@ fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
         (None, Some("parquet")) => Ok(TableFormat::Parquet),
         #[cfg(not(feature = "parquet"))]
         (None, Some("parquet")) => Err(Failure::WithoutParquet),
-        (None, Some(_)) => Err(Failure::UnknownEnding { path: path.map(Path::to_owned).unwrap_or_default() }),
+        (None, Some(_)) => {
+            let path = path.map(Path::to_owned).unwrap_or_default();
+            Err(Failure::UnknownEnding { path, known: TableFormat::endings() })
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::efforts::Efforts;
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, Sense};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, Vary, find, guarantee};
+use crate::limits::{ModesFound, RangeWithoutProblem, Varied, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::solve::{Stages, pattern};
@@ -30,8 +30,7 @@ pub(super) fn direction(
     direction: Sense,
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
-    let options = LimitsOptions::new(Vary::usual(&varied.name)).effort(0);
-    let found = find(varied, range, &options, work.part(0, 2))?;
+    let found = find(varied, range, None, 0, work.part(0, 2))?;
     let efforts = |value: f64| {
         let goes_on = !work.part(1, 2).is_over();
         if goes_on { Efforts::at(varied, value).ok() } else { None }
@@ -48,7 +47,7 @@ pub(super) fn direction(
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign
 /// between evenly spaced values without vanishing.
-fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Found) -> Vec<BlowUp> {
+fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &ModesFound) -> Vec<BlowUp> {
     let values = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
     let places: Vec<(f64, Option<Efforts>)> = values.map(|value| (value, at(value))).collect();
     let mut poles = Vec::new();
@@ -117,7 +116,7 @@ struct Tabulated<'c> {
     varied: &'c Varied,
     efforts: &'c dyn Fn(f64) -> Option<Efforts>,
     range: [f64; 2],
-    found: &'c Found,
+    found: &'c ModesFound,
     blow_ups: &'c [BlowUp],
     work: Work<'c>,
 }

@@ -6,7 +6,7 @@
 //! which are known where modes end at zeros of determinants: a mode that tips ends there, too, if tipping is not judged.
 
 use super::examine::margin_of;
-use super::find::{Elsewhere, Found, Knowledge, Method, PATTERNS, SingleValues};
+use super::found::{Elsewhere, Knowledge, Method, ModesFound, PATTERNS, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::modes::existence::{CountInterval, EndCause, ExistenceOptions, ModeEnd, is_same_end};
@@ -22,7 +22,7 @@ struct Stretch {
 }
 
 /// Adds these states to the numbers of preload-gap states, and cuts intervals where they begin and end.
-pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, work: Work<'_>) {
+pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound, work: Work<'_>) {
     if !varied.model().has_guided_sliders() {
         return;
     }
@@ -79,7 +79,7 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
 fn single_values(
     varied: &Varied,
     (greatest, zeros): (Option<f64>, Option<Vec<f64>>),
-    found: &Found,
+    found: &ModesFound,
     work: Work<'_>,
 ) -> SingleValues {
     let Some(mut values) = zeros else { return SingleValues::LeftOut };
@@ -94,7 +94,7 @@ fn single_values(
 
 /// Where the normal forces of contacts with free faces vanish or may vanish in a mode, whether or not a guided slider tips in it;
 /// none if the modes of the range are not known from zeros of determinants.
-fn zeros(varied: &Varied, found: &Found, work: Work<'_>) -> Option<Vec<f64>> {
+fn zeros(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Option<Vec<f64>> {
     if found.method == Method::Bracketing {
         return None;
     }

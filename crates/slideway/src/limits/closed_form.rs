@@ -4,7 +4,7 @@
 //! against the scale on which the mode problem changes are cut into pieces, each with its own line between mode problems
 //! that were made at its ends: on one line over all of it small values would drown in the rounding of great ones.
 
-use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
+use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
@@ -26,7 +26,7 @@ pub(super) fn closed_form(
     varied: &Varied,
     options: &ExistenceOptions,
     work: Work<'_>,
-) -> Result<Option<Found>, TooManyModes> {
+) -> Result<Option<ModesFound>, TooManyModes> {
     let dependence = varied.dependence();
     if dependence.problem.max(dependence.conditions) == Degree::Other {
         return Ok(None);
@@ -59,7 +59,7 @@ pub(super) fn closed_form(
     join(&mut all, [from, to], &cause);
     let method = if changes { Method::ClosedForm } else { Method::Same { at_rest: dependence.at_rest } };
     let known = Knowledge::unproven(Elsewhere::ClosedForm);
-    Ok(Some(Found {
+    Ok(Some(ModesFound {
         existence: all,
         known: vec![known; numbers.len()],
         counts: numbers,

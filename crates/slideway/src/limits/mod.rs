@@ -24,26 +24,32 @@
 //! search for the numbers of solutions over whole intervals, and `find.rs` scans anew where these contradict;
 //! `between_faces.rs` counts the states of guided sliders between their faces, which
 //! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `guarantee.rs`
-//! and `conclusion.rs` put it into words. `limits/curves.rs` samples quantities along the modes that were
+//! and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples quantities along the modes that were
 //! found, for plots.
 
+mod analysis;
+mod answer;
 mod between_faces;
 mod closed_form;
 mod conclusion;
 mod curves;
 mod examine;
 mod find;
+mod found;
 mod guarantee;
+mod options;
 mod report;
 mod scan;
 mod text;
 mod varied;
 mod vary;
 
+pub(crate) use answer::Naming;
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
-pub(crate) use find::{Found, find};
+pub(crate) use find::find;
+pub(crate) use found::ModesFound;
 pub(crate) use guarantee::guarantee;
-pub(crate) use report::Naming;
+pub use options::{EFFORT, LimitsOptions};
 pub use report::{
     CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
     SCHEMA, VariedQuantity,
@@ -54,61 +60,11 @@ pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
 
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-
-/// Certified searches that are made by default to prove numbers of solutions.
-pub const EFFORT: u64 = 800;
-/// Without a range the factor of all coefficients of friction is varied from 0 to this.
-const USUAL_FACTOR: f64 = 10.0;
-/// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.
-const USUAL_FRICTION: f64 = 1.0;
-
-/// What to find the limits of.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct LimitsOptions {
-    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to twice its value, but
-    /// at least to 1; whatever else is varied needs a range.
-    pub vary: Vary,
-    /// Modes count only where no normal force exceeds this (N).
-    pub max_reaction: Option<f64>,
-    /// Whether motion in the opposite direction is looked at, too.
-    pub both_directions: bool,
-    /// How many certified searches may be made in each direction to prove numbers of solutions over intervals; one that
-    /// visits many nodes counts as several. With 0 nothing is proven.
-    pub effort: u64,
-}
-
-impl LimitsOptions {
-    /// The limits of what is named, in the direction of the model, whatever the reactions, with the usual effort.
-    pub fn new(vary: Vary) -> Self {
-        Self { vary, max_reaction: None, both_directions: false, effort: EFFORT }
-    }
-
-    /// Modes count only where no normal force exceeds this (N).
-    #[must_use]
-    pub fn max_reaction(mut self, force: impl Into<Option<f64>>) -> Self {
-        self.max_reaction = force.into();
-        self
-    }
-
-    /// Whether motion in the opposite direction is looked at, too.
-    #[must_use]
-    pub fn both_directions(mut self, both: bool) -> Self {
-        self.both_directions = both;
-        self
-    }
-
-    /// With so many certified searches in each direction at most.
-    #[must_use]
-    pub fn effort(mut self, searches: u64) -> Self {
-        self.effort = searches;
-        self
-    }
-}
+use analysis::Analysis;
 
 /// The intervals in which each mode exists, what ends it, and the number of solutions in between.
 ///
@@ -139,52 +95,4 @@ pub fn limits_with(
 fn limits_of(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<LimitsReport, Faults> {
     let analysis = Analysis::new(model, options, work)?;
     finite(analysis.report(&Naming::new(model)?))
-}
-
-/// What is varied, over which range, and the modes of both directions.
-struct Analysis {
-    varied: Varied,
-    range: [f64; 2],
-    shown_in: ShownIn,
-    found: Found,
-    reversed: Option<(Varied, Found)>,
-}
-
-impl Analysis {
-    fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
-        let vary = &options.vary;
-        let varied = Varied::new(model, &vary.name)?;
-        let shown_in = vary.shown_in(&varied);
-        let range = vary.ends(&varied, || usual_range(model, &varied))?;
-        let directions = 1 + usize::from(options.both_directions);
-        let found = find(&varied, range, options, work.part(0, directions))?;
-        let reversed = if options.both_directions {
-            let varied = Varied::new(&model.reversed(), &vary.name)?;
-            let found = find(&varied, range, options, work.part(1, directions))?;
-            Some((varied, found))
-        } else {
-            None
-        };
-        Ok(Self { varied, range, shown_in, found, reversed })
-    }
-
-    fn report(&self, naming: &Naming) -> LimitsReport {
-        let reversed = self.reversed.as_ref().map(|(_, found)| found);
-        report::report(naming, &self.varied, self.range, (&self.found, reversed))
-    }
-}
-
-/// The range of a coefficient of friction, or of their factor; whatever else is varied needs one.
-fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
-    if varied.is_friction_factor() {
-        Ok([0.0, USUAL_FACTOR])
-    } else if model.is_friction_coefficient(&varied.name) {
-        Ok([0.0, (2.0 * varied.present()?).max(USUAL_FRICTION)])
-    } else {
-        Err(fault(FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() }))
-    }
-}
-
-fn fault(kind: FaultKind) -> Faults {
-    Fault::general(kind).into()
 }

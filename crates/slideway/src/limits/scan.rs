@@ -4,7 +4,7 @@
 //! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values inside every
 //! interval between two ends that has none yet, until no further mode turns up.
 
-use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
+use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
 use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::ContactState;
@@ -52,7 +52,7 @@ impl Scanner<'_> {
     ///
     /// # Errors
     /// More patterns than the options allow.
-    pub(super) fn scan(&self, further: &[f64]) -> Result<Found, TooManyModes> {
+    pub(super) fn scan(&self, further: &[f64]) -> Result<ModesFound, TooManyModes> {
         let [from, to] = self.options.range;
         let even = (0..=STEPS)
             .map(|step| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 });
@@ -82,7 +82,7 @@ impl Scanner<'_> {
             self.line(at).map_or(modes.len(), |line| line.distinct(modes, 0.0))
         });
         let known = Knowledge::unproven(Elsewhere::Sampled(0.0));
-        Ok(Found {
+        Ok(ModesFound {
             existence,
             known: vec![known; counts.len()],
             counts,

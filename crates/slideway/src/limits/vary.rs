@@ -1,6 +1,6 @@
 //! What is to be varied, and over which range.
 
-use super::{ShownIn, Varied};
+use super::varied::{ShownIn, Varied};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
 use crate::model::Value;

@@ -1,7 +1,7 @@
 //! What is told of a design: plain data, which are the JSON output.
 
 use super::margin::{Margin, Question};
-use super::search::{Cause, End, Found, Place};
+use super::search::{Cause, End, Place, SizesFound};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
@@ -136,7 +136,7 @@ pub(super) struct Sought<'q> {
     pub(super) value: f64,
     /// The margin in the model.
     pub(super) present: Option<Margin>,
-    pub(super) found: Found,
+    pub(super) found: SizesFound,
 }
 
 pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) -> SizeReport {
@@ -205,7 +205,7 @@ fn sample(place: &Place) -> Sample {
 }
 
 /// Every so many of the values that were tried, and those at which the wanted margin is just met.
-fn samples(found: &Found, steps: usize, wanted: f64) -> Vec<Sample> {
+fn samples(found: &SizesFound, steps: usize, wanted: f64) -> Vec<Sample> {
     let [first, last] = [found.places.first(), found.places.last()].map(|place| place.map_or(0.0, |p| p.at));
     let step = (last - first) / steps as f64;
     let is_row = |place: &&Place| {

@@ -48,7 +48,7 @@ pub(super) struct Gap {
 }
 
 /// What a search finds.
-pub(super) struct Found {
+pub(super) struct SizesFound {
     /// The margin at evenly spaced values, and where dips and humps made more necessary.
     pub(super) places: Vec<Place>,
     /// Where the margin is met.
@@ -66,7 +66,7 @@ pub(super) struct Search<'q> {
 }
 
 impl Search<'_> {
-    pub(super) fn run(&self) -> Found {
+    pub(super) fn run(&self) -> SizesFound {
         let [from, to] = self.range;
         // Both ends of the range stay exact.
         let value = |step: usize| {
@@ -79,7 +79,7 @@ impl Search<'_> {
         };
         let mut places: Vec<Place> = (0..=self.steps).map(place).collect();
         self.follow_extrema(&mut places);
-        Found { met: self.met(&places), gaps: self.gaps(&places), places }
+        SizesFound { met: self.met(&places), gaps: self.gaps(&places), places }
     }
 
     fn place(&self, at: f64) -> Place {

@@ -3,7 +3,7 @@
 use super::attainability::not_computed;
 use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
-use super::found::Found;
+use super::found::SearchFound;
 use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
@@ -53,7 +53,7 @@ pub(super) struct Answer<'a> {
 
 impl<'a> Answer<'a> {
     /// The report on all solutions.
-    pub(super) fn report(&self, found: &Found<'_>) -> Result<SolveReport, Faults> {
+    pub(super) fn report(&self, found: &SearchFound<'_>) -> Result<SolveReport, Faults> {
         let lists = found.lists();
         let mut tipping = Tipped::default();
         let mut states = States::default();
@@ -142,7 +142,7 @@ impl<'a> Answer<'a> {
     }
 
     /// The groups of contacts that admit nothing, where several groups were searched one by one.
-    fn jammed_groups(&self, found: &Found<'_>) -> Vec<Vec<String>> {
+    fn jammed_groups(&self, found: &SearchFound<'_>) -> Vec<Vec<String>> {
         if found.result.groups.len() < 2 || found.is_partial() {
             return Vec::new();
         }

@@ -143,7 +143,7 @@ pub fn solve_with(
         jumps,
         enclosed: enclosed.as_ref().ok(),
     };
-    let mut report = answer.report(&found::Found {
+    let mut report = answer.report(&found::SearchFound {
         result: &result,
         rounded: enclosed.as_ref().err(),
         most: options.most,

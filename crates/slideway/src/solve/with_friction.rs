@@ -1,7 +1,7 @@
 //! The answer for a mechanism whose friction is multiplied by a factor: no model describes it.
 
 use super::answer::Answer;
-use super::found::Found;
+use super::found::SearchFound;
 use super::parts::{Stages, rougher};
 use super::{SolveOptions, searched};
 use crate::enclosure::{UncertainParameters, enclosure};
@@ -39,6 +39,6 @@ pub(crate) fn solve_with_friction(
         jumps,
         enclosed: enclosed.as_ref().ok(),
     };
-    let found = Found { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
+    let found = SearchFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
     finite(answer.report(&found)?)
 }
