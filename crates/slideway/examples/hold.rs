@@ -1,8 +1,7 @@
 //! How far out may a bracket be loaded so that it clamps itself on its pole? `cargo run --example hold`
 #![allow(clippy::print_stdout)]
 
-use slideway::standstill::HoldOptions;
-use slideway::{Faults, Model, Settings, gallery, hold};
+use slideway::{Faults, HoldOptions, Model, Settings, gallery, hold};
 
 fn main() -> Result<(), Faults> {
     let bracket = Model::parse(gallery::find("bracket-on-pole").expect("in the gallery").text)?;

@@ -1,8 +1,7 @@
 //! From which friction on is a drawer locked, and how well is that known? `cargo run --example limits`
 #![allow(clippy::print_stdout)]
 
-use slideway::limits::{LimitsOptions, Vary};
-use slideway::{Faults, Model, gallery, limits};
+use slideway::{Faults, LimitsOptions, Model, Vary, gallery, limits};
 
 fn main() -> Result<(), Faults> {
     let model = Model::parse(gallery::find("drawer").expect("in the gallery").text)?;

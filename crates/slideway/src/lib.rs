@@ -38,6 +38,10 @@
 //!
 //! [`motion::simulate`] follows a mechanism in time.
 //!
+//! [`sweep::Sweep`] and [`map::map`] have the solutions over many points.
+//!
+//! Every question has options with a constructor and setters, and its answer is a [`Report`]: plain data, told as text and JSON.
+//!
 //! What takes long tells its [`progress`], and can be told to end.
 //!
 //! Whoever has matrices instead of a mechanism (an absolute value equation, a linear complementarity problem)
@@ -70,16 +74,18 @@ pub mod sweep;
 
 pub use check::check;
 pub use drawing::{Drawing, GROUND};
-pub use drive::drive;
+pub use drive::{DriveOptions, drive};
 pub use fault::Faults;
-pub use limits::limits;
-pub use model::{Model, Settings};
-pub use motion::simulate;
+pub use limits::{LimitsOptions, Vary, limits};
+pub use map::{MapOptions, map};
+pub use model::{Model, Settings, Value};
+pub use motion::{SimulateOptions, simulate};
 pub use nalgebra;
 pub use report::{Report, SolveReport};
-pub use size::size;
-pub use solve::solve;
-pub use standstill::hold;
+pub use size::{SizeOptions, size};
+pub use solve::{SolveOptions, solve};
+pub use standstill::{HoldOptions, hold};
+pub use sweep::{Sweep, SweepOptions};
 
 pub use slideway_modes as modes;
 pub use slideway_modes::{interval, printable, progress};

@@ -5,6 +5,7 @@
 //! these is bisected. Those at single values, where a normal force passes through zero, are those of `solve` at its zeros,
 //! which are known where modes end at zeros of determinants: a mode that tips ends there, too, if tipping is not judged.
 
+use super::closed_form::value_at;
 use super::examine::margin_of;
 use super::found::{Elsewhere, Knowledge, Method, ModesFound, PATTERNS, SingleValues};
 use super::scan::bisect;
@@ -118,9 +119,7 @@ fn zeros(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Option<Vec<f64>
         let mut shares: Vec<f64> = ends.filter(vanishes).map(|end| end.at).chain([0.0, 1.0]).collect();
         shares.sort_by(f64::total_cmp);
         shares.dedup_by(|next, kept| is_same_end(*next, *kept));
-        let value =
-            |share: f64| if share == 1.0 { piece[1] } else { piece[0] + share * (piece[1] - piece[0]) };
-        zeros.extend(shares.into_iter().map(value));
+        zeros.extend(shares.into_iter().map(|share| value_at([piece[0], piece[1]], share)));
     }
     zeros.dedup();
     Some(zeros)

@@ -114,9 +114,8 @@ fn pieces(varied: &Varied, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// From the fraction of a piece to the value of what is varied.
-fn stretch(existence: &mut Existence, counts: &mut [CountInterval], [from, to]: [f64; 2]) {
-    // Both ends stay exact.
-    let value = |t: f64| if t == 1.0 { to } else { from + t * (to - from) };
+fn stretch(existence: &mut Existence, counts: &mut [CountInterval], piece: [f64; 2]) {
+    let value = |t: f64| value_at(piece, t);
     for mode in &mut existence.modes {
         mode.from.at = value(mode.from.at);
         mode.to.at = value(mode.to.at);
@@ -125,6 +124,11 @@ fn stretch(existence: &mut Existence, counts: &mut [CountInterval], [from, to]: 
         interval.from = value(interval.from);
         interval.to = value(interval.to);
     }
+}
+
+/// The value at a fraction of a piece; both ends are exact.
+pub(super) fn value_at([from, to]: [f64; 2], t: f64) -> f64 {
+    if t == 1.0 { to } else { from + t * (to - from) }
 }
 
 fn append(all: &mut Vec<CountInterval>, more: Vec<CountInterval>) {

@@ -71,7 +71,7 @@ pub use report::{
 };
 pub use rules::{Decisions, Hold, Instant, Jam, Successor, Successors, Thorough};
 pub use series::{Column, Series};
-pub use tree::{Branching, Tree, TreeReport, simulate_all, tree_report};
+pub use tree::{Branching, BranchingReport, Tree, TreeReport, simulate_all, tree_report};
 
 use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};

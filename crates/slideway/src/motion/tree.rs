@@ -35,6 +35,7 @@ pub struct Branching {
 
 /// All motions, told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TreeReport {
     /// Version of this layout.
     pub schema: &'static str,
@@ -46,6 +47,7 @@ pub struct TreeReport {
 
 /// A motion, told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BranchingReport {
     /// At each event with several possible phases the number of the one that is taken, counted from 1.
     pub branches: Vec<usize>,

@@ -1,9 +1,9 @@
 //! How far friction may grow before the answer changes.
 
+use super::mode_problem::has_free_face;
 use super::parts::Parts;
 use super::state::pattern;
 use crate::fault::Faults;
-use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::existence::{
@@ -29,9 +29,7 @@ pub(super) fn add(
     let friction = Friction { mechanism, influence, velocity_signs };
     let Some(all) = friction.along(&|_| true) else { return };
     // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no mode that could be followed.
-    let is_free = |k: usize| {
-        mechanism.preload_jumps(ContactId(k)) && !all.line.has_jump.get(k).copied().unwrap_or(false)
-    };
+    let is_free = |k: usize| has_free_face(mechanism, &all.line.has_jump, k);
     let hangs =
         |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
     if report.solutions.iter().chain(&report.preload_gap_states).any(hangs) {

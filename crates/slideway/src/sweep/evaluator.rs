@@ -71,16 +71,15 @@ impl Plan {
         let mut settings = Settings::default();
         let mut friction = 1.0;
         for (kind, value) in self.varied.iter().zip(values) {
-            let text = format!("{value:e}");
             settings = match *kind {
                 Kind::Friction => {
                     friction = *value;
                     settings
                 }
-                Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, &text),
-                Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, &text),
-                Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, &text),
-                Kind::Time => settings.time(&text),
+                Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, *value),
+                Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, *value),
+                Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, *value),
+                Kind::Time => settings.time(*value),
             };
         }
         (settings, friction)
