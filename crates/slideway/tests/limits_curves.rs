@@ -88,8 +88,8 @@ fn points_are_the_solutions_of_their_states() {
             for (mode, curve) in modes.iter().zip(found) {
                 for point in samples(curve) {
                     let settings = Settings::default()
-                        .parameter("mu_1", &format!("{:e}", point.at))
-                        .parameter("direction", &direction.to_string());
+                        .parameter("mu_1", format!("{:e}", point.at))
+                        .parameter("direction", direction.to_string());
                     let answer = solve(&klepp.with(&settings).expect("sound")).expect("solvable");
                     let states =
                         if mode.preload_gap { &answer.preload_gap_states } else { &answer.solutions };

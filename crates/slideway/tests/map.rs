@@ -64,7 +64,7 @@ fn classes_are_the_numbers_of_certified_solutions() {
         for i in 0..size[0] {
             let [x, y] = [middle(ranges[0], i, size[0]), middle(ranges[1], j, size[1])];
             let settings =
-                Settings::default().parameter("mu_1", &x.to_string()).parameter("F_20", &y.to_string());
+                Settings::default().parameter("mu_1", x.to_string()).parameter("F_20", y.to_string());
             let answer = solve(&klepp.with(&settings).expect("sound")).expect("solvable");
             let meaning = &report.classes[report.class_at(i, j)].meaning;
             let expected = ClassMeaning::Solutions {
@@ -327,10 +327,10 @@ fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
         let report = mapped(&packed, &options.probe(1));
         for (i, j) in (0..size[0]).flat_map(|i| (0..size[1]).map(move |j| (i, j))) {
             let [value, force] = [middle([from, to], i, size[0]), middle(pressing, j, size[1])];
-            let mut settings = Settings::default().parameter("V", &format!("{force:e}"));
+            let mut settings = Settings::default().parameter("V", format!("{force:e}"));
             // The lower one has no friction, and nothing presses the upper one: a factor changes nothing.
             if x != "friction" {
-                settings = settings.parameter(x, &format!("{value:e}"));
+                settings = settings.parameter(x, format!("{value:e}"));
             }
             let answer = solve(&packed.with(&settings).expect("sound")).expect("solvable");
             let states = answer.solutions.iter().chain(&answer.preload_gap_states);

@@ -36,7 +36,7 @@ fn with_parameters(model: &Model, member: &Value) -> Model {
     let parameters = member["parameters"].as_object().unwrap();
     let settings = parameters
         .iter()
-        .fold(Settings::default(), |all, (name, value)| all.parameter(name, &value.to_string()));
+        .fold(Settings::default(), |all, (name, value)| all.parameter(name, value.to_string()));
     model.with(&settings).unwrap()
 }
 

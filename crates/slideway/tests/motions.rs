@@ -121,7 +121,7 @@ fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration
     let reference: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
     let gallery_model = Model::parse(gallery::find("stribeck-belt").unwrap().text).unwrap();
     for run in reference["run"].as_array().unwrap() {
-        let settings = Settings::default().parameter("v", &run["belt"].as_float().unwrap().to_string());
+        let settings = Settings::default().parameter("v", run["belt"].as_float().unwrap().to_string());
         let model = gallery_model.with(&settings).unwrap();
         let options = SimulateOptions::new(4.0).tolerance(1e-10);
         let history = simulate(&model, &options).unwrap();
@@ -189,7 +189,7 @@ fn a_preload_gap_is_followed_until_it_closes() {
         let settings = [("mu_1", "0.24"), ("F_30", "0.5*m*g"), ("k", "0 N/m"), ("c", "0 N s/m")];
         let settings =
             settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
-        let settings = settings.parameter("P", &format!("{growth} N"));
+        let settings = settings.parameter("P", format!("{growth} N"));
         let history = simulate(&model.with(&settings).unwrap(), &SimulateOptions::new(0.12)).unwrap();
         let told = words(&history);
         assert_eq!(history.events.len(), 2, "{told:#?}");

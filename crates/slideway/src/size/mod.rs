@@ -37,8 +37,8 @@ use crate::limits::{Varied, Vary};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-use margin::{Margin, Question};
-use search::Search;
+use margin::{Margin, MarginQuestion};
+use search::MarginSearch;
 
 /// Steps of the evenly spaced values against locking.
 const STEPS: usize = 500;
@@ -134,16 +134,16 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let varied = Varied::new(model, name)?;
     let range = options.vary.ends(&varied, || usual_range(model, &varied))?;
     let opposite = if options.both_directions { Some(Varied::new(&model.reversed(), name)?) } else { None };
-    let question = Question { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
+    let question = MarginQuestion { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
     let value = varied.present()?;
     let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
-    let found = Search { question: &question, wanted: options.margin, range, steps, work }.run();
+    let found = MarginSearch { question: &question, wanted: options.margin, range, steps, work }.run();
     finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
 }
 
 /// The margin in the model; nothing where it has no position, which other values may have.
-fn present(question: &Question<'_>, value: f64, work: Work<'_>) -> Result<Option<Margin>, Faults> {
+fn present(question: &MarginQuestion<'_>, value: f64, work: Work<'_>) -> Result<Option<Margin>, Faults> {
     let everywhere = |fault: &&Fault| {
         matches!(
             fault.kind,

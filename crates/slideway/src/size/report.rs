@@ -1,7 +1,7 @@
 //! What is told of a design: plain data, which are the JSON output.
 
-use super::margin::{Margin, Question};
-use super::search::{Cause, End, Place, SizesFound};
+use super::margin::{Margin, MarginQuestion};
+use super::search::{Cause, End, SizesFound, Tried};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
@@ -130,7 +130,7 @@ pub struct RangeWithoutPosition {
 
 /// What was sought, and what was found.
 pub(super) struct Sought<'q> {
-    pub(super) question: Question<'q>,
+    pub(super) question: MarginQuestion<'q>,
     pub(super) range: [f64; 2],
     pub(super) steps: usize,
     pub(super) value: f64,
@@ -155,7 +155,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         load,
         margin: options.margin,
         both_directions: options.both_directions,
-        present: sample(&Place { at: *value, margin: *present }),
+        present: sample(&Tried { at: *value, margin: *present }),
         met: found.met.iter().map(interval).collect(),
         without_position: found.gaps.iter().map(gap).collect(),
         samples: samples(found, *steps, options.margin),
@@ -195,7 +195,7 @@ fn gap(gap: &super::search::Gap) -> RangeWithoutPosition {
     RangeWithoutPosition { from: gap.from, to: gap.to, reason }
 }
 
-fn sample(place: &Place) -> Sample {
+fn sample(place: &Tried) -> Sample {
     let (is, margin) = match place.margin {
         Some(Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
         Some(Margin::Infinite) => (SampleKind::Infinite, None),
@@ -208,7 +208,7 @@ fn sample(place: &Place) -> Sample {
 fn samples(found: &SizesFound, steps: usize, wanted: f64) -> Vec<Sample> {
     let [first, last] = [found.places.first(), found.places.last()].map(|place| place.map_or(0.0, |p| p.at));
     let step = (last - first) / steps as f64;
-    let is_row = |place: &&Place| {
+    let is_row = |place: &&Tried| {
         let index = (place.at - first) / step;
         let row = (index / (steps / ROWS) as f64).round() * (steps / ROWS) as f64;
         (index - row).abs() < 1e-6

@@ -1,7 +1,7 @@
 //! What a design comes to, in words.
 
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
-use super::search::Place;
+use super::search::Tried;
 use crate::report::number::number;
 use crate::report::number::precise;
 
@@ -11,7 +11,7 @@ const SAME: f64 = 1e-9;
 /// A report whose conclusion is sought.
 pub(super) struct Words<'r> {
     pub(super) report: &'r SizeReport,
-    pub(super) places: &'r [Place],
+    pub(super) places: &'r [Tried],
 }
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize) -> String {

@@ -47,7 +47,7 @@ mod words;
 
 pub use report::{
     AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, HingeRange, HoldReport,
-    JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Verdict,
+    HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold,
 };
 
 use crate::configuration::{free_motions, motion_in_words, unit};
@@ -142,9 +142,9 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
         let found = (rest.found.is_some(), !release.found.is_empty());
         verdict(&setup, nominal, found, work.part(3, 4))
     } else if rest.found.is_some() {
-        Verdict::MayHold
+        HoldVerdict::MayHold
     } else {
-        Verdict::DoesNotHold
+        HoldVerdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
     finite(HoldReport {
@@ -218,13 +218,13 @@ fn load_report(
     Ok(Some(Over { found: report, undecided }))
 }
 
-fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> Verdict {
+fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> HoldVerdict {
     match (holds, moves) {
-        (true, false) => Verdict::Holds,
-        (true, true) if slips_against_static_friction(setup, factor, work) => Verdict::HoldsOrSlips,
-        (true, true) => Verdict::HoldsUntilPushed,
-        (false, true) => Verdict::Moves,
-        (false, false) => Verdict::Neither,
+        (true, false) => HoldVerdict::Holds,
+        (true, true) if slips_against_static_friction(setup, factor, work) => HoldVerdict::HoldsOrSlips,
+        (true, true) => HoldVerdict::HoldsUntilPushed,
+        (false, true) => HoldVerdict::Moves,
+        (false, false) => HoldVerdict::Neither,
     }
 }
 

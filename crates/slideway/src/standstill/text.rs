@@ -1,6 +1,6 @@
 //! The analysis of standstill as text for people.
 
-use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold, Verdict};
+use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
 use crate::report::number::{against, number};
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -50,26 +50,26 @@ impl Text<'_> {
     fn verdict(&mut self) {
         let ways = count(self.report.releases.len(), "state", "states");
         let (colour, words) = match self.report.verdict {
-            Verdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
-            Verdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
-            Verdict::HoldsUntilPushed => (
+            HoldVerdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
+            HoldVerdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
+            HoldVerdict::HoldsUntilPushed => (
                 AnsiColor::Green,
                 format!(
                     "It holds. Once pushed it goes on sliding, as kinetic friction is below static: {ways}."
                 ),
             ),
-            Verdict::HoldsOrSlips => (
+            HoldVerdict::HoldsOrSlips => (
                 AnsiColor::Yellow,
                 format!("It can hold, and it can begin to slide, too: {ways} of sliding besides rest."),
             ),
-            Verdict::Moves => {
+            HoldVerdict::Moves => {
                 (AnsiColor::Red, format!("It does not hold: {ways} in which it begins to move."))
             }
-            Verdict::Neither => (
+            HoldVerdict::Neither => (
                 AnsiColor::Red,
                 "It can neither stay at rest nor begin to move with finite accelerations.".to_owned(),
             ),
-            Verdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
+            HoldVerdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
         };
         self.painted(colour.on_default().bold(), &words, "");
         if !self.report.motions_without_inertia.is_empty() {

@@ -1,7 +1,7 @@
 //! The values that a varied quantity takes, in SI units.
 
 use super::distribution::Distribution;
-use super::options::{GridAxis, GridValues, SampledAxis, SampledValues, fault};
+use super::options::{GridAxis, GridValues, LOGARITHM, SampledAxis, SampledValues, fault};
 use super::quantity::Quantity;
 use crate::fault::{AxisProblem, Faults};
 use crate::model::{Model, Value};
@@ -41,7 +41,7 @@ impl Axis {
         };
         let reader = Reader { model, quantity: &quantity };
         let values = reader.grid(&axis.values).map_err(|problem| fault(&axis.to_string(), problem))?;
-        Ok(Self { values, quantity, given })
+        Ok(Self { quantity, values, given })
     }
 
     /// # Errors
@@ -50,7 +50,7 @@ impl Axis {
         let quantity = Quantity::find(model, &axis.name)?;
         let reader = Reader { model, quantity: &quantity };
         let values = reader.drawn(&axis.values).map_err(|problem| fault(&axis.to_string(), problem))?;
-        Ok(Self { values, quantity, given: None })
+        Ok(Self { quantity, values, given: None })
     }
 }
 
@@ -187,9 +187,8 @@ impl Reader<'_> {
                 Ok(Distribution::normal(mean, deviation))
             }
             SampledValues::LogNormal { median, deviation } => {
-                let what = "the standard deviation of the logarithm";
                 let median = positive("the median", self.value(median)?)?;
-                Ok(Distribution::lognormal(median, positive(what, *deviation)?))
+                Ok(Distribution::lognormal(median, positive(LOGARITHM, *deviation)?))
             }
         }
     }

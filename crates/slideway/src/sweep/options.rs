@@ -273,9 +273,10 @@ fn sampled_values(text: &str) -> Result<SampledValues, AxisProblem> {
     };
     Ok(match name {
         NORMAL => SampledValues::Normal { mean: first.into(), deviation: second.into() },
-        // What is no number is refused as one that is not positive.
         LOGNORMAL => {
-            SampledValues::LogNormal { median: first.into(), deviation: second.parse().unwrap_or(f64::NAN) }
+            // What is no number is refused as one that is not positive.
+            let refused = |_| AxisProblem::Parameter { what: LOGARITHM, value: f64::NAN };
+            SampledValues::LogNormal { median: first.into(), deviation: second.parse().map_err(refused)? }
         }
         _ => SampledValues::Uniform { from: first.into(), to: second.into() },
     })
@@ -284,6 +285,8 @@ fn sampled_values(text: &str) -> Result<SampledValues, AxisProblem> {
 const NORMAL: &str = "normal";
 const LOGNORMAL: &str = "lognormal";
 const UNIFORM: &str = "uniform";
+/// What the second number of a lognormal distribution is.
+pub(super) const LOGARITHM: &str = "the standard deviation of the logarithm";
 
 /// What is wrong with an axis.
 pub(super) fn fault(text: &str, problem: AxisProblem) -> Faults {

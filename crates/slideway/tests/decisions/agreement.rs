@@ -28,11 +28,11 @@ fn random_model(text: &str, random: &mut Random) -> Option<Model> {
     for parameter in &model.parameters {
         let name = &*parameter.name;
         if name.starts_with("mu") {
-            settings = settings.parameter(name, &format!("{:.4}", 1.5 * random.next()));
+            settings = settings.parameter(name, format!("{:.4}", 1.5 * random.next()));
         } else if name == "direction" {
             settings = settings.parameter(name, if random.next() < 0.5 { "-1" } else { "1" });
         } else if name.starts_with("F_") && name.ends_with('0') {
-            settings = settings.parameter(name, &format!("{:.3} N", (10.0 * random.next() - 5.0).max(0.0)));
+            settings = settings.parameter(name, format!("{:.3} N", (10.0 * random.next() - 5.0).max(0.0)));
         }
     }
     model.with(&settings).ok()

@@ -342,7 +342,7 @@ fn sizes_agree_with_scanning() {
     use slideway::solve::solve;
     let report = against_locking(&model("cam-follower"), "phi", 2.0);
     let margin = |phi: f64| {
-        let at = Settings::default().parameter("phi", &format!("{phi:e}"));
+        let at = Settings::default().parameter("phi", format!("{phi:e}"));
         let report = solve(&model("cam-follower").with(&at).expect("sound")).expect("sound");
         let moves = !report.solutions.is_empty();
         moves && report.margins.expect("few modes").no_solution.is_none_or(|margin| margin >= 2.0)

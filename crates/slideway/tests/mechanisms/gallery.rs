@@ -160,7 +160,7 @@ fn modes_over_a_turn(name: &str, list: &[(&str, &str)], coordinate: &str, joint:
     let mut modes = BTreeSet::new();
     for step in 0..72 {
         let settings =
-            Settings::default().position(coordinate, &format!("{} deg", 5.0 * f64::from(step) + 1.0));
+            Settings::default().position(coordinate, format!("{} deg", 5.0 * f64::from(step) + 1.0));
         let report = report_with(&model, &settings);
         modes.extend(report.solutions.iter().map(|solution| mode(solution, joint).to_owned()));
     }
@@ -184,7 +184,7 @@ fn the_pins_friction_tips_the_yoke() {
     // Somewhere in the turn the yoke lies flat with a smooth pin and tips with the rough one.
     let tipped_by_friction = (0..360).filter(|degrees| {
         let at = |mu: &str| {
-            let settings = parameters(&[("mu_pin", mu)]).position("phi", &format!("{degrees}.5 deg"));
+            let settings = parameters(&[("mu_pin", mu)]).position("phi", format!("{degrees}.5 deg"));
             let report = report_with(&model("scotch-yoke"), &settings);
             mode(only(&report), "yoke").to_owned()
         };

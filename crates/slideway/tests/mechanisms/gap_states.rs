@@ -15,7 +15,7 @@ use slideway::motion::decision::{Standing, Successor, successors};
 use slideway::motion::{ContactPhase, End, JointPhase, Phase, SimulateOptions, simulate};
 use slideway::report::{CertificateKind, Proof, SolveReport, Status};
 use slideway::solve::solve;
-use slideway::standstill::{HoldOptions, Verdict, hold};
+use slideway::standstill::{HoldOptions, HoldVerdict, hold};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
@@ -106,7 +106,7 @@ fn a_preload_that_differs_by_side_leaves_a_gap_where_faces_coincide() {
 
     // At rest it begins to move in the same way.
     let held = hold(&model, &HoldOptions::default()).unwrap();
-    assert_eq!(held.verdict, Verdict::Moves);
+    assert_eq!(held.verdict, HoldVerdict::Moves);
     let [release] = &held.releases[..] else { panic!("{:?}", held.releases) };
     assert_eq!((release.joints[0].slip, release.joints[1].slip), (-1, 1));
     assert_eq!(release.patterns, ["0+"]);

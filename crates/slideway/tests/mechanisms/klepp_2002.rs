@@ -82,19 +82,19 @@ fn reference() -> Reference {
 fn settings(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Settings {
     let Parameters { alpha_deg, b_over_l, h_over_l, mu_2, mu_3 } = reference().parameters;
     Settings::default()
-        .parameter("alpha", &format!("{alpha_deg} deg"))
-        .parameter("b", &format!("{b_over_l}*l"))
-        .parameter("h", &format!("{h_over_l}*l"))
-        .parameter("m", &format!("{} kg", scale.mass))
-        .parameter("g", &format!("{} m/s^2", scale.gravity))
-        .parameter("l", &format!("{} m", scale.length))
-        .parameter("mu_1", &mu_1.to_string())
-        .parameter("mu_2", &mu_2.to_string())
-        .parameter("mu_3", &mu_3.to_string())
-        .parameter("F_10", &format!("{}*m*g", preload[0]))
-        .parameter("F_20", &format!("{}*m*g", preload[1]))
-        .parameter("F_30", &format!("{}*m*g", preload[2]))
-        .parameter("direction", &velocity.to_string())
+        .parameter("alpha", format!("{alpha_deg} deg"))
+        .parameter("b", format!("{b_over_l}*l"))
+        .parameter("h", format!("{h_over_l}*l"))
+        .parameter("m", format!("{} kg", scale.mass))
+        .parameter("g", format!("{} m/s^2", scale.gravity))
+        .parameter("l", format!("{} m", scale.length))
+        .parameter("mu_1", mu_1.to_string())
+        .parameter("mu_2", mu_2.to_string())
+        .parameter("mu_3", mu_3.to_string())
+        .parameter("F_10", format!("{}*m*g", preload[0]))
+        .parameter("F_20", format!("{}*m*g", preload[1]))
+        .parameter("F_30", format!("{}*m*g", preload[2]))
+        .parameter("direction", velocity.to_string())
 }
 
 fn solved(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> SolveReport {
@@ -161,10 +161,10 @@ fn the_friction_is_what_the_applied_forces_and_inertia_leave(#[values(1.0, -1.0)
     // F_1 + F_2 + F_3 = P - k q - c qd - m qdd
     let (force, stiffness, damping, position, mass) = (2.5, 40.0, 3.0, 0.1, 1.0);
     let settings = settings(EARTH, 0.2, [0.1, 0.2, 0.0], velocity)
-        .parameter("P", &format!("{force} N"))
-        .parameter("k", &format!("{stiffness} N/m"))
-        .parameter("c", &format!("{damping} N s/m"))
-        .position("q", &format!("{position} m"));
+        .parameter("P", format!("{force} N"))
+        .parameter("k", format!("{stiffness} N/m"))
+        .parameter("c", format!("{damping} N s/m"))
+        .position("q", format!("{position} m"));
     let report = report_with(&model("klepp-2002"), &settings);
     assert!(!report.solutions.is_empty());
     for solution in &report.solutions {
@@ -250,11 +250,11 @@ fn the_locking_value_in_closed_form(#[case] alpha: f64, #[case] b: f64, #[case] 
     let locking = 2.0 / f64::to_radians(alpha).tan() + mu_2;
     let count = |mu_1: f64, velocity: f64| {
         let settings = settings(EARTH, mu_1, [0.0; 3], velocity)
-            .parameter("alpha", &format!("{alpha} deg"))
-            .parameter("b", &format!("{b}*l"))
-            .parameter("h", &format!("{h}*l"))
-            .parameter("mu_2", &mu_2.to_string())
-            .parameter("mu_3", &mu_2.to_string());
+            .parameter("alpha", format!("{alpha} deg"))
+            .parameter("b", format!("{b}*l"))
+            .parameter("h", format!("{h}*l"))
+            .parameter("mu_2", mu_2.to_string())
+            .parameter("mu_3", mu_2.to_string());
         report_with(&model("klepp-2002"), &settings).solutions.len()
     };
     assert_eq!(count(locking - 1e-9, -1.0), 1);
@@ -306,9 +306,9 @@ fn influence_coefficients_of_section_6() {
         let tangent = f64::to_radians(alpha).tan();
         let arm = h / (2.0 * b);
         let settings = settings(Scale { mass, ..EARTH }, 0.3, [0.0; 3], 1.0)
-            .parameter("alpha", &format!("{alpha} deg"))
-            .parameter("b", &format!("{b}*l"))
-            .parameter("h", &format!("{h}*l"));
+            .parameter("alpha", format!("{alpha} deg"))
+            .parameter("b", format!("{b}*l"))
+            .parameter("h", format!("{h}*l"));
         let model = model("klepp-2002").with(&settings).unwrap();
         let influence = report_with(&model, &Settings::default()).influence;
         for (k, found) in influence.normal_forces.iter().enumerate() {
@@ -398,9 +398,9 @@ proptest! {
         prop_assume!((alpha - 90.0).abs() > 2.0);
         let velocity = if forwards { 1.0 } else { -1.0 };
         let settings = settings(EARTH, mu[0], preload, velocity)
-            .parameter("mu_2", &mu[1].to_string())
-            .parameter("mu_3", &mu[2].to_string())
-            .parameter("alpha", &format!("{alpha} deg"));
+            .parameter("mu_2", mu[1].to_string())
+            .parameter("mu_3", mu[2].to_string())
+            .parameter("alpha", format!("{alpha} deg"));
         let report = report_with(&model("klepp-2002"), &settings);
         let (sin, cos) = f64::to_radians(alpha).sin_cos();
         for solution in &report.solutions {

@@ -119,7 +119,7 @@ fn greatest_reactions_bound_modes_on_both_sides_of_locking() {
     let (mu_1a, mu_1b) = (above.from.expect("finite"), below.to.expect("finite"));
     assert!(mu_1b < 0.452_653_96 && 0.452_653_96 < mu_1a && mu_1a - mu_1b < 0.1);
     for (direction, mu_1) in [("1", mu_1a), ("-1", mu_1b)] {
-        let at = settings(direction).parameter("mu_1", &mu_1.to_string());
+        let at = settings(direction).parameter("mu_1", mu_1.to_string());
         let report = solve(&model("klepp-2002").with(&at).unwrap()).unwrap();
         let greatest = |solution: &slideway::report::Solution| {
             solution.contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max)

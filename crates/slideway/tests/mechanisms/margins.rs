@@ -26,7 +26,7 @@ fn a_drawer_has_the_textbook_s_margin() {
 fn with_friction(coefficients: [f64; 3], factor: f64, list: &[(&str, &str)]) -> SolveReport {
     let scaled = ["mu_1", "mu_2", "mu_3"].into_iter().zip(coefficients);
     let settings = scaled
-        .fold(parameters(list), |settings, (name, mu)| settings.parameter(name, &(mu * factor).to_string()));
+        .fold(parameters(list), |settings, (name, mu)| settings.parameter(name, (mu * factor).to_string()));
     solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound")
 }
 
@@ -87,7 +87,7 @@ fn the_critical_contact_is_the_one_whose_friction_matters_most() {
     let present = if parameter == "mu_1" { 0.3 } else { 0.1 };
     let solutions = |factor: f64| {
         let settings: Settings =
-            parameters(&settings).parameter(parameter, &(present * critical.factor * factor).to_string());
+            parameters(&settings).parameter(parameter, (present * critical.factor * factor).to_string());
         solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound").solutions.len()
     };
     assert_ne!(solutions(1.0 - 1e-6), solutions(1.0 + 1e-6));

@@ -19,7 +19,7 @@ const BRANCH: &str = include_str!("branch.toml");
 fn at(model: &Model, values: &[(&str, f64)]) -> Mechanism {
     let settings = values
         .iter()
-        .fold(Settings::default(), |settings, (name, value)| settings.position(name, &format!("{value:e}")));
+        .fold(Settings::default(), |settings, (name, value)| settings.position(name, format!("{value:e}")));
     Mechanism::new(&model.with(&settings).unwrap()).unwrap()
 }
 
@@ -55,7 +55,7 @@ fn the_branch_of_the_drawing_is_kept_beside_others(
             assert_close(*found, expected, 1.0, 1e-11);
         }
     }
-    let report = report_with(&model, &Settings::default().position("q0", &q0.to_string()));
+    let report = report_with(&model, &Settings::default().position("q0", q0.to_string()));
     assert_eq!(report.steps_from_drawing, Some(state.steps));
     assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
 }
@@ -411,7 +411,7 @@ fn modes_end_where_sliding_reverses() {
     let place = ends.to.unwrap();
     assert_close(begins.from.unwrap(), place, place, 1e-7);
     let sliding = |q0: f64| {
-        let report = report_with(&model, &Settings::default().position("q0", &q0.to_string()));
+        let report = report_with(&model, &Settings::default().position("q0", q0.to_string()));
         report.solutions[0].contacts[0].sliding_velocity
     };
     assert!(sliding(place - 1e-6) > 0.0 && sliding(place + 1e-6) < 0.0);

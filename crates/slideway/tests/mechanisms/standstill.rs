@@ -4,7 +4,7 @@ use crate::answers::{assert_close, model, parameters};
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
-use slideway::standstill::{ContactRange, HoldOptions, HoldReport, LoadReport, Range, Verdict, hold};
+use slideway::standstill::{ContactRange, HoldOptions, HoldReport, HoldVerdict, LoadReport, Range, hold};
 
 fn options(load: &str) -> HoldOptions {
     HoldOptions::default().load(load)
@@ -63,7 +63,7 @@ fn a_bracket_holds_every_load_from_half_its_height_over_friction_on(
         let report =
             held("bracket-on-pole", &[("x", &x), ("mu_static", &mu_static), ("d", d)], &options("W"));
         assert_eq!((report.holds, load(&report).self_locking), (locks, locks), "x = {x}, d = {d}");
-        assert_eq!(report.verdict, if locks { Verdict::MayHold } else { Verdict::DoesNotHold });
+        assert_eq!(report.verdict, if locks { HoldVerdict::MayHold } else { HoldVerdict::DoesNotHold });
         let value = load(&report).threshold.value.expect("there is one");
         assert_close(value, 1.0 / factor, 1.0, 1e-12);
         let all = Range { least: None, greatest: None };
@@ -124,22 +124,22 @@ slide = "plane"
 }
 
 #[rstest]
-#[case(10.0, Verdict::Holds)]
-#[case(13.0, Verdict::HoldsUntilPushed)]
-#[case(17.0, Verdict::Moves)]
-#[case(-10.0, Verdict::Holds)]
-#[case(-13.0, Verdict::HoldsUntilPushed)]
-#[case(-17.0, Verdict::Moves)]
+#[case(10.0, HoldVerdict::Holds)]
+#[case(13.0, HoldVerdict::HoldsUntilPushed)]
+#[case(17.0, HoldVerdict::Moves)]
+#[case(-10.0, HoldVerdict::Holds)]
+#[case(-13.0, HoldVerdict::HoldsUntilPushed)]
+#[case(-17.0, HoldVerdict::Moves)]
 fn a_block_on_an_incline_holds_up_to_the_angle_of_static_friction(
     #[case] angle: f64,
-    #[case] verdict: Verdict,
+    #[case] verdict: HoldVerdict,
 ) {
     let report = held_text(&incline(angle, 0.2, 0.3), &options("weight"));
     assert_eq!(report.verdict, verdict);
     assert_eq!(load(&report).self_locking, verdict.holds());
     let tangent = angle.to_radians().tan();
     assert_close(threshold(&report), tangent.abs(), 0.0, 1e-12);
-    assert_eq!(report.releases.len(), usize::from(verdict != Verdict::Holds));
+    assert_eq!(report.releases.len(), usize::from(verdict != HoldVerdict::Holds));
     for release in &report.releases {
         let found = release.coordinates[0].acceleration;
         // 20 N / 2 kg (sin - mu cos) down the slope
@@ -211,7 +211,7 @@ fn a_wedge_holds_up_to_twice_the_angle_of_friction(#[values(8.0, 20.0, 24.0, -24
     assert_close(floor, limit, 0.0, 1e-12);
     let held = limit <= 0.2;
     assert_eq!((report.holds, load(&report).self_locking), (held, held));
-    assert_eq!(report.verdict, if held { Verdict::Holds } else { Verdict::Moves });
+    assert_eq!(report.verdict, if held { HoldVerdict::Holds } else { HoldVerdict::Moves });
 }
 
 #[rstest]
@@ -273,7 +273,7 @@ fn friction_of_the_paper_at_rest_is_indeterminate() {
     let weight = 9.81;
     let settings = [("F_20", "0 N"), ("mu_1", "0.3"), ("P", "0.05*m*g")];
     let report = held("klepp-2002", &settings, &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::Holds);
+    assert_eq!(report.verdict, HoldVerdict::Holds);
     let t = 80.0_f64.to_radians().tan();
     let least = 0.05 * 0.05 * t / (1.0 + 0.1 * t);
     let greatest = (0.15 + 0.3 * 0.025 * t) / (1.0 + 0.3 * t);
@@ -475,7 +475,7 @@ fn the_painleve_klein_apparatus_can_hold_and_slip() {
     // of the velocity begin a motion from rest.
     let settings = [("mu", "4"), ("P_1", "12 N")];
     let report = held("painleve-klein", &settings, &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::HoldsOrSlips);
+    assert_eq!(report.verdict, HoldVerdict::HoldsOrSlips);
     let mut expected = Vec::new();
     for direction in ["1", "-1"] {
         let settings = [&settings[..], &[("direction", direction)]].concat();
@@ -500,9 +500,9 @@ fn the_painleve_klein_apparatus_can_hold_and_slip() {
 fn a_guided_slider_that_would_tip_can_do_neither() {
     let text = include_str!("../../../../docs/src/examples/guided-tips.toml");
     let report = held_text(text, &HoldOptions::default());
-    assert_eq!((report.verdict, report.holds), (Verdict::Neither, false));
+    assert_eq!((report.verdict, report.holds), (HoldVerdict::Neither, false));
     let report = held_text(&text.replace("guided_slider", "block_slider"), &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::Moves);
+    assert_eq!(report.verdict, HoldVerdict::Moves);
 }
 
 #[test]
@@ -518,7 +518,7 @@ fn a_load_comes_before_a_drive_of_the_same_name() {
 #[test]
 fn sticking_and_slipping_joints_coexist() {
     let report = held("telescopic-boom", &[], &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::Moves);
+    assert_eq!(report.verdict, HoldVerdict::Moves);
     let slips: Vec<i8> = report.releases[0].joints.iter().map(|joint| joint.slip).collect();
     assert_eq!((report.releases.len(), slips), (1, vec![0, 0, 1]));
 }

@@ -46,14 +46,14 @@ fn no_solution_at_any_value_is_missing() {
     ];
     for (name, ranges) in ranges {
         let as_ranges = ranges.iter().fold(Settings::default(), |settings, (parameter, from, to, unit)| {
-            settings.parameter(parameter, &format!("{from} {unit}..{to} {unit}"))
+            settings.parameter(parameter, format!("{from} {unit}..{to} {unit}"))
         });
         let whole = report_with(&model(name), &as_ranges).uncertainty.expect("ranges");
         for step in 0..40 {
             let at = |index: usize| (f64::from(step) * [0.754_877_666, 0.569_840_291][index]).fract();
             let values = ranges.iter().enumerate().fold(Settings::default(), |settings, (index, range)| {
                 let value = range.1 + (range.2 - range.1) * at(index);
-                settings.parameter(range.0, &format!("{value} {}", range.3))
+                settings.parameter(range.0, format!("{value} {}", range.3))
             });
             check_sample(&whole, &report_with(&model(name), &values));
         }

@@ -123,7 +123,7 @@ fn a_block_rests_inside_a_preloaded_pad() {
     // `hold` knows the pad: between 9.6 and 10.4 mm friction holds, beyond it moves.
     for (depth, holds) in [(0.0097, true), (0.0103, true), (0.0095, false), (0.0105, false)] {
         let model = Model::parse(&text).unwrap();
-        let settings = Settings::default().position("x", &format!("{} m", 1.0 + depth));
+        let settings = Settings::default().position("x", format!("{} m", 1.0 + depth));
         let report = hold(&model.with(&settings).unwrap(), &HoldOptions::default()).unwrap();
         assert_eq!(report.holds, holds, "{depth}");
     }
