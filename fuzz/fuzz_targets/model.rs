@@ -6,7 +6,7 @@ use slideway::Report;
 use slideway::check;
 use slideway::model::Model;
 use slideway::modes::{Limits, SearchOptions};
-use slideway::report::{self, Style};
+use slideway::report::Style;
 use slideway::solve::{SolveOptions, solve_with};
 use std::ops::ControlFlow;
 
@@ -28,7 +28,6 @@ fuzz_target!(|text: &str| {
     let _ = check::check(&model);
     if let Ok(answer) = solve_with(&model, &options(), &mut |_| ControlFlow::Continue(())) {
         // JSON refuses numbers that are not finite by itself.
-        let _ =
-            (answer.text(Style::default()), answer.csv(), answer.json());
+        let _ = (answer.text(Style::default()), answer.csv(), answer.json());
     }
 });

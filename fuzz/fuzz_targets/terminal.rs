@@ -8,7 +8,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::printable;
 use slideway::raw_problem::RawProblem;
-use slideway::report::{self, Style};
+use slideway::report::Style;
 use slideway::{check, gallery, solve};
 use slideway_pictures::drawing::{Shown, sheet, svg};
 use slideway_pictures::page::{Page, to_html};
