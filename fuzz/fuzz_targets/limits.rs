@@ -2,8 +2,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::Report;
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, limits_with, to_json, to_text};
+use slideway::limits::{LimitsOptions, Vary, limits_with};
 use slideway::model::Model;
 use slideway::report::Style;
 use std::ops::ControlFlow;
@@ -15,7 +16,11 @@ fuzz_target!(|input: (u8, bool, &str)| {
     let (number, both_directions, vary) = input;
     let models = gallery::MODELS;
     let model = Model::parse(models[usize::from(number) % models.len()].text).expect("the gallery is sound");
-    let options = LimitsOptions { both_directions, ..LimitsOptions::of(vary) };
+    let vary: Vary = match vary.parse() {
+        Ok(vary) => vary,
+        Err(faults) => return assert!(!faults.to_string().is_empty()),
+    };
+    let options = LimitsOptions::new(vary.clone()).both_directions(both_directions);
     let mut pieces = 0;
     let mut callback = |_: &_| {
         pieces += 1;
@@ -25,9 +30,9 @@ fuzz_target!(|input: (u8, bool, &str)| {
         Ok(Some(report)) => {
             let [from, to] = [report.vary.from, report.vary.to];
             assert!(from < to && (to - from).is_finite(), "{vary}: {from} to {to}");
-            let text = to_text(&report, Style::default());
+            let text = report.text(Style::default());
             assert!(!text.contains("NaN") && !text.contains(" inf"), "{text}");
-            assert!(!to_json(&report).is_empty());
+            assert!(!report.json().is_empty());
         }
         Ok(None) => {}
         Err(faults) => assert!(!faults.to_string().is_empty()),

@@ -2,10 +2,11 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::Report;
 use slideway::check;
 use slideway::model::Model;
 use slideway::modes::{Limits, SearchOptions};
-use slideway::report::{self, Style};
+use slideway::report::Style;
 use slideway::solve::{SolveOptions, solve_with};
 use std::ops::ControlFlow;
 
@@ -13,7 +14,7 @@ use std::ops::ControlFlow;
 fn options() -> SolveOptions {
     let limits = Limits { solutions: 100, singular: 20, bases: 1000, ..Limits::default() };
     let search = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
-    SolveOptions { search, most: 10, margins: false }
+    SolveOptions::default().search(search).most(10).margins(false)
 }
 
 fuzz_target!(|text: &str| {
@@ -27,7 +28,6 @@ fuzz_target!(|text: &str| {
     let _ = check::check(&model);
     if let Ok(answer) = solve_with(&model, &options(), &mut |_| ControlFlow::Continue(())) {
         // JSON refuses numbers that are not finite by itself.
-        let _ =
-            (report::to_text(&answer, Style::default()), report::to_csv(&answer), report::to_json(&answer));
+        let _ = (answer.text(Style::default()), answer.csv(), answer.json());
     }
 });

@@ -2,12 +2,13 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use slideway::Report;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::printable;
 use slideway::raw_problem::RawProblem;
-use slideway::report::{self, Style};
+use slideway::report::Style;
 use slideway::{check, gallery, solve};
 use slideway_pictures::drawing::{Shown, sheet, svg};
 use slideway_pictures::page::{Page, to_html};
@@ -22,20 +23,20 @@ const COLOURS: [&str; 5] = ["\u{1b}[0m", "\u{1b}[1m", "\u{1b}[31m", "\u{1b}[32m"
 
 fn told(model: &Model) {
     let found = check::check(model).map(|found| {
-        assert_inert(&check::to_json(&found), &[]);
-        check::to_text(&found, Style::Colour)
+        assert_inert(&found.json(), &[]);
+        found.text(Style::Colour)
     });
     assert_inert(&found.unwrap_or_else(|faults| faults.to_string()), &COLOURS);
     let Ok(answer) = solve::solve(model) else { return };
-    let text = report::to_text(&answer, Style::Colour);
+    let text = answer.text(Style::Colour);
     assert_inert(&text, &COLOURS);
     // Colours are the program's own: without them, and in plain text, the same is told.
     let plain = COLOURS.iter().fold(text, |plain, sequence| plain.replace(sequence, ""));
-    assert_eq!(plain, report::to_text(&answer, Style::Plain));
-    let json: serde_json::Value = serde_json::from_str(&report::to_json(&answer)).expect("JSON");
+    assert_eq!(plain, answer.text(Style::Plain));
+    let json: serde_json::Value = serde_json::from_str(&answer.json()).expect("JSON");
     assert_eq!(json["model"]["title"].as_str(), model.title.as_deref());
-    assert_inert(&report::to_json(&answer), &[]);
-    assert_inert(&report::to_csv(&answer), &[]);
+    assert_inert(&answer.json(), &[]);
+    assert_inert(&answer.csv(), &[]);
     let Ok(mechanism) = Mechanism::new(model) else { return };
     let Ok(configuration) = Configuration::new(&mechanism) else { return };
     let Some(sheet) = sheet(&mechanism, &configuration, Some(&answer), Shown::All) else { return };

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use slideway::Report;
 use slideway::modes::{Limits, SearchOptions};
-use slideway::raw_problem::{RawProblem, solve, to_json, to_npz, to_text};
+use slideway::raw_problem::{RawProblem, solve, to_npz};
 use slideway::report::Style;
 
 /// Solves the problem and writes the answer in all forms.
@@ -12,5 +13,5 @@ pub fn answer(problem: &RawProblem) {
     let options = SearchOptions { nodes: 200, limits, ..SearchOptions::default() };
     let Ok(report) = solve(problem, &options, 10, &mut |_| ControlFlow::Continue(())) else { return };
     // JSON refuses numbers that are not finite by itself; `null` stands for what is told in `beyond_range`.
-    let _ = (to_json(&report), to_text(&report, Style::default()), to_npz(&report));
+    let _ = (report.json(), report.text(Style::default()), to_npz(&report));
 }

@@ -2,7 +2,7 @@
 //!
 //! They tell of names and texts from elsewhere. All of them become printable here, before colours come in.
 
-use crate::input::FaultyInput;
+use crate::faulty_input::FaultyInput;
 use annotate_snippets::{
     Annotation, AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet, Title,
 };
@@ -80,21 +80,17 @@ struct Texts {
 
 impl Texts {
     fn of(faulty: &FaultyInput) -> Self {
-        let settings = faulty.input.settings.entries().iter().map(|setting| {
+        let settings = faulty.settings.entries().iter().map(|setting| {
             let option = match setting.kind {
                 SettingKind::Parameter => "--set ",
                 SettingKind::Position => "--at ",
                 SettingKind::Rate => "--rate ",
                 // Its text is time=VALUE.
-                SettingKind::Time => "--",
+                _ => "--",
             };
             (format!("{option}{}", setting.text()), option.len())
         });
-        Self {
-            model_name: faulty.input.name.clone(),
-            model: faulty.input.text(),
-            settings: settings.collect(),
-        }
+        Self { model_name: faulty.name.clone(), model: faulty.text.clone(), settings: settings.collect() }
     }
 
     fn group(&self, fault: &Fault) -> Group<'static> {

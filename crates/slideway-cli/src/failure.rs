@@ -1,12 +1,9 @@
 //! Why a command could not do what it was asked to do.
 
-use crate::Outcome;
-use crate::arguments::TableFormat;
 use crate::diagnostics::{self, Note};
-use crate::input::FaultyInput;
-use crate::time_series::SeriesFormat;
-use crate::watch::Halt;
-use clap::ValueEnum;
+use crate::faulty_input::FaultyInput;
+use crate::halt::Halt;
+use crate::outcome::Outcome;
 use slideway::raw_problem::RawFaults;
 use slideway_pictures::NotFinite;
 use std::fmt;
@@ -53,7 +50,7 @@ pub(crate) enum Failure {
     /// The unfinished table is that of another sweep.
     AnotherSweep { path: PathBuf, command: String },
     /// The ending of a table says nothing.
-    UnknownEnding { path: PathBuf },
+    UnknownEnding { path: PathBuf, known: Vec<String> },
     /// A table that is not written from beginning to end.
     NoStream,
     /// A plot of a sweep that does not go along a line.
@@ -82,7 +79,7 @@ pub(crate) enum Failure {
     /// An answer that is no text would go to a terminal.
     BinaryOnTerminal,
     /// The ending of a file names no form of a time series.
-    SeriesFormat { path: PathBuf },
+    SeriesFormat { path: PathBuf, known: &'static [&'static str] },
     /// A table with absurdly many rows.
     TooManyRows { rows: f64, most: f64 },
     /// Files hold one motion.
@@ -140,7 +137,7 @@ impl Failure {
             Self::AnotherSweep { path, command } => {
                 format!("`{}` belongs to another sweep: `{command}`", path.display())
             }
-            Self::UnknownEnding { path } => {
+            Self::UnknownEnding { path, .. } => {
                 format!("the extension of `{}` does not determine the form of the table", path.display())
             }
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
@@ -178,7 +175,7 @@ impl Failure {
             Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
             Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
             Self::BinaryOnTerminal => "an .npz archive cannot be written to a terminal".to_owned(),
-            Self::SeriesFormat { path } => {
+            Self::SeriesFormat { path, .. } => {
                 format!("`{}` is not the name of a time series", path.display())
             }
             Self::TooManyRows { rows, most } => {
@@ -205,9 +202,6 @@ impl Failure {
                 Some("`slideway solve` lists them; `--solution none` draws the mechanism alone".to_owned())
             }
             Self::BinaryOnTerminal => Some("write it to a file with --output".to_owned()),
-            Self::SeriesFormat { .. } => {
-                Some(format!("possible extensions: {}", SeriesFormat::ENDINGS.join(", ")))
-            }
             Self::CannotGoOn { .. } => {
                 Some("the finished part is kept: make room, then repeat the command with --resume".to_owned())
             }
@@ -223,7 +217,9 @@ impl Failure {
             Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
-            Self::FileFormat { known, .. } => Some(format!("possible extensions: {}", known.join(", "))),
+            Self::FileFormat { known, .. } | Self::SeriesFormat { known, .. } => {
+                Some(format!("possible extensions: {}", known.join(", ")))
+            }
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
             Self::Unfinished { .. } => {
                 Some("continue it with --resume, or start over with --force".to_owned())
@@ -234,10 +230,8 @@ impl Failure {
             Self::AnotherSweep { .. } => Some(
                 "repeat that command with --resume and the same model, or start over with --force".to_owned(),
             ),
-            Self::UnknownEnding { .. } => {
-                let forms = TableFormat::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-                let endings: Vec<String> = forms.map(|form| format!(".{}", form.get_name())).collect();
-                Some(format!("possible extensions: {}; or use --format", endings.join(", ")))
+            Self::UnknownEnding { known, .. } => {
+                Some(format!("possible extensions: {}; or use --format", known.join(", ")))
             }
             Self::NoLine => {
                 Some("vary one quantity, or omit --plot; `slideway map` shows two quantities".to_owned())

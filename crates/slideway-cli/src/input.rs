@@ -2,6 +2,7 @@
 
 use crate::arguments::ModelArguments;
 use crate::failure::Failure;
+use crate::faulty_input::FaultyInput;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::gallery;
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
@@ -20,15 +21,6 @@ pub(crate) struct Input {
     pub(crate) settings: Settings,
     /// Settings that could not be read.
     malformed: Vec<Fault>,
-}
-
-/// Texts beside what is wrong with them.
-#[derive(Debug)]
-pub(crate) struct FaultyInput {
-    /// The texts.
-    pub(crate) input: Input,
-    /// Their faults.
-    pub(crate) faults: Faults,
 }
 
 impl Input {
@@ -68,13 +60,16 @@ impl Input {
 
     /// The failure that these faults are.
     pub(crate) fn refused(&self, faults: Faults) -> Failure {
-        Failure::Input(Box::new(FaultyInput { input: self.clone(), faults }))
+        self.refused_with(self.settings.clone(), faults)
     }
 
     /// The failure that these faults of another option of the command line are.
     pub(crate) fn refused_option(&self, option: Setting, faults: Faults) -> Failure {
-        let input = Self { settings: Settings::single(option), ..self.clone() };
-        Failure::Input(Box::new(FaultyInput { input, faults }))
+        self.refused_with(Settings::default().with(option), faults)
+    }
+
+    fn refused_with(&self, settings: Settings, faults: Faults) -> Failure {
+        Failure::Input(Box::new(FaultyInput { name: self.name.clone(), text: self.text(), settings, faults }))
     }
 
     /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in place.

@@ -4,8 +4,12 @@ mod arguments;
 mod commands;
 mod diagnostics;
 mod failure;
+mod faulty_input;
+mod halt;
 mod input;
+mod outcome;
 mod output;
+mod paths;
 mod picture;
 mod pixels;
 mod table;
@@ -13,46 +17,19 @@ mod threads;
 mod time_series;
 mod watch;
 
+use anstream::ColorChoice;
 use arguments::{Arguments, Command};
+use clap::builder::Styles;
 use clap::{CommandFactory, Parser};
 use failure::Failure;
-use output::Output;
-use slideway::report::Status;
+use outcome::Outcome;
+use output::{Output, complain};
+use slideway::printable;
+use std::borrow::Cow;
 use std::process::ExitCode;
 
-/// What a command found, as its exit code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Outcome {
-    /// There are solutions, or the command did what it was asked to do.
-    Done = 0,
-    /// There is no solution: friction locks the mechanism.
-    NoSolution = 1,
-    /// The input makes no sense.
-    Refused = 2,
-    /// The search was incomplete and found nothing, or time was up.
-    Unknown = 3,
-    /// It was interrupted.
-    Interrupted = 130,
-}
-
-impl From<Status> for Outcome {
-    fn from(status: Status) -> Self {
-        match status {
-            Status::One | Status::Several | Status::Continuum | Status::PreloadGap => Self::Done,
-            Status::None => Self::NoSolution,
-            Status::Unknown => Self::Unknown,
-        }
-    }
-}
-
-impl From<Outcome> for ExitCode {
-    fn from(outcome: Outcome) -> Self {
-        Self::from(outcome as u8)
-    }
-}
-
 fn main() -> ExitCode {
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| arguments::explain(&error));
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| explain(&error));
     let color = arguments.color.into();
     threads::bound(color);
     let outcome = run(&arguments.command, &Output::standard(color));
@@ -79,7 +56,23 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
     }
 }
 
-fn refuse(failure: &Failure, color: anstream::ColorChoice) -> Outcome {
-    output::complain(&failure.to_string(), color);
+/// Says what is wrong with the arguments, or the help or version that they ask for, and ends the program.
+///
+/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so that
+/// whatever is still in it comes from the arguments.
+fn explain(error: &clap::Error) -> ! {
+    let is_printable =
+        |word: std::ffi::OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
+    if !error.use_stderr() || std::env::args_os().all(is_printable) {
+        error.exit();
+    }
+    let plain = Arguments::command().styles(Styles::plain()).try_get_matches().err();
+    let text = plain.map_or_else(String::new, |plain| plain.render().ansi().to_string());
+    complain(printable::lines(&text).trim_end(), ColorChoice::Never);
+    std::process::exit(error.exit_code());
+}
+
+fn refuse(failure: &Failure, color: ColorChoice) -> Outcome {
+    complain(&failure.to_string(), color);
     failure.outcome()
 }

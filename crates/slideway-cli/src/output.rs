@@ -1,9 +1,10 @@
 //! Where answers and complaints go: standard output, a file that is written whole or not at all, standard error.
 
-use crate::arguments::Destination;
+use crate::arguments::{CheckFormat, Destination};
 use crate::failure::Failure;
+use crate::paths::followed;
 use anstream::{AutoStream, ColorChoice};
-use slideway::report::Style;
+use slideway::report::{Report, Style};
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -119,6 +120,17 @@ impl Output {
         }
     }
 
+    /// Writes a report in the form that is asked for.
+    ///
+    /// # Errors
+    /// As [`Output::write`].
+    pub(crate) fn tell(&self, report: &impl Report, format: CheckFormat) -> Result<(), Failure> {
+        self.write(&match format {
+            CheckFormat::Text => report.text(self.style()),
+            CheckFormat::Json => report.json(),
+        })
+    }
+
     /// Writes the answer. A reader that goes away early (`| head`) has seen all it wanted.
     ///
     /// # Errors
@@ -181,25 +193,6 @@ pub(crate) fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);
     name.into()
-}
-
-/// The file that is meant by a path, whether it exists or not: the same one however the path is spelt. Links are followed, also
-/// those to what does not exist yet.
-pub(crate) fn followed(path: &Path) -> PathBuf {
-    let mut path = path.to_owned();
-    // As many links as systems follow at most; those in a circle are left to the system to complain about.
-    for _ in 0..40 {
-        if let Ok(found) = fs::canonicalize(&path) {
-            return found;
-        }
-        let Ok(target) = fs::read_link(&path) else { break };
-        path = path.parent().unwrap_or(Path::new("")).join(target);
-    }
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    match (fs::canonicalize(folder), path.file_name()) {
-        (Ok(folder), Some(name)) => folder.join(name),
-        _ => path,
-    }
 }
 
 /// Whether a file, or what is kept beside it while it is unfinished, has the place of an input.

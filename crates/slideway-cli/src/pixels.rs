@@ -21,7 +21,7 @@ pub(crate) use without_pixels::{gif, png};
 #[cfg(feature = "png")]
 mod with_pixels {
     use super::{Animation, Failure, Output, Watch};
-    use crate::watch::Halt;
+    use crate::halt::Halt;
     use slideway::progress::Progress;
     use slideway_pictures::motion::GifFault;
     use slideway_pictures::raster;

@@ -46,7 +46,7 @@ impl SeriesFormat {
             Some("parquet") => Ok(Self::Parquet),
             #[cfg(not(feature = "parquet"))]
             Some("parquet") => Err(Failure::WithoutParquet),
-            _ => Err(Failure::SeriesFormat { path: path.to_owned() }),
+            _ => Err(Failure::SeriesFormat { path: path.to_owned(), known: &Self::ENDINGS }),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Time limits, interruptions and progress of work that takes long.
 
-use crate::Outcome;
 use crate::failure::Failure;
+use crate::halt::{Halt, rough};
+use crate::outcome::Outcome;
 use crate::output::{ProgressLine, clear_progress};
 use slideway::progress::Progress;
 use std::fmt::Write;
@@ -29,33 +30,6 @@ fn interrupt() {
     if INTERRUPTED.swap(true, Ordering::Relaxed) || !WATCHED.load(Ordering::Relaxed) {
         clear_progress();
         std::process::exit(i32::from(Outcome::Interrupted as u8));
-    }
-}
-
-/// What ended the work before it was done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Halt {
-    /// Someone interrupted it.
-    Interrupted,
-    /// It took longer than permitted.
-    TimeLimit(Duration),
-}
-
-impl Halt {
-    /// What to tell who waits.
-    pub(crate) fn in_words(self) -> String {
-        match self {
-            Self::Interrupted => "interrupted".to_owned(),
-            Self::TimeLimit(limit) => format!("ended by the time limit of {}", rough(limit.as_secs_f64())),
-        }
-    }
-
-    /// The exit code where there is no answer.
-    pub(crate) fn outcome(self) -> Outcome {
-        match self {
-            Self::Interrupted => Outcome::Interrupted,
-            Self::TimeLimit(_) => Outcome::Unknown,
-        }
     }
 }
 
@@ -191,18 +165,5 @@ impl Watch {
 impl Drop for Watch {
     fn drop(&mut self) {
         WATCHED.store(false, Ordering::Relaxed);
-    }
-}
-
-/// A time without needless digits.
-fn rough(seconds: f64) -> String {
-    if seconds < 1.0 {
-        format!("{:.0} ms", 1000.0 * seconds)
-    } else if seconds < 90.0 {
-        format!("{seconds:.0} s")
-    } else if seconds < 5400.0 {
-        format!("{:.0} min", seconds / 60.0)
-    } else {
-        format!("{:.1} h", seconds / 3600.0)
     }
 }

@@ -3,14 +3,14 @@
 //!
 //! ```
 //! use nalgebra::{dmatrix, dvector};
-//! use slideway_modes::SearchOptions;
+//! use slideway_modes::{Proof, SearchOptions};
 //! use slideway_modes::raw_problem::{RawProblem, Unknowns, solve};
 //! use std::ops::ControlFlow;
 //!
 //! // w = M z + q, w >= 0, z >= 0, w_k z_k = 0
 //! let problem = RawProblem::LinearComplementarity { m: dmatrix![1.0, 2.0; 2.0, 1.0], q: dvector![-1.0, -1.0] };
 //! let answer = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(()))?;
-//! assert_eq!((answer.solutions.len(), answer.complete), (3, "proven"));
+//! assert_eq!((answer.solutions.len(), answer.complete), (3, Proof::Proven));
 //! for solution in &answer.solutions {
 //!     let Unknowns::Complementary { z, .. } = &solution.unknowns else { unreachable!() };
 //!     println!("z = {z:?}");
@@ -118,7 +118,7 @@ pub use solutions::{
     Certificate, ClosestMode, GapShare, GapState, Limits, ModeSolution, PatternCounts, SingularMode,
     Solutions, UndecidedPattern,
 };
-pub use status::Status;
+pub use status::{Proof, Status};
 pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};
 
 /// The example of the README runs.

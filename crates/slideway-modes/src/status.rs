@@ -1,6 +1,7 @@
 //! What an answer comes to.
 
 use serde::Serialize;
+use std::fmt;
 
 /// How many solutions there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -19,4 +20,31 @@ pub enum Status {
     PreloadGap,
     /// Nothing was found, but not every pattern could be decided.
     Unknown,
+}
+
+/// Whether a list of solutions is certainly all there is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Proof {
+    /// It is.
+    #[serde(rename = "proven")]
+    Proven,
+    /// That is not proven.
+    #[serde(rename = "not proven")]
+    NotProven,
+}
+
+impl Proof {
+    /// "proven" or "not proven"
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Proven => "proven",
+            Self::NotProven => "not proven",
+        }
+    }
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.as_str())
+    }
 }

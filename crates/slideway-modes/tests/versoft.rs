@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 use slideway_modes::certificate::{Interval, IntervalMatrix, IntervalModeProblem};
 use slideway_modes::raw_problem::{RawProblem, Unknowns, solve};
-use slideway_modes::{BySide, Certificate, Completeness, ModeSolution, SearchOptions, Side, search};
+use slideway_modes::{BySide, Certificate, Completeness, ModeSolution, Proof, SearchOptions, Side, search};
 
 /// Half a unit of the last printed decimal, and a little for the rounding of the decimals to `f64`.
 const PRINTED: f64 = 5.000_000_1e-5;
@@ -90,7 +90,7 @@ fn as_many_solutions_as_printed() {
         let raw = example.problem();
         let report =
             solve(&raw, &SearchOptions::default(), 2000, &mut |_| ControlFlow::Continue(())).unwrap();
-        assert_eq!(report.complete, "proven", "{}, {}", example.function, example.name);
+        assert_eq!(report.complete, Proof::Proven, "{}, {}", example.function, example.name);
         assert_eq!(report.count, example.solutions.to_string(), "{}, {}", example.function, example.name);
         // The numbers of the example were rounded when they were printed: its solutions are near those of the print.
         let told: Vec<Vec<f64>> = report

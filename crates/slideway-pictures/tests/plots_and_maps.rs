@@ -19,7 +19,7 @@ fn model(name: &str, settings: &[(&str, &str)]) -> Model {
 }
 
 fn figure(model: &Model, vary: &str) -> Figure {
-    let options = LimitsOptions { both_directions: true, effort: 0, ..LimitsOptions::of(vary) };
+    let options = LimitsOptions::new(vary.parse().expect("a range")).both_directions(true).effort(0);
     let (report, curves) = limits_with_curves(model, &options, Quantity::NormalForce).expect("limits");
     limits_figure(&report, &curves)
 }
@@ -145,7 +145,9 @@ fn regions_of_a_map_cover_their_pixels() {
         ("drawer", "mu=0..1", "L=200 mm..500 mm", ColourBy::Margin),
     ];
     for (name, x, y, colour_by) in planes {
-        let options = MapOptions { width: 160, height: 120, colour_by, ..MapOptions::of(x, y) };
+        let options = MapOptions::new(x.parse().expect("a range"), y.parse().expect("a range"))
+            .colour_by(colour_by)
+            .size(160, 120);
         let report = map(&model(name, &[]), &options).expect("a map");
         let svg = slideway_pictures::map::to_svg(&report, &LIGHT).expect("finite places");
         let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
@@ -228,7 +230,9 @@ fn pictures() -> Vec<(String, String)> {
     ];
     let mut pictures = Vec::new();
     for (name, x, y, colour_by) in maps {
-        let options = MapOptions { width: 40, height: 40, colour_by, ..MapOptions::of(x, y) };
+        let options = MapOptions::new(x.parse().expect("a range"), y.parse().expect("a range"))
+            .colour_by(colour_by)
+            .size(40, 40);
         let report = map(&model(name, &[]), &options).expect("a map");
         pictures.push((
             format!("map of {name}"),

@@ -10,7 +10,8 @@ fn main() {
 
 fn bench(bencher: divan::Bencher<'_, '_>, name: &str, x: &str, y: &str, colour_by: ColourBy) {
     let model = Model::parse(gallery::find(name).expect("in the gallery").text).expect("a sound model");
-    let options = MapOptions { colour_by, ..MapOptions::of(x, y) };
+    let options =
+        MapOptions::new(x.parse().expect("a range"), y.parse().expect("a range")).colour_by(colour_by);
     bencher.bench_local(|| map(&model, &options).expect("a map"));
 }
 

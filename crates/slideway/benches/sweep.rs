@@ -28,11 +28,8 @@ fn sweep((name, setting, axis): (&str, &str, &str)) -> Sweep {
     let (parameter, value) = setting.split_once('=').expect("name=value");
     let model = Model::parse(text).expect("a sound model");
     let model = model.with(&Settings::default().parameter(parameter, value)).unwrap_or(model);
-    let options = SweepOptions {
-        vary: vec![format!("{axis}:{POINTS}")],
-        without_breakpoints: true,
-        ..SweepOptions::default()
-    };
+    let options =
+        SweepOptions::grid([format!("{axis}:{POINTS}").parse().expect("an axis")]).breakpoints(false);
     Sweep::new(&model, &options).expect("a sound axis")
 }
 

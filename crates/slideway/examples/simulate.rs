@@ -1,8 +1,7 @@
 //! Stick-slip in time: what happens, and the positions in steps of 0.1 s. `cargo run --example simulate`
 #![allow(clippy::print_stdout)]
 
-use slideway::motion::SimulateOptions;
-use slideway::{Faults, Model, gallery, simulate};
+use slideway::{Faults, Model, SimulateOptions, gallery, simulate};
 
 fn main() -> Result<(), Faults> {
     let model = Model::parse(gallery::find("stick-slip").expect("in the gallery").text)?;

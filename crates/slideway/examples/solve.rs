@@ -14,7 +14,7 @@ fn main() -> Result<(), Faults> {
     let push = d.drive_by_force("push", x, (drawer, [-0.2, 0.3], 0.0)).id();
     let model = d.build()?;
 
-    for mu in ["0.1", "0.3", "0.6", "0.7"] {
+    for mu in [0.1, 0.3, 0.6, 0.7] {
         let answer = solve(&model.with(&Settings::default().parameter("mu", mu))?)?;
         match answer.solutions.as_slice() {
             [] => println!("mu = {mu}: no force moves it ({})", answer.complete),

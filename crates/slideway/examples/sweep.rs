@@ -1,7 +1,7 @@
 //! Normal forces over friction as vectors, for a plot of one's own. `cargo run --example sweep`
 #![allow(clippy::print_stdout)]
 
-use slideway::sweep::{Sweep, SweepOptions};
+use slideway::sweep::{GridAxis, Sweep, SweepOptions};
 use slideway::{Faults, Model, Settings, gallery};
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ fn main() -> Result<(), Faults> {
     let model = Model::parse(gallery::find("klepp-2002").expect("in the gallery").text)?;
     let sweep = Sweep::new(
         &model.with(&Settings::default().parameter("F_20", "0 N"))?,
-        &SweepOptions::of(&["mu_1=0..0.8:81"]),
+        &SweepOptions::grid([GridAxis::linear("mu_1", 0.0, 0.8, 81)]),
     )?;
     let column =
         1 + sweep.columns().iter().position(|column| column.name == "normal_force.upper").expect("a contact");

@@ -26,7 +26,7 @@
 //! function:
 //!
 //! ```text
-//! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> Report
+//! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> SolveReport
 //! ```
 //!
 //! [`check::check`] stands beside it and says what a model consists of and what would keep it from being solved.
@@ -37,6 +37,10 @@
 //! margin against locking is just met, and [`drive::drive`] the efforts that drives need against friction.
 //!
 //! [`motion::simulate`] follows a mechanism in time.
+//!
+//! [`sweep::Sweep`] and [`map::map`] have the solutions over many points.
+//!
+//! Every question has options with a constructor and setters, and its answer is a [`Report`]: plain data, told as text and JSON.
 //!
 //! What takes long tells its [`progress`], and can be told to end.
 //!
@@ -70,16 +74,18 @@ pub mod sweep;
 
 pub use check::check;
 pub use drawing::{Drawing, GROUND};
-pub use drive::drive;
+pub use drive::{DriveOptions, drive};
 pub use fault::Faults;
-pub use limits::limits;
-pub use model::{Model, Settings};
-pub use motion::simulate;
+pub use limits::{LimitsOptions, Vary, limits};
+pub use map::{MapOptions, map};
+pub use model::{Model, Settings, Value};
+pub use motion::{SimulateOptions, simulate};
 pub use nalgebra;
-pub use report::Report;
-pub use size::size;
-pub use solve::solve;
-pub use standstill::hold;
+pub use report::{Report, SolveReport};
+pub use size::{SizeOptions, size};
+pub use solve::{SolveOptions, solve};
+pub use standstill::{HoldOptions, hold};
+pub use sweep::{Sweep, SweepOptions};
 
 pub use slideway_modes as modes;
 pub use slideway_modes::{interval, printable, progress};

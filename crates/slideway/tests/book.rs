@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use slideway::model::Model;
+use slideway::report::Proof;
 use slideway::solve::solve;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,7 +32,7 @@ fn complete_examples_can_be_solved() {
     for (page, text) in examples {
         let report = Model::parse(&text).and_then(|model| solve(&model));
         let report = report.unwrap_or_else(|faults| panic!("{page}:\n{text}\n{faults}"));
-        assert!(report.complete == "proven", "{page}:\n{text}");
+        assert!(report.complete == Proof::Proven, "{page}:\n{text}");
     }
 }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use slideway::drawing::Quantity;
+use slideway::report::Proof;
 use slideway::{Drawing, GROUND, Model, Settings, gallery, solve};
 
 fn gallery_model(name: &str) -> Model {
@@ -35,7 +36,7 @@ fn paper() -> (Drawing, [slideway::ids::ContactId; 3]) {
 fn handles_find_what_belongs_to_them() {
     let (drawing, [front, rear, upper]) = paper();
     let answer = solve(&drawing.build().unwrap()).unwrap();
-    assert_eq!(answer.complete, "proven");
+    assert_eq!(answer.complete, Proof::Proven);
     for solution in &answer.solutions {
         let names = [front, rear, upper].map(|contact| solution.contact(contact).name.as_str());
         assert_eq!(names, ["lower.front", "lower.rear", "upper"]);

@@ -6,11 +6,11 @@ use slideway::check::check;
 use slideway::fault::{FaultKind, Faults};
 use slideway::gallery::{find, telescopic_boom};
 use slideway::model::{Model, Settings};
-use slideway::report::{Report, Status};
+use slideway::report::{Proof, SolveReport, Status};
 use slideway::solve::solve;
 
 /// A weightless block pulled along its guide through its centre: nothing presses on the guide.
-fn pulled_along(kind: &str, angle: f64) -> Report {
+fn pulled_along(kind: &str, angle: f64) -> SolveReport {
     let text = format!(
         r#"
         [parameters]
@@ -62,7 +62,7 @@ fn an_unloaded_mechanism_has_one_solution_however_many_contacts_it_has() {
     let model = Model::parse(&telescopic_boom(7).unwrap()).unwrap().with(&unloaded).unwrap();
     let report = solve(&model).unwrap();
     assert_eq!((report.status, report.solutions.len()), (Status::One, 1));
-    assert_eq!(report.complete, "proven");
+    assert_eq!(report.complete, Proof::Proven);
     assert!(report.solutions[0].contacts.iter().all(|contact| contact.normal_force == 0.0));
 }
 
@@ -133,7 +133,7 @@ fn enormous_friction_is_decided_by_proof() {
     // No more friction than this is the limit: F_1 = mu_1 N_1 stays finite, and N_1 vanishes.
     let model = Model::parse(find("klepp-2002").unwrap().text).unwrap();
     let strong = solve(&model.with(&Settings::default().parameter("mu_1", "1e8")).unwrap()).unwrap();
-    assert_eq!((strong.status, strong.complete), (Status::Several, "proven"));
+    assert_eq!((strong.status, strong.complete), (Status::Several, Proof::Proven));
     assert!(strong.solutions[0].contacts[0].normal_force < 1e-6);
     assert!((strong.solutions[0].contacts[0].friction_force - 12.5).abs() < 0.1);
     let load = faults("drawer", &Settings::default().parameter("Q", "1e308 N"));
@@ -143,7 +143,7 @@ fn enormous_friction_is_decided_by_proof() {
 /// The Painleve-Klein apparatus at its critical friction without loads: a ray of solutions N = t (-1, 1), t >= 0.
 /// With the hinge of the upper slider at the distance `offset` from its middle, the couple is C = offset N, and the
 /// slider can take up N L/2 with L = 60 mm.
-fn unloaded_at_critical_friction(offset: &str) -> Report {
+fn unloaded_at_critical_friction(offset: &str) -> SolveReport {
     let text = find("painleve-klein").unwrap().text.replace(
         "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\nat = \"B\"",
         &format!(
@@ -170,7 +170,7 @@ fn forces_that_may_be_zero_are_told_as_zero() {
     let settings = Settings::default().parameter("P_2", "0 N").parameter("l", "10 m");
     let model = Model::parse(find("painleve-klein").unwrap().text).unwrap().with(&settings).unwrap();
     let report = solve(&model).unwrap();
-    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
     assert!(report.undecided_modes.is_empty(), "{:?}", report.undecided_modes);
     let solution = &report.solutions[0];
     assert!(solution.on_boundary);

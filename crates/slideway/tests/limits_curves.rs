@@ -1,7 +1,7 @@
 //! Quantities along the modes of limits: against the paper's numbers and against the solutions of single states.
 
 use slideway::gallery;
-use slideway::limits::{Curve, LimitsOptions, ModeLimits, Quantity, limits_with_curves};
+use slideway::limits::{Curve, LimitsOptions, ModeLimits, Quantity, Vary, limits_with_curves};
 use slideway::model::{Model, Settings};
 use slideway::report::{Solution, Verdict};
 use slideway::solve::solve;
@@ -19,7 +19,7 @@ fn the_paper_s_reactions() {
     let klepp = model("klepp-2002", &[("F_20", "0")]);
     let (report, curves) = limits_with_curves(
         &klepp,
-        &LimitsOptions { effort: 0, ..LimitsOptions::of("mu_1=0..0.8") },
+        &LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)).effort(0),
         Quantity::NormalForce,
     )
     .expect("solvable");
@@ -65,7 +65,7 @@ type Values = fn(&Solution) -> Vec<f64>;
 #[test]
 fn points_are_the_solutions_of_their_states() {
     let klepp = model("klepp-2002", &[]);
-    let options = LimitsOptions { both_directions: true, effort: 0, ..LimitsOptions::of("mu_1=0..0.8") };
+    let options = LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)).both_directions(true).effort(0);
     let quantities: [(Quantity, Values); 3] = [
         (Quantity::NormalForce, |solution| {
             solution.contacts.iter().map(|contact| contact.normal_force).collect()
@@ -88,8 +88,8 @@ fn points_are_the_solutions_of_their_states() {
             for (mode, curve) in modes.iter().zip(found) {
                 for point in samples(curve) {
                     let settings = Settings::default()
-                        .parameter("mu_1", &format!("{:e}", point.at))
-                        .parameter("direction", &direction.to_string());
+                        .parameter("mu_1", format!("{:e}", point.at))
+                        .parameter("direction", direction.to_string());
                     let answer = solve(&klepp.with(&settings).expect("sound")).expect("solvable");
                     let states =
                         if mode.preload_gap { &answer.preload_gap_states } else { &answer.solutions };
@@ -116,7 +116,7 @@ fn the_effort_of_a_drawer() {
     let drawer = model("drawer", &[]);
     let (_, curves) = limits_with_curves(
         &drawer,
-        &LimitsOptions { effort: 0, ..LimitsOptions::of("mu=0..0.5") },
+        &LimitsOptions::new(Vary::between("mu", 0.0, 0.5)).effort(0),
         Quantity::Effort,
     )
     .expect("driven");
@@ -128,11 +128,7 @@ fn the_effort_of_a_drawer() {
     }
     let klepp = model("klepp-2002", &[]);
     assert!(
-        limits_with_curves(
-            &klepp,
-            &LimitsOptions { effort: 0, ..LimitsOptions::of("mu_1") },
-            Quantity::Effort
-        )
-        .is_err()
+        limits_with_curves(&klepp, &LimitsOptions::new(Vary::usual("mu_1")).effort(0), Quantity::Effort)
+            .is_err()
     );
 }

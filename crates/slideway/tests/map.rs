@@ -2,6 +2,7 @@
 
 use slideway::fault::{FaultKind, Faults};
 use slideway::gallery;
+use slideway::limits::Vary;
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map, map_with};
 use slideway::model::{Model, Settings};
 use slideway::solve::solve;
@@ -15,7 +16,9 @@ fn model(name: &str, settings: &[(&str, &str)]) -> Model {
 }
 
 fn options(x: &str, y: &str, [width, height]: [usize; 2], colour_by: ColourBy) -> MapOptions {
-    MapOptions { width, height, colour_by, ..MapOptions::of(x, y) }
+    MapOptions::new(x.parse().expect("a range"), y.parse().expect("a range"))
+        .colour_by(colour_by)
+        .size(width, height)
 }
 
 fn mapped(model: &Model, options: &MapOptions) -> MapReport {
@@ -42,7 +45,7 @@ fn refined_maps_are_those_of_dense_grids() {
     for (model, x, y, size) in planes {
         for colour_by in [ColourBy::Solutions, ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
             let refined = mapped(model, &options(x, y, size, colour_by));
-            let dense = mapped(model, &MapOptions { probe: 1, ..options(x, y, size, colour_by) });
+            let dense = mapped(model, &options(x, y, size, colour_by).probe(1));
             assert_eq!(dense.points, size[0] * size[1]);
             assert!(refined.points < dense.points, "{x} {y} {colour_by:?}: {} points", refined.points);
             assert_eq!(refined.classes, dense.classes, "{x} {y} {colour_by:?}");
@@ -56,12 +59,12 @@ fn classes_are_the_numbers_of_certified_solutions() {
     let klepp = model("klepp-2002", &[]);
     let (size, ranges) = ([13, 11], [[0.0, 0.8], [0.0, 15.0]]);
     let options = options("mu_1=0..0.8", "F_20=0 N..15 N", size, ColourBy::Solutions);
-    let report = mapped(&klepp, &MapOptions { probe: 1, ..options });
+    let report = mapped(&klepp, &options.probe(1));
     for j in 0..size[1] {
         for i in 0..size[0] {
             let [x, y] = [middle(ranges[0], i, size[0]), middle(ranges[1], j, size[1])];
             let settings =
-                Settings::default().parameter("mu_1", &x.to_string()).parameter("F_20", &y.to_string());
+                Settings::default().parameter("mu_1", x.to_string()).parameter("F_20", y.to_string());
             let answer = solve(&klepp.with(&settings).expect("sound")).expect("solvable");
             let meaning = &report.classes[report.class_at(i, j)].meaning;
             let expected = ClassMeaning::Solutions {
@@ -157,7 +160,10 @@ fn the_number_of_threads_does_not_matter() {
 #[test]
 fn nonsense_is_refused() {
     let klepp = model("klepp-2002", &[]);
-    let faults = |x: &str, y: &str| -> Faults { map(&klepp, &MapOptions::of(x, y)).expect_err("refused") };
+    let faults = |x: &str, y: &str| -> Faults {
+        let options = x.parse().and_then(|x| Ok(MapOptions::new(x, y.parse()?)));
+        options.and_then(|options| map(&klepp, &options)).expect_err("refused")
+    };
     let kind = |x: &str, y: &str| faults(x, y).sorted()[0].kind.clone();
     assert!(matches!(kind("mu_1=0..0.8", "mu_1=0..1"), FaultKind::SameAxes { .. }));
     assert!(matches!(kind("mu_1=0.5..0.5", "mu_2=0..1"), FaultKind::EmptyRange { .. }));
@@ -167,7 +173,10 @@ fn nonsense_is_refused() {
         .expect("in the gallery")
         .text
         .replace("[parameters]", "[parameters]\nidle = 1");
-    let idle = map(&Model::parse(&text).expect("sound"), &MapOptions::of("mu_1=0..1", "idle=0..1"));
+    let idle = map(
+        &Model::parse(&text).expect("sound"),
+        &MapOptions::new(Vary::between("mu_1", 0.0, 1.0), Vary::between("idle", 0.0, 1.0)),
+    );
     let refused = idle.expect_err("refused").sorted()[0].kind.clone();
     assert!(matches!(refused, FaultKind::NothingVaries { .. }), "{refused:?}");
     let unknown = kind("mu_9=0..1", "mu_2=0..1");
@@ -221,8 +230,7 @@ fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() 
     for (y, range, is_interpolated) in [("F", [0.0, 12.0], true), ("h", [0.02, 0.3], false)] {
         for (colour_by, between, tipping) in &classes {
             let y_axis = format!("{y}={}..{}", range[0], range[1]);
-            let report =
-                mapped(&guided, &MapOptions { probe: 1, ..options("M=-1..1", &y_axis, size, *colour_by) });
+            let report = mapped(&guided, &options("M=-1..1", &y_axis, size, *colour_by).probe(1));
             assert_eq!(report.guarantee.contains("interpolated"), is_interpolated);
             let mut pixels = [0, 0];
             for (i, j) in (0..size[0]).flat_map(|i| (0..size[1]).map(move |j| (i, j))) {
@@ -316,13 +324,13 @@ fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
         let (size, pressing) = ([7, 6], [-60.0, 50.0]);
         let axes = [format!("{x}={from}..{to}"), format!("V={}..{}", pressing[0], pressing[1])];
         let options = options(&axes[0], &axes[1], size, ColourBy::Modes);
-        let report = mapped(&packed, &MapOptions { probe: 1, ..options });
+        let report = mapped(&packed, &options.probe(1));
         for (i, j) in (0..size[0]).flat_map(|i| (0..size[1]).map(move |j| (i, j))) {
             let [value, force] = [middle([from, to], i, size[0]), middle(pressing, j, size[1])];
-            let mut settings = Settings::default().parameter("V", &format!("{force:e}"));
+            let mut settings = Settings::default().parameter("V", format!("{force:e}"));
             // The lower one has no friction, and nothing presses the upper one: a factor changes nothing.
             if x != "friction" {
-                settings = settings.parameter(x, &format!("{value:e}"));
+                settings = settings.parameter(x, format!("{value:e}"));
             }
             let answer = solve(&packed.with(&settings).expect("sound")).expect("solvable");
             let states = answer.solutions.iter().chain(&answer.preload_gap_states);

@@ -97,8 +97,7 @@ fn the_same_happens_however_long_it_is_followed() {
 #[test]
 fn the_same_happens_at_any_tolerance() {
     for case in cases() {
-        let at =
-            |tolerance| case.outcome(&SimulateOptions { tolerance, ..SimulateOptions::new(case.duration) });
+        let at = |tolerance| case.outcome(&SimulateOptions::new(case.duration).tolerance(tolerance));
         let reference = at(1e-8);
         for tolerance in [1e-6, 1e-7, 1e-10, 1e-11] {
             let other = at(tolerance);

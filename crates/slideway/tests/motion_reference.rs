@@ -36,7 +36,7 @@ fn with_parameters(model: &Model, member: &Value) -> Model {
     let parameters = member["parameters"].as_object().unwrap();
     let settings = parameters
         .iter()
-        .fold(Settings::default(), |all, (name, value)| all.parameter(name, &value.to_string()));
+        .fold(Settings::default(), |all, (name, value)| all.parameter(name, value.to_string()));
     model.with(&settings).unwrap()
 }
 
@@ -64,7 +64,7 @@ impl Family {
         let model = with_parameters(&self.model, motion);
         let until = motion["until"].as_f64().unwrap();
         let longest_step = Some(until / 250.0);
-        let options = SimulateOptions { tolerance: TOLERANCE, longest_step, ..SimulateOptions::new(until) };
+        let options = SimulateOptions::new(until).tolerance(TOLERANCE).longest_step(longest_step);
         let history = simulate(&model, &options).unwrap();
         assert_eq!(history.end, End::Finished, "{what}");
         let expected: Vec<Vec<(f64, String)>> = serde_json::from_value(motion["joints"].clone()).unwrap();
@@ -184,8 +184,7 @@ fn elastic_guides_take_either_phase() {
     let model = with_parameters(&model, &data);
     let until = data["until"].as_f64().unwrap();
     for (damping, prefers_sliding, orders_within) in [(1.0, true, 0.4..0.6), (6.0, false, 0.6..1.4)] {
-        let options =
-            SimulateOptions { tolerance: TOLERANCE, prefers_sliding, ..SimulateOptions::new(until) };
+        let options = SimulateOptions::new(until).tolerance(TOLERANCE).prefers_sliding(prefers_sliding);
         let history = simulate(&model, &options).unwrap();
         assert_eq!(history.end, End::Finished);
         let rail = &changes(&history)[0];

@@ -82,7 +82,7 @@ fn the_slider_crank_agrees_with_an_independent_integration() {
         "/../../reference/slider-crank-motion.toml"
     ));
     let reference: toml::Table = text.unwrap().parse().unwrap();
-    let options = SimulateOptions { tolerance: 1e-10, ..SimulateOptions::new(3.0) };
+    let options = SimulateOptions::new(3.0).tolerance(1e-10);
     let history = history("slider-crank", &[("gas", "0 N"), ("T", "0 N m")], &options);
     assert_eq!(history.end, End::Finished);
     let count = |name: &str| usize::try_from(reference[name].as_integer().unwrap()).unwrap();
@@ -121,9 +121,9 @@ fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration
     let reference: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
     let gallery_model = Model::parse(gallery::find("stribeck-belt").unwrap().text).unwrap();
     for run in reference["run"].as_array().unwrap() {
-        let settings = Settings::default().parameter("v", &run["belt"].as_float().unwrap().to_string());
+        let settings = Settings::default().parameter("v", run["belt"].as_float().unwrap().to_string());
         let model = gallery_model.with(&settings).unwrap();
-        let options = SimulateOptions { tolerance: 1e-10, ..SimulateOptions::new(4.0) };
+        let options = SimulateOptions::new(4.0).tolerance(1e-10);
         let history = simulate(&model, &options).unwrap();
         assert_eq!(history.end, End::Finished);
         let expected = run["events"].as_array().unwrap();
@@ -149,7 +149,7 @@ fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration
 #[test]
 fn a_dead_centre_takes_no_energy_at_any_tolerance() {
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9] {
-        let options = SimulateOptions { tolerance, longest_step: Some(2e-3), ..SimulateOptions::new(0.2) };
+        let options = SimulateOptions::new(0.2).tolerance(tolerance).longest_step(2e-3);
         let history = history("slider-crank", &[("gas", "0 N"), ("T", "0 N m")], &options);
         assert_eq!(history.end, End::Finished);
         let error = history.energy_error / history.energy_scale;
@@ -167,8 +167,7 @@ fn slides_to_the_left(history: &History) -> bool {
     steps.iter().any(|time| reader.configuration(*time).unwrap().rates[0] < -1e-6)
 }
 
-const SLIDING: fn(f64) -> SimulateOptions =
-    |duration| SimulateOptions { prefers_sliding: true, ..SimulateOptions::new(duration) };
+const SLIDING: fn(f64) -> SimulateOptions = |duration| SimulateOptions::new(duration).prefers_sliding(true);
 
 /// To the right with F_30 at the lower end alone the preload is between both faces (theory, section 3). A vertical force V on the
 /// bar, growing or falling with time, ends that. With T = tan(alpha), a = T mu_1/2, N = V (1/2, 1/4, 1/4) + sum eta_k F_k and
@@ -190,7 +189,7 @@ fn a_preload_gap_is_followed_until_it_closes() {
         let settings = [("mu_1", "0.24"), ("F_30", "0.5*m*g"), ("k", "0 N/m"), ("c", "0 N s/m")];
         let settings =
             settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
-        let settings = settings.parameter("P", &format!("{growth} N"));
+        let settings = settings.parameter("P", format!("{growth} N"));
         let history = simulate(&model.with(&settings).unwrap(), &SimulateOptions::new(0.12)).unwrap();
         let told = words(&history);
         assert_eq!(history.events.len(), 2, "{told:#?}");
@@ -309,8 +308,7 @@ fn assert_orders(what: &str, differences: &[f64], from: f64, to: f64) {
 fn rigid(settings: &[(&str, &str)], rate: &str, options: SimulateOptions) -> History {
     let all = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
     let model = Model::parse(gallery::find("klepp-2002-spring").unwrap().text).unwrap();
-    simulate(&model.with(&all.rate("q", rate)).unwrap(), &SimulateOptions { tolerance: 1e-11, ..options })
-        .unwrap()
+    simulate(&model.with(&all.rate("q", rate)).unwrap(), &options.tolerance(1e-11)).unwrap()
 }
 
 /// At a reversal the normal forces jump and change side. On elastic guides that takes a time in proportion to 1/sqrt(stiffness),
@@ -362,7 +360,7 @@ fn elastic_guides_converge_over_changes_of_side() {
     let text = gallery::find("klepp-2002-spring").unwrap().text;
     let text = text.replacen("at = \"bar.S\"\ncomponents", "at = \"bar.A\"\ncomponents", 1);
     let model = Model::parse(&text).unwrap().with(&Settings::default().parameter("P", "20 N")).unwrap();
-    let options = SimulateOptions { tolerance: 1e-11, ..SimulateOptions::new(0.12) };
+    let options = SimulateOptions::new(0.12).tolerance(1e-11);
     let history = simulate(&model, &options).unwrap();
     let changes = times(&history, |cause| matches!(cause, Cause::NormalForceZero(_)));
     assert_eq!(changes.len(), 3, "{:#?}", words(&history));

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
+use slideway::Report;
 use slideway::gallery::MODELS;
 use slideway::model::Model;
 use slideway::modes::SearchOptions;
@@ -104,18 +105,18 @@ proptest! {
             }
             Ok(model) => {
                 let search = SearchOptions { nodes: 1000, ..SearchOptions::default() };
-                let options = SolveOptions { search, ..SolveOptions::default() };
+                let options = SolveOptions::default().search(search);
                 let report = solve::solve_with(&model, &options, &mut |_| ControlFlow::Continue(()));
                 if let Ok(report) = report {
-                    let text = report::to_text(&report, report::Style::Plain);
+                    let text = report.text(report::Style::Plain);
                     prop_assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
                     // JSON knows no NaN: it would be null.
-                    let json = report::to_json(&report);
+                    let json = report.json();
                     let without_title = json.replace("\"title\": null", "");
                     prop_assert!(!without_title.contains("null"), "{json}");
                 }
                 if let Ok(found) = check::check(&model) {
-                    prop_assert!(!check::to_text(&found, report::Style::Plain).contains("NaN"));
+                    prop_assert!(!found.text(report::Style::Plain).contains("NaN"));
                 }
             }
         }

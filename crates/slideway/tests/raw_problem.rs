@@ -3,11 +3,12 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
+use slideway::Report;
 use slideway::modes::{Limits, SearchOptions};
 use slideway::raw_problem::{
-    Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_json, to_npz, to_text,
+    Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_npz,
 };
-use slideway::report::{Status, Style};
+use slideway::report::{Proof, Status, Style};
 use std::ops::ControlFlow;
 
 fn solved(problem: &RawProblem) -> RawReport {
@@ -83,7 +84,7 @@ proptest! {
         let report = solved(&problem);
         let identity = DMatrix::identity(q.len(), q.len());
         prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&identity, &m, &q));
-        prop_assert_eq!(report.complete, "proven");
+        prop_assert_eq!(report.complete, Proof::Proven);
         for solution in &report.solutions {
             let Unknowns::Complementary { z, w } = &solution.unknowns else { panic!("z and w") };
             let largest = z.iter().chain(w).fold(1.0_f64, |largest, value| largest.max(*value));
@@ -103,7 +104,7 @@ proptest! {
         let report = solved(&RawProblem::from_json(json.as_bytes()).unwrap());
         // x = z - w, |x| = z + w: (B - A) w - (-A - B) z = b
         prop_assert_eq!(report.count.parse::<usize>().unwrap(), brute_force(&(&b - &a), &(-&a - &b), &q));
-        prop_assert_eq!(report.complete, "proven");
+        prop_assert_eq!(report.complete, Proof::Proven);
         for solution in &report.solutions {
             let Unknowns::AbsoluteValue { x } = &solution.unknowns else { panic!("x") };
             let x = DVector::from_column_slice(x);
@@ -160,8 +161,8 @@ proptest! {
         let ends = all.solutions.iter().filter(|one| !one.maximal).count();
         prop_assert_eq!(ends, report.faces.solutions.parse::<usize>().unwrap());
         prop_assert_eq!(report.solutions.len(), report.count.parse::<usize>().unwrap());
-        prop_assert!(to_json(&report).contains("slideway/modes/2"));
-        prop_assert!(to_text(&report, Style::Plain).contains("complete: "));
+        prop_assert!(report.json().contains("slideway/modes/2"));
+        prop_assert!(report.text(Style::Plain).contains("complete: "));
         prop_assert!(to_npz(&report).starts_with(b"PK"));
     }
 
@@ -186,7 +187,7 @@ proptest! {
         let solved = RawProblem::from_bytes(&bytes)
             .ok()
             .and_then(|problem| solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(())).ok());
-        prop_assert!(solved.is_none_or(|report| to_text(&report, Style::Plain).contains("complete: ")));
+        prop_assert!(solved.is_none_or(|report| report.text(Style::Plain).contains("complete: ")));
     }
 }
 
@@ -231,16 +232,16 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
     );
     assert_eq!(
         (report.complete, report.count.as_str(), report.gap_state_count.as_str()),
-        ("proven", "2", "1")
+        (Proof::Proven, "2", "1")
     );
     assert_eq!((report.faces.solutions.as_str(), report.faces.gap_states.as_str()), ("0", "2"));
     let [state] = report.gap_states.as_slice() else { panic!("one state") };
     let shares: Vec<(usize, f64)> = state.gaps.iter().map(|gap| (gap.index, gap.lambda)).collect();
     assert_eq!(shares, [(0, 0.875), (1, 0.75)]);
     assert!(state.shares_vary && state.residual == Some(0.0) && !state.on_boundary);
-    let told = to_text(&report, Style::Plain);
+    let told = report.text(Style::Plain);
     assert!(told.contains("These shares are an example: others have the same values"), "{told}");
-    assert!(to_json(&report).contains("\"shares_vary\": true"));
+    assert!(report.json().contains("\"shares_vary\": true"));
 }
 
 /// A pattern whose determinant is 1e-12 of its terms. Elimination in fractions (Python's) gives, for these very numbers,
@@ -270,18 +271,18 @@ fn values_of_nearly_singular_patterns_are_as_accurate_as_others() {
 #[test]
 fn values_beyond_floating_point_numbers_are_told_as_text() {
     let report = solution_of(r#"{"type": "lcp", "M": [[1e-300, 0], [0, 1]], "q": [-1e10, -1]}"#);
-    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
     let [solution] = report.solutions.as_slice() else { panic!("one solution") };
     assert_eq!(solution.signs, [1, 1]);
     // The numbers are exact, and so is what is left over.
     assert_eq!(solution.residual, Some(0.0));
     let [value] = solution.beyond_range.as_slice() else { panic!("one value") };
     assert_eq!((value.name, value.index, value.value.as_str()), ("z", 0, "9.9999999999999997e309"));
-    let json = to_json(&report);
+    let json = report.json();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["solutions"][0]["z"], serde_json::json!([null, 1.0]));
     assert_eq!(json["solutions"][0]["w"], serde_json::json!([0.0, 0.0]));
-    assert!(to_text(&report, Style::Plain).contains("9.9999999999999997e309"));
+    assert!(report.text(Style::Plain).contains("9.9999999999999997e309"));
     assert!(!to_npz(&report).is_empty());
 }
 
@@ -303,12 +304,12 @@ fn values_too_small_for_floating_point_numbers_are_not_zero() {
 fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
     let report =
         solution_of(r#"{"type": "lcp", "M": [[1e-300, -1e-300], [-1e-300, 1e-300]], "q": [-1e10, 1e10]}"#);
-    assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
+    assert_eq!((report.status, report.complete), (Status::Continuum, Proof::Proven));
     let Unknowns::Complementary { z, .. } = &report.continua[0].parts[0].vertices[0] else {
         panic!("z and w")
     };
     assert!(z[0].is_nan() && z[1] == 0.0, "{z:?}");
-    assert!(to_text(&report, Style::Plain).contains("beyond the range of numbers"));
+    assert!(report.text(Style::Plain).contains("beyond the range of numbers"));
 }
 
 /// A + B = 1e16 + 1 is no floating-point number; x = (1, 1) and (-1, -1).
@@ -316,7 +317,7 @@ fn an_end_of_a_continuum_beyond_floating_point_numbers_has_no_value() {
 fn sums_of_an_absolute_value_equation_are_not_rounded() {
     let json = r#"{"type": "ave", "A": [[1e16, -1e16], [1, -1]], "B": [[1, 0], [0, 0]], "b": [1, 0]}"#;
     let report = solution_of(json);
-    assert_eq!((report.count.as_str(), report.complete), ("2", "proven"));
+    assert_eq!((report.count.as_str(), report.complete), ("2", Proof::Proven));
     let told: Vec<&Unknowns> = report.solutions.iter().map(|solution| &solution.unknowns).collect();
     assert_eq!(told, [1.0, -1.0].map(|x| Unknowns::AbsoluteValue { x: vec![x, x] }).each_ref());
 }
@@ -327,7 +328,7 @@ fn jumps_differ_if_they_differ_at_all() {
     let json = r#"{"type": "modes", "columns_positive": [[1]], "columns_negative": [[-1]],
         "right_hand_side": [-1.00000000000005], "jumps_positive": [[1]], "jumps_negative": [[1.0000000000001]]}"#;
     let report = solution_of(json);
-    assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+    assert_eq!((report.status, report.complete), (Status::PreloadGap, Proof::Proven));
     assert!((report.gap_states[0].gaps[0].lambda - 0.5).abs() < 2e-3);
 }
 
@@ -337,7 +338,7 @@ fn a_search_that_ends_early_never_says_none() {
     let problem = RawProblem::LinearComplementarity { m, q: DVector::from_element(12, -1.0) };
     let options = SearchOptions { nodes: 1, ..SearchOptions::default() };
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!((report.status, report.complete, report.partial), (Status::Unknown, "not proven", true));
+    assert_eq!((report.status, report.complete, report.partial), (Status::Unknown, Proof::NotProven, true));
     assert_eq!(report.open.len(), 1);
     let report = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Break(())).unwrap();
     assert_eq!(report.status, Status::Unknown);
@@ -348,7 +349,7 @@ fn without_proofs_nothing_is_proven() {
     let problem = RawProblem::from_json(br#"{"M": [[2]], "q": [-4]}"#).unwrap();
     let options = SearchOptions { certify: false, ..SearchOptions::default() };
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!((report.count.as_str(), report.complete), ("1", "not proven"));
+    assert_eq!((report.count.as_str(), report.complete), ("1", Proof::NotProven));
 }
 
 /// `w = 0` for every `z >= 0`: one orthant, whose 7 faces are what the other patterns admit.
@@ -356,7 +357,7 @@ fn without_proofs_nothing_is_proven() {
 fn an_orthant_is_one_continuum() {
     let problem = lcp(DMatrix::zeros(3, 3), &[0.0; 3]);
     let report = solved(&problem);
-    assert_eq!((report.status, report.complete), (Status::Continuum, "proven"));
+    assert_eq!((report.status, report.complete), (Status::Continuum, Proof::Proven));
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
     assert_eq!((report.faces.solutions.as_str(), report.faces.continua.as_str()), ("1", "6"));
     assert!(report.solutions.is_empty());
@@ -377,7 +378,7 @@ fn an_orthant_of_many_unknowns_is_told_in_few_words() {
     // 2^400 patterns, each with a face; all but the whole one and the end.
     assert!(report.faces.continua.starts_with("258224987808690858965591917200"));
     assert_eq!(report.continua[0].parts.len(), 400);
-    assert!(to_json(&report).len() < 500_000 && to_text(&report, Style::Plain).len() < 5000);
+    assert!(report.json().len() < 500_000 && report.text(Style::Plain).len() < 5000);
 }
 
 /// What is listed of each part is bounded, too.
@@ -389,7 +390,7 @@ fn a_cube_of_many_corners_lists_those_that_were_asked_for() {
     assert_eq!((report.count.as_str(), report.continuum_count.as_str()), ("0", "1"));
     let part = &report.continua[0].parts[0];
     assert_eq!((part.vertices.len(), part.vertex_count), (4, 9));
-    assert!(to_text(&report, Style::Plain).contains("There are 5 ends and directions more"));
+    assert!(report.text(Style::Plain).contains("There are 5 ends and directions more"));
 }
 
 /// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and no
@@ -431,7 +432,7 @@ fn a_limit_of_solutions_is_told() {
     // z = 0 and w = 1, or z = 1 and w = 0, for each of three unknowns.
     let problem = lcp(-DMatrix::identity(3, 3), &[1.0; 3]);
     let report = solve(&problem, &options, 10, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!((report.count.as_str(), report.complete, report.partial), ("2", "not proven", true));
+    assert_eq!((report.count.as_str(), report.complete, report.partial), ("2", Proof::NotProven, true));
     assert!(report.open[0].starts_with("the limit of 2 solutions of a group"), "{:?}", report.open);
 }
 
@@ -445,7 +446,7 @@ fn a_pile_without_friction_has_a_solution_within_rounding() {
         [2.0, 3.0, 3.0, 0.0].iter().enumerate().fold(0.0, |sum, (at, z)| sum - m[(row, at)] * z)
     });
     let report = solved(&lcp(m.clone(), q.as_slice()));
-    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     let within = report.within_rounding.as_ref().unwrap();
     assert_eq!(within.answer, "solution");
     let Some(Unknowns::Complementary { z, w }) = &within.unknowns else { panic!("z and w") };
@@ -458,7 +459,7 @@ fn a_pile_without_friction_has_a_solution_within_rounding() {
     // The same in exact numbers: J^T z is that of the z above, (0.5, -0.2).
     let forces = [0, 1].map(|at| (0..4).map(|row| j[row][at] * z[row]).sum::<f64>());
     assert!((forces[0] - 0.5).abs() < 1e-14 && (forces[1] + 0.2).abs() < 1e-14, "{forces:?}");
-    assert!(to_text(&report, Style::Plain).contains("Hint: within rounding of the numbers (relative 1e-15)"));
+    assert!(report.text(Style::Plain).contains("Hint: within rounding of the numbers (relative 1e-15)"));
 }
 
 #[test]

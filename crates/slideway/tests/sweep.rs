@@ -5,7 +5,7 @@
 use rstest::rstest;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{Report, Status};
+use slideway::report::{SolveReport, Status};
 use slideway::solve::solve;
 use slideway::sweep::{
     Breakpoint, PointStatus, RowKind, RowVerdict, Rows, Sampling, Spread, Sweep, SweepOptions,
@@ -23,8 +23,12 @@ fn with(name: &str, parameters: &[(&str, &str)]) -> Model {
     model(name).with(&settings).unwrap()
 }
 
-fn options(vary: &[&str]) -> SweepOptions {
-    SweepOptions::of(vary)
+fn grid(axes: &[&str]) -> SweepOptions {
+    SweepOptions::grid(axes.iter().map(|axis| axis.parse().unwrap()))
+}
+
+fn samples(sampling: Sampling, axes: &[&str]) -> SweepOptions {
+    SweepOptions::samples(sampling, axes.iter().map(|axis| axis.parse().unwrap()))
 }
 
 /// All rows of a sweep.
@@ -66,7 +70,7 @@ fn settings_of(sweep: &Sweep, varied: usize, values: &[f64], model: &Model) -> S
 
 /// Where the search decides less than each mode by itself, rows tell of corners of continua and of what is undecided: behind
 /// the states, with what `solve` says of them.
-fn check_without_state(rows: &Rows, found: &[usize], report: &Report) {
+fn check_without_state(rows: &Rows, found: &[usize], report: &SolveReport) {
     let corners = report.continua.iter().flat_map(|continuum| {
         let corners: Vec<Option<&[f64]>> = match &continuum.vertices[..] {
             [] => vec![None],
@@ -87,7 +91,7 @@ fn check_without_state(rows: &Rows, found: &[usize], report: &Report) {
     }
 }
 
-fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report: &Report) {
+fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report: &SolveReport) {
     let head = &rows.heads[range.start];
     let status = match report.status {
         Status::None => PointStatus::None,
@@ -160,8 +164,8 @@ fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report
 #[case("telescopic-boom", &["mu=0..0.6", "s_1=-0.1..0.3"])]
 fn rows_are_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     let model = model(name);
-    let samples = Some(Sampling { count: 120, spread: Spread::Random, seed: 11 });
-    let sweep = Sweep::new(&model, &SweepOptions { samples, all_columns: true, ..options(vary) }).unwrap();
+    let sampling = Sampling { count: 120, spread: Spread::Random, seed: 11 };
+    let sweep = Sweep::new(&model, &samples(sampling, vary).all_columns(true)).unwrap();
     let mut solved = 0;
     for rows in rows(&sweep) {
         let mut first = 0;
@@ -193,7 +197,7 @@ fn rows_are_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
 #[case("slider-crank", &["phi=20 deg..170 deg:16", "l=90 mm,80 mm,70 mm,60 mm,55 mm,52 mm,49 mm,47 mm,45 mm"])]
 fn a_grid_is_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     let model = model(name);
-    let sweep = Sweep::new(&model, &SweepOptions { all_columns: true, ..options(vary) }).unwrap();
+    let sweep = Sweep::new(&model, &grid(vary).all_columns(true)).unwrap();
     for rows in rows(&sweep) {
         let mut first = 0;
         while first < rows.len() {
@@ -222,7 +226,7 @@ fn rows_with_threads(sweep: &Sweep, threads: usize) -> Vec<Rows> {
 #[case("slider-crank", &["phi=-80 deg..80 deg:5001"])]
 #[case("klepp-2002", &["mu_1=0..0.8:81", "mu_2=0..0.4:61"])]
 fn rows_do_not_depend_on_the_number_of_threads(#[case] name: &str, #[case] vary: &[&str]) {
-    let sweep = Sweep::new(&model(name), &options(vary)).unwrap();
+    let sweep = Sweep::new(&model(name), &grid(vary)).unwrap();
     let one = format!("{:?}", rows_with_threads(&sweep, 1));
     for threads in [2, 3] {
         assert!(format!("{:?}", rows_with_threads(&sweep, threads)) == one, "{threads} threads");
@@ -231,7 +235,7 @@ fn rows_do_not_depend_on_the_number_of_threads(#[case] name: &str, #[case] vary:
 
 #[test]
 fn a_sweep_can_be_continued_anywhere() {
-    let sweep = Sweep::new(&model("klepp-2002"), &options(&["mu_1=0..0.8:40001"])).unwrap();
+    let sweep = Sweep::new(&model("klepp-2002"), &grid(&["mu_1=0..0.8:40001"])).unwrap();
     let all = format!("{:?}", rows_with_threads(&sweep, 1));
     for stop in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
@@ -261,7 +265,7 @@ fn a_sweep_can_be_continued_anywhere() {
 /// beyond. Each of them is one branch throughout.
 #[test]
 fn the_branches_of_the_paper() {
-    let sweep = Sweep::new(&with("klepp-2002", &[("F_20", "0")]), &options(&["mu_1=0..0.8:801"])).unwrap();
+    let sweep = Sweep::new(&with("klepp-2002", &[("F_20", "0")]), &grid(&["mu_1=0..0.8:801"])).unwrap();
     let all = rows(&sweep);
     let mut ranges = std::collections::BTreeMap::new();
     let mut breakpoints = Vec::new();
@@ -296,7 +300,7 @@ fn the_branches_of_the_paper() {
 /// with the side of contact 3 counted the other way round), and is still the same branch.
 #[test]
 fn a_branch_goes_on_where_a_contact_changes_side() {
-    let sweep = Sweep::new(&model("klepp-2002"), &options(&["mu_1=0.45..0.455:51"])).unwrap();
+    let sweep = Sweep::new(&model("klepp-2002"), &grid(&["mu_1=0.45..0.455:51"])).unwrap();
     let all = rows(&sweep);
     let rows = &all[0];
     let first: Vec<usize> = (0..rows.len()).filter(|&row| rows.heads[row].branch == 1).collect();
@@ -319,8 +323,8 @@ fn a_branch_goes_on_where_a_contact_changes_side() {
 fn the_probability_that_a_drawer_jams() {
     let exact = 0.091_211_219_725_868;
     for (spread, error) in [(Spread::Random, 0.003), (Spread::Halton, 0.0002)] {
-        let samples = Some(Sampling { count: 40_000, spread, seed: 3 });
-        let options = SweepOptions { samples, ..options(&["mu=normal(0.6, 0.05)"]) };
+        let sampling = Sampling { count: 40_000, spread, seed: 3 };
+        let options = samples(sampling, &["mu=normal(0.6, 0.05)"]);
         let sweep = Sweep::new(&model("drawer"), &options).unwrap();
         let probability = sweep.tally().probability_of_jamming().unwrap();
         assert!((probability.share - exact).abs() < error, "{spread:?}: {probability:?}");
@@ -332,7 +336,7 @@ fn the_probability_that_a_drawer_jams() {
 #[test]
 fn points_without_a_position_are_marked() {
     let model = with("slider-crank", &[("r", "90 mm"), ("l", "60 mm"), ("phi_drawn", "20 deg")]);
-    let sweep = Sweep::new(&model, &options(&["phi=-60 deg..60 deg:121"])).unwrap();
+    let sweep = Sweep::new(&model, &grid(&["phi=-60 deg..60 deg:121"])).unwrap();
     let limit = (60.0_f64 / 90.0).asin();
     let mut marked = 0;
     for rows in rows(&sweep) {
@@ -356,7 +360,7 @@ fn points_without_a_position_are_marked() {
 #[test]
 fn attainability_is_that_of_the_theory() {
     let model = with("klepp-2002", &[("F_20", "0")]);
-    let sweep = Sweep::new(&model, &SweepOptions { attainability: true, ..options(&["mu_1=0.6"]) }).unwrap();
+    let sweep = Sweep::new(&model, &grid(&["mu_1=0.6"]).attainability(true)).unwrap();
     let all = rows(&sweep);
     let rows = &all[0];
     let weight = 9.81;
@@ -374,7 +378,7 @@ fn attainability_is_that_of_the_theory() {
 fn negative_friction_is_refused_point_by_point() {
     let text =
         slideway::gallery::find("drawer").unwrap().text.replace("\nmu = 0.3", "\nk = 3\nmu = \"0.1*k\"");
-    let sweep = Sweep::new(&Model::parse(&text).unwrap(), &options(&["k=-2,2"])).unwrap();
+    let sweep = Sweep::new(&Model::parse(&text).unwrap(), &grid(&["k=-2,2"])).unwrap();
     let tally = sweep.tally();
     assert_eq!((tally.with_status(PointStatus::Refused), tally.with_status(PointStatus::One)), (1, 1));
     assert!(tally.refusals[&PointStatus::Refused].1.contains("at least zero"), "{tally:?}");
@@ -399,7 +403,8 @@ fn negative_friction_is_refused_point_by_point() {
 #[case("mu=-0.2,0.2", "cannot be negative, but -0.2 is")]
 #[case("mu=0..1:99999999999999", "more than")]
 fn faults_of_axes(#[case] axis: &str, #[case] part: &str) {
-    let faults = Sweep::new(&model("drawer"), &options(&[axis])).unwrap_err();
+    let sweep = axis.parse().and_then(|axis| Sweep::new(&model("drawer"), &SweepOptions::grid([axis])));
+    let faults = sweep.unwrap_err();
     assert!(faults.to_string().contains(part), "{faults}");
 }
 
@@ -412,15 +417,17 @@ fn faults_of_axes(#[case] axis: &str, #[case] part: &str) {
 #[case("mu=uniform(-0.3, -0.1)", "lies below zero")]
 #[case("mu=uniform(0.3, 0.1)", "reversed")]
 fn faults_of_distributions(#[case] axis: &str, #[case] part: &str) {
-    let samples = Some(Sampling { count: 10, spread: Spread::Random, seed: 0 });
-    let faults = Sweep::new(&model("drawer"), &SweepOptions { samples, ..options(&[axis]) }).unwrap_err();
+    let sampling = Sampling { count: 10, spread: Spread::Random, seed: 0 };
+    let sweep =
+        axis.parse().and_then(|axis| Sweep::new(&model("drawer"), &SweepOptions::samples(sampling, [axis])));
+    let faults = sweep.unwrap_err();
     assert!(faults.to_string().contains(part), "{faults}");
 }
 
 /// Logarithmic spacing: mu_1 = 0.01, 0.1, 1 exactly at its ends, the middle within rounding.
 #[test]
 fn logarithmic_axes() {
-    let without_breakpoints = SweepOptions { without_breakpoints: true, ..options(&["mu_1=0.01..1:3:log"]) };
+    let without_breakpoints = grid(&["mu_1=0.01..1:3:log"]).breakpoints(false);
     let sweep = Sweep::new(&model("klepp-2002"), &without_breakpoints).unwrap();
     let all = rows(&sweep);
     let mut values: Vec<f64> = (0..all[0].len()).map(|row| all[0].numbers(row)[0]).collect();
@@ -434,11 +441,7 @@ fn logarithmic_axes() {
 #[test]
 fn what_is_ended_within_a_point_keeps_the_points_before_it() {
     let boom = Model::parse(&gallery::telescopic_boom(5).unwrap()).unwrap();
-    let sweep = Sweep::new(
-        &boom,
-        &SweepOptions { without_breakpoints: true, ..options(&["overlap=0.3 m..0.9 m:6"]) },
-    )
-    .unwrap();
+    let sweep = Sweep::new(&boom, &grid(&["overlap=0.3 m..0.9 m:6"]).breakpoints(false)).unwrap();
     let whole = rows(&sweep);
     let numbers = |rows: &Rows| (0..rows.len()).map(|row| bits(rows.numbers(row))).collect::<Vec<_>>();
     // What comes if the sweep is to end at the so-manieth time of asking, and how many times it was asked.

@@ -1,6 +1,6 @@
 //! Where the answer goes, and in which form.
 
-use crate::output::followed;
+use crate::paths::followed;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 

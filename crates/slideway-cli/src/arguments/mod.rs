@@ -39,13 +39,9 @@ pub(crate) use solve::SolveArguments;
 pub(crate) use sweep::{SweepArguments, TableFormat};
 pub(crate) use time::TimeArguments;
 
-use crate::output::complain;
 use anstream::ColorChoice;
-use clap::builder::Styles;
-use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use slideway::printable;
-use std::borrow::Cow;
 
 /// All solutions of planar mechanisms with dry friction in sliding joints.
 ///
@@ -60,22 +56,6 @@ pub(crate) struct Arguments {
     /// Whether to colour the output; `auto` does so on terminals, and respects NO_COLOR and CLICOLOR_FORCE.
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN", display_order = 900)]
     pub(crate) color: Color,
-}
-
-/// Says what is wrong with the arguments, or the help or version that they ask for, and ends the program.
-///
-/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so that
-/// whatever is still in it comes from the arguments.
-pub(crate) fn explain(error: &clap::Error) -> ! {
-    let is_printable =
-        |word: std::ffi::OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));
-    if !error.use_stderr() || std::env::args_os().all(is_printable) {
-        error.exit();
-    }
-    let plain = Arguments::command().styles(Styles::plain()).try_get_matches().err();
-    let text = plain.map_or_else(String::new, |plain| plain.render().ansi().to_string());
-    complain(printable::lines(&text).trim_end(), ColorChoice::Never);
-    std::process::exit(error.exit_code());
 }
 
 const AFTER_HELP: &str = "\

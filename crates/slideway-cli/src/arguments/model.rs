@@ -1,8 +1,8 @@
 //! A model and what is changed in it.
 
 use clap::Args;
-use slideway::fault::Fault;
-use slideway::model::{SettingKind, Settings};
+use slideway::fault::{Fault, FaultKind};
+use slideway::model::{Setting, SettingKind, Settings};
 use std::path::PathBuf;
 
 /// A model and what is changed in it.
@@ -41,12 +41,22 @@ impl ModelArguments {
         ];
         for (kind, texts) in kinds {
             for text in texts {
-                faults.extend(settings.push(kind, text).err());
+                match setting(kind, text) {
+                    Some(setting) => settings = settings.with(setting),
+                    None => faults.push(Fault::general(FaultKind::MalformedSetting { text: text.clone() })),
+                }
             }
         }
         match &self.time {
-            Some(time) => (settings.time(time), faults),
+            Some(time) => (settings.time(time.as_str()), faults),
             None => (settings, faults),
         }
     }
+}
+
+/// A setting that is written as `name=value`; none if there is no `=`, or nothing on one side of it.
+fn setting(kind: SettingKind, text: &str) -> Option<Setting> {
+    let (name, value) = text.split_once('=')?;
+    let (name, value) = (name.trim(), value.trim());
+    (!name.is_empty() && !value.is_empty()).then(|| Setting::new(kind, name, value))
 }

@@ -3,7 +3,9 @@
 use super::limits::PlottedQuantity;
 use super::{Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
-use slideway::sweep::{Sampling, Spread, SweepOptions};
+use slideway::fault::Faults;
+use slideway::sweep::{Sampling, Spread, SweepOptions, SweepPoints};
+use std::str::FromStr;
 
 pub(super) const HELP: &str = "\
 What to vary: a parameter, a coordinate, COORDINATE.rate, `friction` for a factor on all
@@ -97,20 +99,34 @@ struct MoreColumns {
 
 impl SweepArguments {
     /// What the library is asked for.
-    pub(crate) fn options(&self) -> SweepOptions {
+    ///
+    /// # Errors
+    /// The faults of every axis that cannot be read.
+    pub(crate) fn options(&self) -> Result<SweepOptions, Faults> {
         let spread = match self.sampling {
             SamplingKind::Random => Spread::Random,
             SamplingKind::Halton => Spread::Halton,
         };
-        SweepOptions {
-            vary: self.vary.clone(),
-            samples: self.samples.map(|count| Sampling { count, spread, seed: self.seed }),
-            without_breakpoints: self.no_breakpoints,
+        let points = match self.samples {
+            None => SweepPoints::Grid(axes(&self.vary)?),
+            Some(count) => {
+                SweepPoints::Samples(Sampling { count, spread, seed: self.seed }, axes(&self.vary)?)
+            }
+        };
+        Ok(SweepOptions::over(points)
+            .breakpoints(!self.no_breakpoints)
             // Strokes of a plot tell of it.
-            attainability: self.more.attainability || self.plot.plot.is_some(),
-            all_columns: self.more.all_columns,
-        }
+            .attainability(self.more.attainability || self.plot.plot.is_some())
+            .all_columns(self.more.all_columns))
     }
+}
+
+/// The axes, or the faults of all that cannot be read.
+fn axes<A: FromStr<Err = Faults>>(texts: &[String]) -> Result<Vec<A>, Faults> {
+    let mut faults = Faults::default();
+    let axes = texts.iter().filter_map(|text| text.parse().map_err(|found| faults.append(found)).ok());
+    let axes = axes.collect();
+    faults.or(axes)
 }
 
 /// How samples are distributed.
@@ -133,4 +149,12 @@ pub(crate) enum TableFormat {
     /// A Parquet file.
     #[cfg(feature = "parquet")]
     Parquet,
+}
+
+impl TableFormat {
+    /// The endings of files.
+    pub(crate) fn endings() -> Vec<String> {
+        let forms = Self::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        forms.map(|form| format!(".{}", form.get_name())).collect()
+    }
 }

@@ -1,9 +1,9 @@
 //! `slideway check`
 
-use crate::Outcome;
-use crate::arguments::{CheckArguments, CheckFormat};
+use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use slideway::check::{self};
 
@@ -13,9 +13,6 @@ pub(crate) fn check(arguments: &CheckArguments, output: &Output) -> Result<Outco
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let report = check::check(&model).map_err(|faults| input.refused(faults))?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => check::to_text(&report, output.style()),
-        CheckFormat::Json => check::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(if report.sound { Outcome::Done } else { Outcome::Refused })
 }

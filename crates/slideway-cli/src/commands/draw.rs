@@ -1,9 +1,9 @@
 //! `slideway draw`
 
-use crate::Outcome;
 use crate::arguments::{DrawArguments, PictureTheme, Which};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::{Picture, SHARPNESS};
 use crate::watch::{Watch, outcome};
@@ -11,7 +11,7 @@ use slideway::configuration::Configuration;
 use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
-use slideway::report::{Report, Status};
+use slideway::report::{SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
@@ -50,7 +50,7 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
 
 /// All solutions, if they are wanted. Where only the kinetic problem makes no sense (a mechanism at rest, a motion
 /// without inertia) the mechanism can be drawn all the same, unless solutions are asked for.
-fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<Option<Report>, Faults> {
+fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<Option<SolveReport>, Faults> {
     let mut solve = || solve_with(model, &SolveOptions::default(), &mut |progress| watch.look(progress));
     match which {
         Some(Which::None) => Ok(None),

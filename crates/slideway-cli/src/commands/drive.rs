@@ -1,26 +1,26 @@
 //! `slideway drive`
 
-use crate::Outcome;
-use crate::arguments::{CheckFormat, DriveArguments};
+use crate::arguments::DriveArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};
+use slideway::limits::Vary;
 
 /// Says which efforts the drives need.
 pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = DriveOptions { vary: arguments.vary.clone(), rows: arguments.rows };
+    let vary = arguments.vary.as_deref().map(str::parse::<Vary>).transpose();
+    let vary = vary.map_err(|faults| input.refused(faults))?;
+    let options = DriveOptions::default().vary(vary).rows(arguments.rows);
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => drive::to_text(&report, output.style()),
-        CheckFormat::Json => drive::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     let moves = report.directions.first().is_some_and(|direction| !direction.solutions.is_empty());
     Ok(if moves { Outcome::Done } else { Outcome::NoSolution })
 }

@@ -1,9 +1,9 @@
 //! `slideway hold`
 
-use crate::Outcome;
-use crate::arguments::{CheckFormat, Drives, HoldArguments};
+use crate::arguments::{Drives, HoldArguments};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::standstill::{self, HoldOptions};
@@ -13,18 +13,12 @@ pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = HoldOptions {
-        load: arguments.load.clone(),
-        vary: arguments.vary.clone(),
-        hold_drives: arguments.drives == Drives::Hold,
-    };
+    let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
+    (options.load, options.vary) = (arguments.load.clone(), arguments.vary.clone());
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = standstill::hold_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => standstill::to_text(&report, output.style()),
-        CheckFormat::Json => standstill::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(match (report.holds, report.undecided) {
         (true, _) => Outcome::Done,
         (false, 0) => Outcome::NoSolution,

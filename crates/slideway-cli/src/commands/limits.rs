@@ -1,9 +1,9 @@
 //! `slideway limits`
 
-use crate::Outcome;
-use crate::arguments::{CheckFormat, LimitsArguments};
+use crate::arguments::LimitsArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture;
 use crate::watch::Watch;
@@ -17,12 +17,10 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = LimitsOptions {
-        vary: arguments.vary.clone(),
-        max_reaction: arguments.max_reaction,
-        both_directions: arguments.both_directions,
-        effort: arguments.effort,
-    };
+    let options = LimitsOptions::new(arguments.vary.parse().map_err(|faults| input.refused(faults))?)
+        .max_reaction(arguments.max_reaction)
+        .both_directions(arguments.both_directions)
+        .effort(arguments.effort);
     let mut watch = Watch::new(arguments.time.time_limit);
     let mut look = |progress: &Progress| watch.look(progress);
     let report = if let Some((picture, file)) = plot {
@@ -35,9 +33,6 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
         let found = limits::limits_with(&model, &options, &mut look);
         watch.whole(found.map_err(|faults| input.refused(faults))?)?
     };
-    output.write(&match arguments.format {
-        CheckFormat::Text => limits::to_text(&report, output.style()),
-        CheckFormat::Json => limits::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(Outcome::Done)
 }

@@ -1,13 +1,16 @@
 //! `slideway map`
 
-use crate::Outcome;
 use crate::arguments::{Destination, MapArguments};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::watch::Watch;
-use slideway::map::{MapOptions, map_with, to_json};
+use slideway::Report;
+use slideway::fault::Faults;
+use slideway::limits::Vary;
+use slideway::map::{MapOptions, map_with};
 use slideway_pictures::map::to_svg;
 
 /// Maps the plane of two quantities.
@@ -18,20 +21,29 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let [width, height] = arguments.size;
-    let options = MapOptions {
-        x: arguments.x.clone(),
-        y: arguments.y.clone(),
-        width,
-        height,
-        colour_by: arguments.colour_by.into(),
-        probe: usize::from(arguments.probe),
-    };
+    let [x, y] = ranges(arguments).map_err(|faults| input.refused(faults))?;
+    let options = MapOptions::new(x, y)
+        .size(width, height)
+        .colour_by(arguments.colour_by.into())
+        .probe(usize::from(arguments.probe));
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = map_with(&model, &options, &mut |progress| watch.look(progress));
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
-        None => output.write(&to_json(&report))?,
+        None => output.write(&report.json())?,
         Some(picture) => picture.write(to_svg(&report, arguments.theme.colours()), &output)?,
     }
     Ok(Outcome::Done)
+}
+
+/// Both ranges, or what is wrong with each.
+fn ranges(arguments: &MapArguments) -> Result<[Vary; 2], Faults> {
+    match (arguments.x.parse(), arguments.y.parse()) {
+        (Ok(x), Ok(y)) => Ok([x, y]),
+        (Err(mut faults), Err(others)) => {
+            faults.append(others);
+            Err(faults)
+        }
+        (Err(faults), _) | (_, Err(faults)) => Err(faults),
+    }
 }

@@ -28,8 +28,8 @@ pub(crate) use size::size;
 pub(crate) use solve::solve;
 pub(crate) use sweep::sweep;
 
-use crate::Outcome;
 use crate::failure::Failure;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use clap_complete::Shell;
 

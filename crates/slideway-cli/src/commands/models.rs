@@ -1,8 +1,8 @@
 //! `slideway models`
 
-use crate::Outcome;
 use crate::arguments::ModelsArguments;
 use crate::failure::Failure;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use slideway::fault::nearest;
 use slideway::gallery::{self, GREATEST_STAGES, MODELS};

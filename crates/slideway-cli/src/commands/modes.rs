@@ -1,14 +1,13 @@
 //! `slideway modes`
 
-use crate::Outcome;
 use crate::arguments::{ModesArguments, ModesFormat, SearchArguments};
 use crate::failure::Failure;
 use crate::input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
-use slideway::raw_problem::{
-    Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_json, to_npz, to_text,
-};
+use slideway::Report;
+use slideway::raw_problem::{Listing, RawFault, RawProblem, SIZE_LIMIT, solve_with, to_npz};
 use std::time::Instant;
 
 /// Finds and writes all solutions of a problem given by its matrices.
@@ -25,8 +24,8 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
         .expect("shapes and values are checked where the problem is read");
     let halt = watch.finish();
     match arguments.format() {
-        ModesFormat::Text => output.write(&to_text(&report, output.style()))?,
-        ModesFormat::Json => output.write(&to_json(&report))?,
+        ModesFormat::Text => output.write(&report.text(output.style()))?,
+        ModesFormat::Json => output.write(&report.json())?,
         ModesFormat::Npz => output.write_bytes(&to_npz(&report))?,
     }
     Ok(outcome(halt, report.status.into()))

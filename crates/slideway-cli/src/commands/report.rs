@@ -1,9 +1,9 @@
 //! `slideway report`
 
-use crate::Outcome;
 use crate::arguments::ReportArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
@@ -95,7 +95,7 @@ fn limits(
     vary: &str,
     watch: &mut Watch,
 ) -> Result<Option<(LimitsReport, plot::Figure)>, Faults> {
-    let options = LimitsOptions::of(vary);
+    let options = LimitsOptions::new(vary.parse()?);
     let found = curves_with(model, &options, Quantity::NormalForce, &mut |progress| watch.look(progress))?;
     let Some((report, curves)) = found else { return Ok(None) };
     let plot = limits_figure(&report, &curves);
@@ -116,9 +116,9 @@ fn command(arguments: &ReportArguments, input: &Input, settings: &[String]) -> S
             slideway::model::SettingKind::Parameter => "--set",
             slideway::model::SettingKind::Position => "--at",
             slideway::model::SettingKind::Rate => "--rate",
-            slideway::model::SettingKind::Time => "--time",
+            _ => "--time",
         };
-        let value = if option == "--time" { &setting.value } else { text };
+        let value = if option == "--time" { &setting.value.to_string() } else { text };
         words.push(format!("{option} \"{value}\""));
     }
     words.extend(arguments.vary.iter().map(|vary| format!("--vary \"{vary}\"")));

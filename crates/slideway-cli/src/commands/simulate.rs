@@ -1,9 +1,10 @@
 //! `slideway simulate`
 
-use crate::Outcome;
 use crate::arguments::{CheckFormat, Preference, SimulateArguments};
 use crate::failure::Failure;
+use crate::halt::Halt;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture::{Picture, beside};
 use crate::pixels;
@@ -11,7 +12,8 @@ use crate::table::{Metadata, unfinished};
 #[cfg(feature = "parquet")]
 use crate::time_series::to_parquet;
 use crate::time_series::{SeriesFormat, to_csv, to_npz};
-use crate::watch::{self, Halt, Watch};
+use crate::watch::{self, Watch};
+use slideway::Report;
 use slideway::configuration::Configuration;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::mechanism::Mechanism;
@@ -78,8 +80,9 @@ impl Told {
     ) -> Result<Self, Faults> {
         let report = finite(motion::report(history, options))?;
         let text = match arguments.format {
-            CheckFormat::Text => motion::to_text(&report, output.style(), arguments.all_events),
-            CheckFormat::Json => motion::to_json(&report),
+            CheckFormat::Text if arguments.all_events => report.text_with_all_events(output.style()),
+            CheckFormat::Text => report.text(output.style()),
+            CheckFormat::Json => report.json(),
         };
         Ok(Self { text, outcome: outcome(&history.end) })
     }
@@ -92,8 +95,9 @@ impl Told {
     ) -> Result<Self, Faults> {
         let report = finite(motion::tree_report(tree, options))?;
         let text = match arguments.format {
-            CheckFormat::Text => motion::tree_to_text(&report, output.style(), arguments.all_events),
-            CheckFormat::Json => motion::tree_to_json(&report),
+            CheckFormat::Text if arguments.all_events => report.text_with_all_events(output.style()),
+            CheckFormat::Text => report.text(output.style()),
+            CheckFormat::Json => report.json(),
         };
         // The best that any motion comes to.
         let outcomes = tree.histories.iter().map(|branching| outcome(&branching.history.end));
@@ -130,18 +134,17 @@ impl Question<'_> {
         }
         let longest_step = self.positive_time("longest-step", arguments.longest_step.as_deref())?;
         let initial = arguments.mode.as_deref().map(|text| self.mode(text)).transpose()?;
-        let options = SimulateOptions {
-            tolerance: arguments.tolerance,
-            longest_step,
-            most_steps: arguments.max_steps,
-            most_events: arguments.max_events,
-            reaction_limit: arguments.max_reaction,
-            initial,
-            branches: arguments.branch.clone(),
-            prefers_sliding: arguments.prefer == Preference::Sliding,
-            ..SimulateOptions::new(end - start)
-        };
-        Ok(options.with_events_of(self.mechanism))
+        let mut options = SimulateOptions::new(end - start)
+            .tolerance(arguments.tolerance)
+            .longest_step(longest_step)
+            .most_steps(arguments.max_steps)
+            .most_events(arguments.max_events)
+            .reaction_limit(arguments.max_reaction)
+            .branches(arguments.branch.iter().copied())
+            .prefers_sliding(arguments.prefer == Preference::Sliding)
+            .with_events_of(self.mechanism);
+        options.initial = initial;
+        Ok(options)
     }
 
     /// The step of the table.
@@ -176,8 +179,7 @@ impl Question<'_> {
 
     /// A time of the command line (s).
     fn time(&self, name: &str, text: &str) -> Result<f64, Failure> {
-        let setting =
-            Setting { kind: SettingKind::Time, name: name.to_owned(), value: text.trim().to_owned() };
+        let setting = Setting::new(SettingKind::Time, name, text.trim());
         let value = self.model.setting_value(&setting);
         value.map_err(|faults| self.input.refused_option(setting, faults))
     }
@@ -264,7 +266,7 @@ impl<'a> Files<'a> {
                     let mut report = motion::report(history, options);
                     report.samples = Some(series);
                     let report = finite(report).map_err(|faults| input.refused(faults))?;
-                    output.write(&motion::to_json(&report))?;
+                    output.write(&report.json())?;
                 }
             }
         }

@@ -1,9 +1,9 @@
 //! `slideway size`
 
-use crate::Outcome;
-use crate::arguments::{CheckFormat, SizeArguments};
+use crate::arguments::SizeArguments;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::size::{self, SizeOptions};
@@ -17,18 +17,12 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = arguments.against(names).and_then(|against| {
-        let options = SizeOptions {
-            vary: arguments.vary.clone(),
-            margin: arguments.margin,
-            against,
-            both_directions: arguments.both_directions,
-        };
+        let options = SizeOptions::new(arguments.vary.parse()?, arguments.margin)
+            .against(against)
+            .both_directions(arguments.both_directions);
         size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
-    output.write(&match arguments.format {
-        CheckFormat::Text => size::to_text(&report, output.style()),
-        CheckFormat::Json => size::to_json(&report),
-    })?;
+    output.tell(&report, arguments.format)?;
     Ok(if report.met.is_empty() { Outcome::NoSolution } else { Outcome::Done })
 }

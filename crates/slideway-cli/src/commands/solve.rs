@@ -1,12 +1,12 @@
 //! `slideway solve`
 
-use crate::Outcome;
 use crate::arguments::{Format, SolveArguments};
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
-use slideway::report::{to_csv, to_json, to_text};
+use slideway::Report;
 use slideway::solve::{SolveOptions, solve_with};
 
 /// Finds and writes all solutions of a model.
@@ -14,19 +14,16 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = SolveOptions {
-        search: arguments.search.options(),
-        most: arguments.search.max_solutions,
-        ..SolveOptions::default()
-    };
+    let search = &arguments.search;
+    let options = SolveOptions::default().search(search.options()).most(search.max_solutions);
     let mut watch = Watch::new(arguments.search.time.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress))
         .map_err(|faults| input.refused(faults))?;
     let halt = watch.finish();
     output.write(&match arguments.format {
-        Format::Text => to_text(&report, output.style()),
-        Format::Json => to_json(&report),
-        Format::Csv => to_csv(&report),
+        Format::Text => report.text(output.style()),
+        Format::Json => report.json(),
+        Format::Csv => report.csv(),
     })?;
     Ok(outcome(halt, report.status.into()))
 }

@@ -1,15 +1,16 @@
 //! `slideway sweep`
 
-use crate::Outcome;
 use crate::arguments::{SweepArguments, TableFormat};
 use crate::failure::Failure;
+use crate::halt::Halt;
 use crate::input::Input;
+use crate::outcome::Outcome;
 use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
-use crate::watch::{Alarm, Halt, Watch};
+use crate::watch::{Alarm, Watch};
 use slideway::progress::Progress;
-use slideway::sweep::{Rows, Sweep, SweepState, to_text};
+use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
 use std::io::{self, IsTerminal, Write};
@@ -23,7 +24,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let destination = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
-    let options = arguments.options();
+    let options = arguments.options().map_err(|faults| input.refused(faults))?;
     let path = destination.path().filter(|path| !is_special(path));
     let limit = arguments.time.time_limit;
     let mut watch = if path.is_some() { Watch::new(limit) } else { Watch::beside_rows(limit) };
@@ -35,7 +36,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
         Some(file) => Some(Plotting::new(&sweep, arguments, file, model.title.as_deref())?),
         None => None,
     };
-    let layout = Layout::of(&sweep, options.vary.len(), options.attainability);
+    let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
     let encoder = Encoder::new(format, layout, Metadata::of(&input));
     let work = Work { sweep: &sweep, encoder, plot };
     match path {
@@ -57,7 +58,10 @@ fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
         (None, Some("parquet")) => Ok(TableFormat::Parquet),
         #[cfg(not(feature = "parquet"))]
         (None, Some("parquet")) => Err(Failure::WithoutParquet),
-        (None, Some(_)) => Err(Failure::UnknownEnding { path: path.map(Path::to_owned).unwrap_or_default() }),
+        (None, Some(_)) => {
+            let path = path.map(Path::to_owned).unwrap_or_default();
+            Err(Failure::UnknownEnding { path, known: TableFormat::endings() })
+        }
     }
 }
 
@@ -190,7 +194,7 @@ fn to_file(
     if let Some(plot) = work.plot {
         plot.write(&state)?;
     }
-    Output::standard(output.color()).write(&to_text(sweep, &state, output.style_of_text()))?;
+    Output::standard(output.color()).write(&sweep.text(&state, output.style_of_text()))?;
     Ok(Outcome::Done)
 }
 
@@ -227,7 +231,7 @@ fn stream(mut work: Work<'_>, output: &Output, mut watch: Watch) -> Result<Outco
         }
     }
     if !io::stdout().is_terminal() || output.path().is_some() {
-        complain(to_text(work.sweep, &state, output.style_of_text()).trim_end(), output.color());
+        complain(work.sweep.text(&state, output.style_of_text()).trim_end(), output.color());
     }
     if let Some(plot) = work.plot {
         plot.write(&state)?;

@@ -124,7 +124,7 @@ impl Encoder {
 mod tests {
     use super::*;
     use clap::ValueEnum;
-    use slideway::sweep::SweepOptions;
+    use slideway::sweep::{GridAxis, SweepOptions};
     use std::fs;
     use std::io::Read;
     use std::ops::ControlFlow;
@@ -142,7 +142,8 @@ mod tests {
     fn rows_with(wrong: [f64; 3]) -> (Sweep, Layout, Rows) {
         let text = slideway::gallery::find("drawer").expect("in the gallery").text;
         let model = slideway::model::Model::parse(text).expect("a model");
-        let sweep = Sweep::new(&model, &SweepOptions::of(&["mu=0.1..0.5:5"])).expect("a sweep");
+        let sweep =
+            Sweep::new(&model, &SweepOptions::grid([GridAxis::linear("mu", 0.1, 0.5, 5)])).expect("a sweep");
         let mut all = Vec::new();
         sweep.run(&mut sweep.start(), &Rows::clone, &mut |parts, _| {
             all.extend(parts);

@@ -14,7 +14,7 @@ use crate::search::{
     CombinedState, Completeness, GroupReport, GroupState, SearchOptions, SearchResult, SolutionProduct,
     StopReason, search,
 };
-use crate::status::Status;
+use crate::{Proof, Status};
 
 /// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
 const ENCLOSURE_WORK: f64 = 3e7;
@@ -62,7 +62,7 @@ pub fn solve_with(
         kind: raw.kind(),
         size: problem.contacts(),
         status: status(&result, &counts),
-        complete: if open.is_empty() { "proven" } else { "not proven" },
+        complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
         partial: is_partial(result.completeness),
         open,
         count: counts.points.to_string(),

@@ -15,13 +15,13 @@
 //!
 //! ```
 //! use std::ops::ControlFlow;
-//! use slideway_modes::SearchOptions;
+//! use slideway_modes::{Proof, SearchOptions};
 //! use slideway_modes::raw_problem::{RawProblem, solve};
 //!
 //! let problem = RawProblem::from_json(br#"{"type": "lcp", "M": [[1, 2], [2, 1]], "q": [-1, -1]}"#)?;
 //! let report = solve(&problem, &SearchOptions::default(), 10, &mut |_| ControlFlow::Continue(()))?;
 //! assert_eq!(report.count, "3");
-//! assert_eq!(report.complete, "proven");
+//! assert_eq!(report.complete, Proof::Proven);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

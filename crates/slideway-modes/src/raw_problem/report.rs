@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
 use super::range::in_range;
-use crate::status::Status;
+use crate::{Proof, Status};
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/modes/2";
@@ -22,11 +22,11 @@ pub struct RawReport {
     pub size: usize,
     /// How many solutions there are; of those that were found if the search ended early.
     pub status: Status,
-    /// "proven" or "not proven": whether these are certainly all solutions.
-    pub complete: &'static str,
+    /// Whether these are certainly all solutions.
+    pub complete: Proof,
     /// Whether the search ended before every possibility was dealt with.
     pub partial: bool,
-    /// What remains open, in words; empty if `complete` is "proven".
+    /// What remains open, in words; empty if `complete` is [`Proof::Proven`].
     pub open: Vec<String>,
     /// Number of solutions found that are part of no continuum, as decimal text: it may be beyond any
     /// integer type. Gap states are not among them.

@@ -25,7 +25,7 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
         ("schema", report.schema),
         ("type", report.kind.word()),
         ("status", status),
-        ("complete", report.complete),
+        ("complete", report.complete.as_str()),
         ("count", &report.count),
         ("gap_state_count", &report.gap_state_count),
         ("continuum_count", &report.continuum_count),

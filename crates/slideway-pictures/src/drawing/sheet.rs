@@ -6,7 +6,7 @@ use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions
 use crate::typeface::width;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
-use slideway::report::{CoordinateState, Report, Solution, Status};
+use slideway::report::{CoordinateState, Solution, SolveReport, Status};
 
 /// Width and height for the mechanism itself in each panel.
 const PANEL: [f64; 2] = [440.0, 320.0];
@@ -87,7 +87,7 @@ pub struct Sheet {
 pub fn sheet(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    report: Option<&Report>,
+    report: Option<&SolveReport>,
     shown: Shown,
 ) -> Option<Sheet> {
     let view = View::fitting(mechanism, &[configuration], PANEL);
@@ -103,7 +103,7 @@ pub fn sheet(
 struct Drawn<'a> {
     mechanism: &'a Mechanism,
     configuration: &'a Configuration,
-    report: Option<&'a Report>,
+    report: Option<&'a SolveReport>,
     view: &'a View,
 }
 
@@ -191,7 +191,7 @@ fn state_line(state: &[CoordinateState]) -> String {
 }
 
 /// How many solutions there are.
-pub(crate) fn answer(report: &Report) -> String {
+pub(crate) fn answer(report: &SolveReport) -> String {
     let drawn = report.solutions.len() + report.preload_gap_states.len();
     let words = match report.status {
         Status::None => "No solution: friction locks the mechanism in this state.".to_owned(),

@@ -1,16 +1,10 @@
 //! The mechanism moving: one drawing for each frame, contact modes exaggerated.
 
-#[cfg(feature = "png")]
-use super::gif::{self, GifFault};
-use super::page;
-use crate::coordinate::{NotFinite, finished, finished_parts};
 use crate::drawing::svg::markup;
 use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample};
-#[cfg(feature = "png")]
-use slideway::progress::Callback;
 
 /// Frames for a second on the clock.
 const FRAMES_PER_SECOND: f64 = 25.0;
@@ -63,40 +57,6 @@ pub(super) struct FrameOf {
     pub(super) mode: String,
     /// Indices of shapes, in the order in which they are drawn.
     pub(super) shapes: Vec<usize>,
-}
-
-impl Animation {
-    /// As a page by itself, with a slider for the time and the log of events.
-    ///
-    /// # Errors
-    /// If a place or a size is infinite or undefined.
-    pub fn to_html(&self) -> Result<String, NotFinite> {
-        // In the page they are parts of a program, in which characters are written otherwise.
-        finished_parts(&self.shapes)?;
-        finished(page::html(self))
-    }
-
-    /// As an SVG document that moves by itself.
-    ///
-    /// # Errors
-    /// As [`Animation::to_html`].
-    pub fn to_svg(&self) -> Result<String, NotFinite> {
-        finished(page::svg(self))
-    }
-
-    /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each unit of
-    /// the drawing and at most 1000 on each side. The callback is told how many frames are done, and ends the work when it breaks.
-    /// The bytes do not depend on the number of threads.
-    ///
-    /// Delays are hundredths of a second; they are shared out so that all frames together take the time that the SVG
-    /// takes, to half a hundredth.
-    ///
-    /// # Errors
-    /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s, or the callback broke.
-    #[cfg(feature = "png")]
-    pub fn to_gif(&self, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
-        gif::write(self, callback)
-    }
 }
 
 /// A motion as a moving picture.

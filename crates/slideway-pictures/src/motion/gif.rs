@@ -44,8 +44,23 @@ pub enum GifFault {
     Packing(#[from] gif::EncodingError),
 }
 
+impl Animation {
+    /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each unit of
+    /// the drawing and at most 1000 on each side. The callback is told how many frames are done, and ends the work when it breaks.
+    /// The bytes do not depend on the number of threads.
+    ///
+    /// Delays are hundredths of a second; they are shared out so that all frames together take the time that the SVG
+    /// takes, to half a hundredth.
+    ///
+    /// # Errors
+    /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s, or the callback broke.
+    pub fn to_gif(&self, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
+        write(self, callback)
+    }
+}
+
 /// The bytes of the file.
-pub(super) fn write(animation: &Animation, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
+fn write(animation: &Animation, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
     if animation.frames.is_empty() {
         return Err(GifFault::NoFrame);
     }

@@ -1,7 +1,7 @@
 //! A moving picture as a document by itself.
 
 use super::animation::{Animation, FrameOf};
-use crate::coordinate::{coordinate, exact, tenths, thousandths};
+use crate::coordinate::{NotFinite, coordinate, exact, finished, finished_parts, tenths, thousandths};
 use crate::drawing::svg::{Colour, rules};
 use crate::escaped;
 use crate::plot::svg::wrapped;
@@ -22,8 +22,28 @@ const WORDS: f64 = 13.0;
 /// Lines for the words of an event.
 const LINES: usize = 2;
 
+impl Animation {
+    /// As a page by itself, with a slider for the time and the log of events.
+    ///
+    /// # Errors
+    /// If a place or a size is infinite or undefined.
+    pub fn to_html(&self) -> Result<String, NotFinite> {
+        // In the page they are parts of a program, in which characters are written otherwise.
+        finished_parts(&self.shapes)?;
+        finished(html(self))
+    }
+
+    /// As an SVG document that moves by itself.
+    ///
+    /// # Errors
+    /// As [`Animation::to_html`].
+    pub fn to_svg(&self) -> Result<String, NotFinite> {
+        finished(svg(self))
+    }
+}
+
 /// A page with a slider for the time and the log of events.
-pub(super) fn html(animation: &Animation) -> String {
+fn html(animation: &Animation) -> String {
     let theme = &animation.theme;
     let mut out = String::new();
     let _ = write!(
@@ -133,7 +153,7 @@ requestAnimationFrame(step);
 "#;
 
 /// A document that moves by itself: every frame is a group that is shown in its time.
-pub(super) fn svg(animation: &Animation) -> String {
+fn svg(animation: &Animation) -> String {
     let size = animation.bounds.size();
     let theme = &animation.theme;
     let total = animation.frame_time * animation.frames.len() as f64;

@@ -4,7 +4,7 @@ use super::{Figure, Page, text};
 use crate::drawing::svg::{self, Colours, Frame};
 use crate::drawing::{number, signs};
 use slideway::limits::{LimitsReport, ModeLimits};
-use slideway::report::{JointMode, Report, Solution, followed, precise};
+use slideway::report::{JointMode, Proof, Solution, SolveReport, followed, precise};
 use std::fmt::Display;
 
 /// Everything between the ends of `body`.
@@ -51,7 +51,7 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
 }
 
 /// The state that was solved, and how many solutions it has.
-fn answer(report: &Report) -> String {
+fn answer(report: &SolveReport) -> String {
     let model = &report.model;
     let drives = match model.drives {
         0 => String::new(),
@@ -71,7 +71,7 @@ fn answer(report: &Report) -> String {
         .collect();
     let followed =
         report.steps_from_drawing.map_or_else(String::new, |steps| format!("; {}", text(&followed(steps))));
-    let complete = if report.complete == "proven" {
+    let complete = if report.complete == Proof::Proven {
         "The list is proven complete."
     } else {
         "That these are all is not proven."
@@ -104,7 +104,7 @@ fn drawing(page: &Page<'_>) -> String {
 }
 
 /// The solutions and the preload-gap states, each with its heading.
-fn states(report: &Report) -> Vec<(String, &Solution)> {
+fn states(report: &SolveReport) -> Vec<(String, &Solution)> {
     let heading = |kind: &str, index: usize, count: &str, solution: &Solution| {
         format!("{kind} {} of {count}: {}", index + 1, signs(&solution.pattern))
     };
@@ -237,7 +237,7 @@ fn mode(mode: &ModeLimits) -> String {
         text(&signs(&mode.pattern)),
         end(mode.from),
         end(mode.to),
-        text(&mode.to_is.replace('_', " ")),
+        mode.to_is.in_words(),
         text(&at),
         joints.join("; "),
     )

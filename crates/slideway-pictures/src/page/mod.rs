@@ -16,7 +16,7 @@ use crate::escaped;
 use crate::theme::{DARK, LIGHT, Theme};
 use slideway::limits::LimitsReport;
 use slideway::printable::lines;
-use slideway::report::Report;
+use slideway::report::SolveReport;
 
 const HEAD: &str = include_str!("head.html");
 
@@ -34,7 +34,7 @@ pub struct Page<'a> {
     /// The drawing of the mechanism and its solutions.
     pub sheet: &'a Sheet,
     /// All solutions, or why there is no answer.
-    pub report: Result<&'a Report, &'a [String]>,
+    pub report: Result<&'a SolveReport, &'a [String]>,
     /// For which values modes exist.
     pub limits: &'a [LimitsReport],
     /// Further figures.

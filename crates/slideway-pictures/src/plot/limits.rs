@@ -4,7 +4,7 @@ use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Pan
 use slideway::limits::{
     self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem,
 };
-use slideway::report::{Verdict, precise};
+use slideway::report::{ModeEndCause, Verdict, precise};
 
 /// Values closer than this share of the range are one value in a plot.
 const TOGETHER: f64 = 1e-6;
@@ -149,10 +149,10 @@ fn stroke_of(verdict: Verdict) -> Stroke {
     }
 }
 
-fn end_of(cause: &str) -> End {
+fn end_of(cause: ModeEndCause) -> End {
     match cause {
-        "range" => End::Plain,
-        "locking" => End::Diverges,
+        ModeEndCause::Range => End::Plain,
+        ModeEndCause::Locking => End::Diverges,
         _ => End::Marked,
     }
 }
@@ -163,7 +163,9 @@ fn marked(modes: &[ModeLimits], [from, to]: [f64; 2], scale: f64) -> Vec<MarkedV
         .iter()
         .flat_map(|mode| [(mode.from, mode.from_is, &mode.from_at), (mode.to, mode.to_is, &mode.to_at)]);
     let mut found: Vec<(f64, String, bool)> = ends
-        .filter_map(|(at, cause, contacts)| Some((at?, cause_in_words(cause, contacts)?, cause == "locking")))
+        .filter_map(|(at, cause, contacts)| {
+            Some((at?, cause_in_words(cause, contacts)?, cause == ModeEndCause::Locking))
+        })
         .collect();
     found.sort_by(|one, other| one.0.total_cmp(&other.0));
     let mut marked: Vec<(MarkedValue, Vec<String>)> = Vec::new();
@@ -186,19 +188,19 @@ fn marked(modes: &[ModeLimits], [from, to]: [f64; 2], scale: f64) -> Vec<MarkedV
     marked.into_iter().map(labelled).collect()
 }
 
-fn cause_in_words(cause: &str, contacts: &[String]) -> Option<String> {
+fn cause_in_words(cause: ModeEndCause, contacts: &[String]) -> Option<String> {
     let at = contacts.join(", ");
     let plural = contacts.len() > 1;
     Some(match cause {
-        "locking" => "locking".to_owned(),
-        "side_change" if plural => format!("{at} change side"),
-        "side_change" => format!("{at} changes side"),
-        "gap_closes" => format!("gap of {at} closes"),
-        "tipping" if plural => format!("{at} tip"),
-        "tipping" => format!("{at} tips"),
-        "greatest_reaction" => format!("{at} at the greatest reaction"),
-        "reversal" => "sliding reverses".to_owned(),
-        "no_mode_problem" => "cannot be solved".to_owned(),
+        ModeEndCause::Locking => "locking".to_owned(),
+        ModeEndCause::SideChange if plural => format!("{at} change side"),
+        ModeEndCause::SideChange => format!("{at} changes side"),
+        ModeEndCause::GapCloses => format!("gap of {at} closes"),
+        ModeEndCause::Tipping if plural => format!("{at} tip"),
+        ModeEndCause::Tipping => format!("{at} tips"),
+        ModeEndCause::GreatestReaction => format!("{at} at the greatest reaction"),
+        ModeEndCause::Reversal => "sliding reverses".to_owned(),
+        ModeEndCause::NoModeProblem => "cannot be solved".to_owned(),
         _ => return None,
     })
 }

@@ -21,12 +21,12 @@ const MOST_ZONES: usize = 1000;
 /// ```
 /// use slideway::limits::Quantity;
 /// use slideway::model::Model;
-/// use slideway::sweep::{Sweep, SweepOptions};
+/// use slideway::sweep::{GridAxis, Sweep, SweepOptions};
 /// use slideway_pictures::plot::SweepPlot;
 /// use std::ops::ControlFlow;
 ///
 /// let model = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
-/// let sweep = Sweep::new(&model, &SweepOptions::of(&["mu=0..0.8:81"]))?;
+/// let sweep = Sweep::new(&model, &SweepOptions::grid([GridAxis::linear("mu", 0.0, 0.8, 81)]))?;
 /// let mut plot = SweepPlot::new(&sweep, Quantity::NormalForce).expect("one axis");
 /// let extract = plot.extractor();
 /// sweep.run(&mut sweep.start(), &|rows| extract.rows(rows), &mut |parts, _| {

@@ -16,14 +16,14 @@ mod stops;
 use slideway::configuration::Configuration;
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
-use slideway::report::Report;
+use slideway::report::SolveReport;
 use slideway::solve::solve;
 
 /// A model in a state, with its solutions if it has any.
 struct Case {
     mechanism: Mechanism,
     configuration: Configuration,
-    report: Option<Report>,
+    report: Option<SolveReport>,
 }
 
 impl Case {

@@ -15,8 +15,6 @@
 
 mod text;
 
-pub use text::to_text;
-
 use crate::configuration::{Configuration, Mobility, free_motions, motion_in_words, unit};
 use crate::fault::{FaultKind, Faults};
 use crate::ids::ContactId;
@@ -28,6 +26,7 @@ use crate::report::finite;
 use crate::solve::{check_size, mode_problem, velocity_signs};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
+use std::fmt;
 
 /// Version of the layout of a [`CheckReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/check/1";
@@ -134,8 +133,8 @@ pub struct BodySummary {
 pub struct JointSummary {
     /// Its name.
     pub name: String,
-    /// "hinge", "block slider", "guided slider" or "pin in slot".
-    pub kind: &'static str,
+    /// What it is.
+    pub kind: JointForm,
     /// The bodies it joins; of a sliding joint first the block, then the guide.
     pub joins: [String; 2],
     /// Scalar constraints.
@@ -147,6 +146,58 @@ pub struct JointSummary {
     /// The stops at the least and at the greatest displacement, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stops: Option<[Option<Stop>; 2]>,
+}
+
+/// What a joint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub enum JointForm {
+    /// A hinge.
+    #[serde(rename = "hinge")]
+    Hinge,
+    /// A block of some length in a guide, with contacts at both ends.
+    #[serde(rename = "block slider")]
+    BlockSlider,
+    /// A block that its guide holds straight, with one contact and a couple.
+    #[serde(rename = "guided slider")]
+    GuidedSlider,
+    /// A pin in a slot.
+    #[serde(rename = "pin in slot")]
+    PinInSlot,
+}
+
+impl fmt::Display for JointForm {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Hinge => "hinge",
+            Self::BlockSlider => "block slider",
+            Self::GuidedSlider => "guided slider",
+            Self::PinInSlot => "pin in slot",
+        })
+    }
+}
+
+/// What a coordinate measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum CoordinateForm {
+    /// The displacement of a sliding joint.
+    Slide,
+    /// The angle between two bodies.
+    Rotation,
+    /// The displacement of a point along a line.
+    Displacement,
+}
+
+impl fmt::Display for CoordinateForm {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Slide => "slide",
+            Self::Rotation => "rotation",
+            Self::Displacement => "displacement",
+        })
+    }
 }
 
 /// A contact.
@@ -184,8 +235,8 @@ pub struct DriveSummary {
 pub struct CoordinateSummary {
     /// Its name.
     pub name: String,
-    /// "slide", "rotation" or "displacement".
-    pub kind: &'static str,
+    /// What it measures.
+    pub kind: CoordinateForm,
     /// "m" or "rad".
     pub unit: &'static str,
     /// Its value in the state.
@@ -245,11 +296,6 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     })
 }
 
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &CheckReport) -> String {
-    crate::report::indented_json(report)
-}
-
 fn finding(kind: &FaultKind) -> Finding {
     Finding { message: kind.to_string(), hint: kind.hint() }
 }
@@ -306,12 +352,12 @@ fn bodies(mechanism: &Mechanism) -> Vec<BodySummary> {
 fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSummary> {
     let one = |joint: &crate::mechanism::Joint| {
         let (kind, frames, constraints, slider) = match &joint.kind {
-            JointKind::Hinge([first, second]) => ("hinge", [first.frame, second.frame], 2, None),
+            JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
                 let (kind, constraints) = match slider.kind {
-                    SliderKind::Block => ("block slider", 2),
-                    SliderKind::Guided => ("guided slider", 2),
-                    SliderKind::Pin => ("pin in slot", 1),
+                    SliderKind::Block => (JointForm::BlockSlider, 2),
+                    SliderKind::Guided => (JointForm::GuidedSlider, 2),
+                    SliderKind::Pin => (JointForm::PinInSlot, 1),
                 };
                 (kind, [slider.block, slider.guide], constraints, Some(slider))
             }
@@ -354,9 +400,9 @@ fn coordinates(mechanism: &Mechanism) -> Vec<CoordinateSummary> {
     let one = |coordinate: &crate::mechanism::Coordinate| CoordinateSummary {
         name: coordinate.name.to_string(),
         kind: match coordinate.kind {
-            CoordinateKind::Slide(_) => "slide",
-            CoordinateKind::Rotation(..) => "rotation",
-            CoordinateKind::Displacement(..) => "displacement",
+            CoordinateKind::Slide(_) => CoordinateForm::Slide,
+            CoordinateKind::Rotation(..) => CoordinateForm::Rotation,
+            CoordinateKind::Displacement(..) => CoordinateForm::Displacement,
         },
         unit: unit(&coordinate.kind),
         value: coordinate.value,

@@ -5,18 +5,20 @@ use crate::model::Stop;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, count, followed};
+use crate::report::{Report, Style, count, followed};
 use anstyle::AnsiColor;
 
-/// The report as text: the verdict first, then what the model consists of.
-pub fn to_text(report: &CheckReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.verdict();
-    text.mobility();
-    text.inertia();
-    text.tables();
-    text.text()
+impl Report for CheckReport {
+    /// The verdict first, then what the model consists of.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.verdict();
+        text.mobility();
+        text.inertia();
+        text.tables();
+        text.text()
+    }
 }
 
 type Text<'r> = Page<'r, CheckReport>;
@@ -116,7 +118,7 @@ impl Text<'_> {
         let joints = report.joints.iter().map(|joint| {
             vec![
                 joint.name.clone(),
-                joint.kind.to_owned(),
+                joint.kind.to_string(),
                 joint.joins.join(", "),
                 joint.constraints.to_string(),
                 optional(joint.overlap),
@@ -131,7 +133,7 @@ impl Text<'_> {
         let coordinates = report.coordinates.iter().map(|coordinate| {
             vec![
                 coordinate.name.clone(),
-                coordinate.kind.to_owned(),
+                coordinate.kind.to_string(),
                 driven_by(report, &coordinate.name),
                 format!("{} {}", number(coordinate.value), coordinate.unit),
                 format!("{} {}/s", number(coordinate.rate), coordinate.unit),

@@ -1,10 +1,10 @@
 //! The efforts over a parameter, a coordinate or friction.
 
 use super::efforts::Efforts;
-use super::report::{BlowUp, CourseDirection, CourseRow};
+use super::report::{Approach, BlowUp, CourseDirection, CourseRow, Sense};
 use super::state::growing_ends;
 use crate::fault::Faults;
-use crate::limits::{Found, LimitsOptions, RangeWithoutProblem, Varied, find, guarantee};
+use crate::limits::{ModesFound, RangeWithoutProblem, Varied, find, guarantee};
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::solve::{Stages, pattern};
@@ -27,11 +27,10 @@ const GROWTH: f64 = 30.0;
 pub(super) fn direction(
     varied: &Varied,
     (range, steps): ([f64; 2], usize),
-    direction: &'static str,
+    direction: Sense,
     work: Work<'_>,
 ) -> Result<(String, CourseDirection), Faults> {
-    let options = LimitsOptions { effort: 0, ..LimitsOptions::of(&varied.name) };
-    let found = find(varied, range, &options, work.part(0, 2))?;
+    let found = find(varied, range, None, 0, work.part(0, 2))?;
     let efforts = |value: f64| {
         let goes_on = !work.part(1, 2).is_over();
         if goes_on { Efforts::at(varied, value).ok() } else { None }
@@ -48,7 +47,7 @@ pub(super) fn direction(
 
 /// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign
 /// between evenly spaced values without vanishing.
-fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Found) -> Vec<BlowUp> {
+fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &ModesFound) -> Vec<BlowUp> {
     let values = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
     let places: Vec<(f64, Option<Efforts>)> = values.map(|value| (value, at(value))).collect();
     let mut poles = Vec::new();
@@ -75,7 +74,7 @@ fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Foun
                 };
                 places.iter().zip(values).map(one).collect()
             };
-            for (side, efforts) in [("below", &pair[0].1), ("above", &pair[1].1)] {
+            for (side, efforts) in [(Approach::Below, &pair[0].1), (Approach::Above, &pair[1].1)] {
                 let efforts = sign(efforts);
                 poles.push(BlowUp {
                     at: place,
@@ -117,7 +116,7 @@ struct Tabulated<'c> {
     varied: &'c Varied,
     efforts: &'c dyn Fn(f64) -> Option<Efforts>,
     range: [f64; 2],
-    found: &'c Found,
+    found: &'c ModesFound,
     blow_ups: &'c [BlowUp],
     work: Work<'c>,
 }

@@ -38,13 +38,12 @@ mod state;
 mod text;
 
 pub use report::{
-    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution,
-    Efficiency, EfficiencyKind, Frictionless, SCHEMA, to_json,
+    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport,
+    DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense,
 };
-pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, VariedQuantity, given_range};
+use crate::limits::{Varied, VariedQuantity, Vary};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{finite, locked};
@@ -54,11 +53,11 @@ use crate::size::usual_range;
 pub const GREATEST_ROWS: usize = 10_001;
 
 /// What is asked of the drives.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DriveOptions {
-    /// "NAME" or "NAME=FROM..TO": a parameter, a coordinate, or [`crate::limits::FRICTION`], over which the efforts are
-    /// tabulated.
-    pub vary: Option<String>,
+    /// Over what the efforts are tabulated; the usual ranges are those of [`size`](crate::size::SizeOptions::vary).
+    pub vary: Option<Vary>,
     /// Evenly spaced rows of the table, at least two.
     pub rows: usize,
 }
@@ -67,6 +66,22 @@ impl Default for DriveOptions {
     /// No table; 11 rows if there is one.
     fn default() -> Self {
         Self { vary: None, rows: 11 }
+    }
+}
+
+impl DriveOptions {
+    /// With a table of the efforts over this.
+    #[must_use]
+    pub fn vary(mut self, vary: impl Into<Option<Vary>>) -> Self {
+        self.vary = vary.into();
+        self
+    }
+
+    /// With so many rows in the table.
+    #[must_use]
+    pub fn rows(mut self, rows: usize) -> Self {
+        self.rows = rows;
+        self
     }
 }
 
@@ -104,8 +119,8 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         name: drive.name.to_string(),
         unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
     });
-    let (state, forwards) = state::direction(model, "model", work.part(0, 4))?;
-    let (_, opposite) = state::direction(&reversed, "reversed", work.part(1, 4))?;
+    let (state, forwards) = state::direction(model, Sense::Model, work.part(0, 4))?;
+    let (_, opposite) = state::direction(&reversed, Sense::Reversed, work.part(1, 4))?;
     let mut report = DriveReport {
         schema: SCHEMA,
         title: model.title.clone(),
@@ -119,20 +134,18 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
     finite(report)
 }
 
-fn course([model, reversed]: [&Model; 2], vary: &str, rows: usize, work: Work<'_>) -> Result<Course, Faults> {
-    let (name, range) = match vary.split_once('=') {
-        Some((name, range)) => (name.trim(), Some(range)),
-        None => (vary.trim(), None),
-    };
-    let varied = Varied::new(model, name)?;
-    let range = match range {
-        Some(text) => given_range(&varied, text)?,
-        None => usual_range(model, &varied)?,
-    };
-    let opposite = Varied::new(reversed, name)?;
+fn course(
+    [model, reversed]: [&Model; 2],
+    vary: &Vary,
+    rows: usize,
+    work: Work<'_>,
+) -> Result<Course, Faults> {
+    let varied = Varied::new(model, &vary.name)?;
+    let range = vary.ends(&varied, || usual_range(model, &varied))?;
+    let opposite = Varied::new(reversed, &vary.name)?;
     let steps = rows.clamp(2, GREATEST_ROWS) - 1;
-    let (guarantee, forwards) = course::direction(&varied, (range, steps), "model", work.part(0, 2))?;
-    let (_, backwards) = course::direction(&opposite, (range, steps), "reversed", work.part(1, 2))?;
+    let (guarantee, forwards) = course::direction(&varied, (range, steps), Sense::Model, work.part(0, 2))?;
+    let (_, backwards) = course::direction(&opposite, (range, steps), Sense::Reversed, work.part(1, 2))?;
     Ok(Course {
         vary: VariedQuantity::new(&varied, range, varied.present()?),
         directions: vec![forwards, backwards],

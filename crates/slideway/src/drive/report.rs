@@ -1,7 +1,7 @@
 //! What is told of driven motion: plain data, which are the JSON output.
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
-use crate::report::{CoordinateState, JointMode, Status, Verdict, indented_json};
+use crate::report::{CoordinateState, JointMode, Status, Verdict};
 use serde::Serialize;
 
 /// Version of the layout of a [`DriveReport`]; changes whenever a field is renamed or removed.
@@ -42,8 +42,8 @@ pub struct DriveName {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DriveDirection {
-    /// "model" or "reversed".
-    pub direction: &'static str,
+    /// Which direction it is.
+    pub direction: Sense,
     /// How many solutions there are.
     pub status: Status,
     /// Without friction.
@@ -122,8 +122,8 @@ pub struct BlowUp {
     pub at: f64,
     /// The mode in which they do.
     pub pattern: String,
-    /// Whether the mode exists below the value ("below") or above it ("above").
-    pub side: &'static str,
+    /// On which side of the value the mode exists.
+    pub side: Approach,
     /// 1 or -1 for each drive whose effort grows without bound, with this sign, else 0.
     pub efforts: Vec<i8>,
     /// The contacts whose normal forces grow without bound, too.
@@ -146,8 +146,8 @@ pub struct Course {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CourseDirection {
-    /// "model" or "reversed".
-    pub direction: &'static str,
+    /// Which direction it is.
+    pub direction: Sense,
     /// One row for each value and each solution there; a value without a solution has one row without a pattern.
     pub rows: Vec<CourseRow>,
     /// Values at which efforts grow without bound, in ascending order.
@@ -176,7 +176,22 @@ pub struct CourseRow {
     pub efficiency: Option<Efficiency>,
 }
 
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &DriveReport) -> String {
-    indented_json(report)
+/// A direction of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sense {
+    /// That of the model's rates.
+    Model,
+    /// The other one.
+    Reversed,
+}
+
+/// From which side a value is approached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Approach {
+    /// From below.
+    Below,
+    /// From above.
+    Above,
 }

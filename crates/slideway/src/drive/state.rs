@@ -1,7 +1,7 @@
 //! The efforts in the state of the model.
 
 use super::efforts::{Efforts, efficiency, growing, power, velocities};
-use super::report::{BlowUp, DriveDirection, DriveSolution, Frictionless};
+use super::report::{Approach, BlowUp, DriveDirection, DriveSolution, Frictionless, Sense};
 use crate::fault::Faults;
 use crate::ids::DriveId;
 use crate::model::Model;
@@ -23,7 +23,7 @@ const SAME: f64 = 1e-12;
 /// Whatever `solve` refuses.
 pub(super) fn direction(
     model: &Model,
-    direction: &'static str,
+    direction: Sense,
     work: Work<'_>,
 ) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
     let options = SolveOptions::default();
@@ -86,8 +86,8 @@ pub(super) fn growing_ends(
         contacts.iter().map(|&contact| stages.mechanism.contacts[contact].name.to_string()).collect()
     };
     let ends = |mode: &ModeInterval| {
-        let ends = [(mode.to.at, mode.from.at, "below"), (mode.from.at, mode.to.at, "above")];
-        let one = |&(end, other, side): &(f64, f64, &'static str)| {
+        let ends = [(mode.to.at, mode.from.at, Approach::Below), (mode.from.at, mode.to.at, Approach::Above)];
+        let one = |&(end, other, side): &(f64, f64, Approach)| {
             let growing = growing(&mode.pattern, [end, other], &at).filter(|_| end.is_finite())?;
             Some(BlowUp {
                 at: end,

@@ -1,26 +1,29 @@
 //! Driven motion as text for people.
 
 use super::report::{
-    BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency, EfficiencyKind,
+    Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveReport, Efficiency,
+    EfficiencyKind, Sense,
 };
 use crate::limits::{RangeWithoutProblem, no_answer};
 use crate::report::number::number;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Status, Style, Verdict, spaced};
+use crate::report::{Report, Status, Style, Verdict, spaced};
 
-/// The report as text: what it comes to, the efforts in the state, and those over what is varied.
-pub fn to_text(report: &DriveReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    for direction in &report.directions {
-        text.direction(direction);
+impl Report for DriveReport {
+    /// What it comes to, the efforts in the state, and those over what is varied.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        for direction in &self.directions {
+            text.direction(direction);
+        }
+        if let Some(course) = &self.course {
+            text.course(course);
+        }
+        text.text()
     }
-    if let Some(course) = &report.course {
-        text.course(course);
-    }
-    text.text()
 }
 
 /// One sentence for each direction, and one for each factor of friction at which its efforts grow without bound.
@@ -41,8 +44,8 @@ pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
     sentences
 }
 
-fn moving(direction: &str) -> &'static str {
-    if direction == "model" { "Moving as in the model" } else { "Moving in the opposite direction" }
+fn moving(direction: Sense) -> &'static str {
+    if direction == Sense::Model { "Moving as in the model" } else { "Moving in the opposite direction" }
 }
 
 /// "push needs 36.364 N instead of 20 N without friction, efficiency 55 %"
@@ -96,7 +99,7 @@ fn without_bound(report: &DriveReport, blow_up: &BlowUp) -> String {
         [] => String::new(),
         contacts => format!(", as the normal forces of {} do", contacts.join(", ")),
     };
-    let from = if blow_up.side == "above" { " from above" } else { "" };
+    let from = if blow_up.side == Approach::Above { " from above" } else { "" };
     format!(
         "the {what} of {} {verb} without bound{from} in the mode {}{also}",
         growing.join(", "),

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use super::Names;
 use super::dimension::Inferred;
 use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::inference::whole_exponent;
-use super::lexer::TokenKind;
+use super::lexer::{TokenKind, tokens};
 use super::parser::{Parser, Read};
 use super::unit::{self, Scale, UNITS, Unit};
 use super::{names::is_reserved, nearest_names};
@@ -22,6 +23,15 @@ enum Joint {
 /// The most units proposed in place of an unknown one.
 const MAX_PROPOSALS: usize = 3;
 
+/// The value in SI units of a unit that stands by itself, such as `mm` or `N/m`; none for a text that is no unit.
+pub(crate) fn unit_in_si(text: &str) -> Option<f64> {
+    let names = Names::new();
+    let mut parser = Parser::new(text, tokens(text).ok()?, &names);
+    let scale = parser.unit(&mut (0..0)).ok()??;
+    let is_whole = parser.faults.is_empty() && parser.peek(0).is_none();
+    is_whole.then(|| scale.in_si(1.0))
+}
+
 impl<'t> Parser<'t> {
     /// A number and its unit, if one follows; returns the place of both.
     pub(super) fn literal(&mut self, number: f64, enclosure: Interval) -> Read {
@@ -30,20 +40,25 @@ impl<'t> Parser<'t> {
             self.number(number, enclosure, Inferred::Number, span.clone());
             return Ok(span);
         }
+        if let Some(scale) = self.unit(&mut span)? {
+            let enclosure = scale.enclosed_in_si(enclosure);
+            self.quantity(scale.in_si(number), enclosure, scale, span.clone());
+        }
+        Ok(span)
+    }
+
+    /// The unit behind what was read, whose place grows by that of the unit; none if there is something wrong with it.
+    fn unit(&mut self, span: &mut Range<usize>) -> Result<Option<Scale>, ExpressionFault> {
         let mut scale = Some(Scale::ONE);
         while let Some((joint, name)) = self.joint() {
-            let factor = self.factor(joint, name, &span)?;
+            let factor = self.factor(joint, name, span)?;
             span.end = self.previous_end();
             scale = scale.zip(factor).and_then(|(scale, (unit, exponent))| {
                 let scaled = scale.times(unit, exponent);
                 scaled.map_err(|kind| self.faults.push(ExpressionFault::new(kind, span.clone()))).ok()
             });
         }
-        if let Some(scale) = scale {
-            let enclosure = scale.enclosed_in_si(enclosure);
-            self.quantity(scale.in_si(number), enclosure, scale, span.clone());
-        }
-        Ok(span)
+        Ok(scale)
     }
 
     fn quantity(&mut self, value: f64, enclosure: Interval, scale: Scale, span: Range<usize>) {

@@ -54,6 +54,7 @@ pub use degree::Degree;
 pub use dimension::{Dimension, Inferred};
 pub use evaluate::Values;
 pub use fault::{ExpressionFault, ExpressionFaultKind};
+pub(crate) use literal::unit_in_si;
 pub use names::{Names, Symbol, is_reserved, is_valid_name};
 pub use parser::{MAX_DEPTH, MAX_LENGTH, parse};
 pub use program::Expression;

@@ -44,8 +44,7 @@ pub fn parse(text: &str, names: &Names) -> Result<Expression, Vec<ExpressionFaul
     if tokens.is_empty() {
         return Err(vec![ExpressionFault::new(ExpressionFaultKind::Empty, whole)]);
     }
-    let program = Expression::default();
-    let mut parser = Parser { text, tokens, next: 0, names, program, faults: Vec::new(), depth: 0 };
+    let mut parser = Parser::new(text, tokens, names);
     if let Err(fault) = parser.whole() {
         parser.faults.push(fault);
     }
@@ -88,6 +87,11 @@ fn infix(kind: TokenKind<'_>) -> Option<(Binary, u8, u8)> {
 }
 
 impl<'t> Parser<'t> {
+    pub(super) fn new(text: &'t str, tokens: Vec<Token<'t>>, names: &'t Names) -> Self {
+        let program = Expression::default();
+        Self { text, tokens, next: 0, names, program, faults: Vec::new(), depth: 0 }
+    }
+
     pub(super) fn peek(&self, ahead: usize) -> Option<TokenKind<'t>> {
         self.tokens.get(self.next + ahead).map(|token| token.kind)
     }

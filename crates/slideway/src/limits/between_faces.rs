@@ -5,8 +5,9 @@
 //! these is bisected. Those at single values, where a normal force passes through zero, are those of `solve` at its zeros,
 //! which are known where modes end at zeros of determinants: a mode that tips ends there, too, if tipping is not judged.
 
+use super::closed_form::value_at;
 use super::examine::margin_of;
-use super::find::{Elsewhere, Found, Knowledge, Method, PATTERNS, SingleValues};
+use super::found::{Elsewhere, Knowledge, Method, ModesFound, PATTERNS, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::modes::existence::{CountInterval, EndCause, ExistenceOptions, ModeEnd, is_same_end};
@@ -22,7 +23,7 @@ struct Stretch {
 }
 
 /// Adds these states to the numbers of preload-gap states, and cuts intervals where they begin and end.
-pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, work: Work<'_>) {
+pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound, work: Work<'_>) {
     if !varied.model().has_guided_sliders() {
         return;
     }
@@ -79,7 +80,7 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut Found, wor
 fn single_values(
     varied: &Varied,
     (greatest, zeros): (Option<f64>, Option<Vec<f64>>),
-    found: &Found,
+    found: &ModesFound,
     work: Work<'_>,
 ) -> SingleValues {
     let Some(mut values) = zeros else { return SingleValues::LeftOut };
@@ -94,7 +95,7 @@ fn single_values(
 
 /// Where the normal forces of contacts with free faces vanish or may vanish in a mode, whether or not a guided slider tips in it;
 /// none if the modes of the range are not known from zeros of determinants.
-fn zeros(varied: &Varied, found: &Found, work: Work<'_>) -> Option<Vec<f64>> {
+fn zeros(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Option<Vec<f64>> {
     if found.method == Method::Bracketing {
         return None;
     }
@@ -118,9 +119,7 @@ fn zeros(varied: &Varied, found: &Found, work: Work<'_>) -> Option<Vec<f64>> {
         let mut shares: Vec<f64> = ends.filter(vanishes).map(|end| end.at).chain([0.0, 1.0]).collect();
         shares.sort_by(f64::total_cmp);
         shares.dedup_by(|next, kept| is_same_end(*next, *kept));
-        let value =
-            |share: f64| if share == 1.0 { piece[1] } else { piece[0] + share * (piece[1] - piece[0]) };
-        zeros.extend(shares.into_iter().map(value));
+        zeros.extend(shares.into_iter().map(|share| value_at([piece[0], piece[1]], share)));
     }
     zeros.dedup();
     Some(zeros)

@@ -4,7 +4,7 @@
 //! against the scale on which the mode problem changes are cut into pieces, each with its own line between mode problems
 //! that were made at its ends: on one line over all of it small values would drown in the rounding of great ones.
 
-use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
+use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
 use super::scan::bisect;
 use super::varied::Varied;
 use crate::expression::Degree;
@@ -26,7 +26,7 @@ pub(super) fn closed_form(
     varied: &Varied,
     options: &ExistenceOptions,
     work: Work<'_>,
-) -> Result<Option<Found>, TooManyModes> {
+) -> Result<Option<ModesFound>, TooManyModes> {
     let dependence = varied.dependence();
     if dependence.problem.max(dependence.conditions) == Degree::Other {
         return Ok(None);
@@ -59,7 +59,7 @@ pub(super) fn closed_form(
     join(&mut all, [from, to], &cause);
     let method = if changes { Method::ClosedForm } else { Method::Same { at_rest: dependence.at_rest } };
     let known = Knowledge::unproven(Elsewhere::ClosedForm);
-    Ok(Some(Found {
+    Ok(Some(ModesFound {
         existence: all,
         known: vec![known; numbers.len()],
         counts: numbers,
@@ -114,9 +114,8 @@ fn pieces(varied: &Varied, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// From the fraction of a piece to the value of what is varied.
-fn stretch(existence: &mut Existence, counts: &mut [CountInterval], [from, to]: [f64; 2]) {
-    // Both ends stay exact.
-    let value = |t: f64| if t == 1.0 { to } else { from + t * (to - from) };
+fn stretch(existence: &mut Existence, counts: &mut [CountInterval], piece: [f64; 2]) {
+    let value = |t: f64| value_at(piece, t);
     for mode in &mut existence.modes {
         mode.from.at = value(mode.from.at);
         mode.to.at = value(mode.to.at);
@@ -125,6 +124,11 @@ fn stretch(existence: &mut Existence, counts: &mut [CountInterval], [from, to]: 
         interval.from = value(interval.from);
         interval.to = value(interval.to);
     }
+}
+
+/// The value at a fraction of a piece; both ends are exact.
+pub(super) fn value_at([from, to]: [f64; 2], t: f64) -> f64 {
+    if t == 1.0 { to } else { from + t * (to - from) }
 }
 
 fn append(all: &mut Vec<CountInterval>, more: Vec<CountInterval>) {

@@ -1,6 +1,6 @@
 //! What limits come to, in words.
 
-use super::find::Method;
+use super::found::Method;
 use super::report::{CountLimits, Direction, Known};
 use crate::report::precise;
 

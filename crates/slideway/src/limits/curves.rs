@@ -1,7 +1,11 @@
 //! Forces and accelerations of every mode over what is varied: what a plot shows.
 
-use super::report::Naming;
-use super::{Analysis, Found, LimitsOptions, LimitsReport, ShownIn, Varied};
+use super::analysis::Analysis;
+use super::answer::Naming;
+use super::found::ModesFound;
+use super::options::LimitsOptions;
+use super::report::LimitsReport;
+use super::varied::{ShownIn, Varied};
 use crate::attainability::ElasticGuides;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -86,11 +90,12 @@ pub struct Curves {
 /// As [`limits`](super::limits); a model without drives has no efforts.
 ///
 /// ```
-/// use slideway::limits::{LimitsOptions, Quantity, limits_with_curves};
+/// use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
 /// use slideway::model::Model;
 ///
 /// let model = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
-/// let (report, curves) = limits_with_curves(&model, &LimitsOptions::of("mu"), Quantity::NormalForce)?;
+/// let options = LimitsOptions::new(Vary::usual("mu"));
+/// let (report, curves) = limits_with_curves(&model, &options, Quantity::NormalForce)?;
 /// assert_eq!(curves.forwards.len(), report.modes.len());
 /// assert_eq!(curves.series[0].name, "guide.front");
 /// # Ok::<(), slideway::fault::Faults>(())
@@ -125,7 +130,7 @@ fn curves_of(
     let analysis = Analysis::new(model, options, work.part(0, 2))?;
     let naming = Naming::new(model)?;
     let series = series(&naming.mechanism, quantity)?;
-    let curves = |varied: &Varied, found: &Found| -> Vec<Curve> {
+    let curves = |varied: &Varied, found: &ModesFound| -> Vec<Curve> {
         let modes = &found.existence.modes;
         let one = |(index, mode)| curve(varied, mode, quantity, work.part(1, 2).part(index, modes.len()));
         modes.iter().enumerate().map(one).collect()

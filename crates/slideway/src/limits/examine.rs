@@ -1,7 +1,7 @@
 //! What is proven of the numbers of solutions between the ends of modes: the certified search for whole intervals of what is
 //! varied, which are halved while that helps.
 
-use super::find::{Elsewhere, Found, Knowledge, Method};
+use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::varied::Varied;
 use crate::modes::SearchOptions;
 use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, cells};
@@ -54,7 +54,7 @@ impl<'v> Examiner<'v> {
     }
 
     /// Says of every interval of `found` how its number of solutions is known. Returns values at which another number is proven.
-    pub(super) fn examine(&mut self, found: &mut Found) -> Vec<f64> {
+    pub(super) fn examine(&mut self, found: &mut ModesFound) -> Vec<f64> {
         let intervals = found.counts.iter().enumerate();
         let mut cells: Vec<Cell> =
             intervals.flat_map(|(index, interval)| self.cells(index, interval, &found.existence)).collect();

@@ -1,131 +1,32 @@
 //! Where modes exist in a range, how many solutions there are in between, and how that is known.
 
-use super::LimitsOptions;
 use super::between_faces;
 use super::closed_form::closed_form;
 use super::examine::Examiner;
+use super::found::{Method, ModesFound, PATTERNS};
 use super::scan::Scanner;
 use super::varied::Varied;
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, TooManyModes};
+use crate::modes::existence::{ExistenceOptions, TooManyModes};
 use crate::progress::Work;
 
-/// The most patterns whose limits are computed.
-pub(super) const PATTERNS: u64 = 1 << 14;
 /// How often values at which the certified search contradicts the ends are scanned around.
 const ROUNDS: usize = 3;
 
-/// The modes of one direction of motion.
-pub(crate) struct Found {
-    pub(crate) existence: Existence,
-    pub(crate) counts: Vec<CountInterval>,
-    /// How the number of solutions of each of `counts` is known.
-    pub(crate) known: Vec<Knowledge>,
-    pub(crate) gaps: Vec<Gap>,
-    pub(crate) method: Method,
-    /// Every value at which the mode problem was made.
-    pub(crate) tried: Vec<f64>,
-    /// Ends of modes nearer to each other than this were taken for one.
-    pub(crate) same_end: f64,
-    /// The states with a guided slider between its faces at single values.
-    pub(crate) between_faces: SingleValues,
-}
-
-/// How the ends of modes were found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Method {
-    /// As zeros of determinants.
-    ClosedForm,
-    /// The mode problem is the same everywhere; `at_rest` if static friction is not.
-    Same { at_rest: bool },
-    /// From values that were tried.
-    Bracketing,
-}
-
-/// States with a guided slider between its faces at single values.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum SingleValues {
-    /// There can be none, or none outside of intervals that have them throughout.
-    Impossible,
-    /// They were sought where normal forces vanish, and found at these values.
-    At(Vec<f64>),
-    /// They were not sought.
-    LeftOut,
-}
-
-impl SingleValues {
-    /// The values.
-    pub(crate) fn values(&self) -> &[f64] {
-        match self {
-            Self::At(values) => values,
-            Self::Impossible | Self::LeftOut => &[],
-        }
-    }
-}
-
-/// What is known of the number of solutions in an interval.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Knowledge {
-    /// The stretches for all values of which the number is proven, both ends included; no two of them touch.
-    pub(crate) proven: Vec<[f64; 2]>,
-    pub(crate) elsewhere: Elsewhere,
-}
-
-/// What is known outside the proven stretch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Elsewhere {
-    /// All of the interval is proven, but for what is next to ends of modes, as [`super::examine::MARGIN`] says.
-    Nothing,
-    /// The number follows from zeros of determinants.
-    ClosedForm,
-    /// It was found at values, the greatest distance between which is this.
-    Sampled(f64),
-    /// The certified search finds another number at some value.
-    Contradicted,
-}
-
-/// A range in which there is no mode problem, and why: the faults in its middle.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Gap {
-    pub(crate) from: f64,
-    pub(crate) to: f64,
-    pub(crate) faults: Faults,
-}
-
-/// The widest part of an interval that is not proven; all of it if nothing is.
-pub(super) fn left_out([from, to]: [f64; 2], proven: &[[f64; 2]]) -> f64 {
-    let ends: Vec<f64> = std::iter::once(from).chain(proven.iter().flatten().copied()).chain([to]).collect();
-    ends.chunks_exact(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
-}
-
-impl Knowledge {
-    /// Before anything is proven.
-    pub(crate) fn unproven(elsewhere: Elsewhere) -> Self {
-        Self { proven: Vec::new(), elsewhere }
-    }
-}
-
-impl Gap {
-    /// The first reason, in words.
-    pub(crate) fn reason(&self) -> String {
-        self.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string())
-    }
-}
-
-/// Where modes exist in a range.
+/// Where modes exist in a range; those with a normal force above `greatest` (N) do not count. So many certified searches may be made.
 ///
 /// # Errors
 /// Too many modes.
 pub(crate) fn find(
     varied: &Varied,
     range: [f64; 2],
-    options: &LimitsOptions,
+    greatest: Option<f64>,
+    effort: u64,
     work: Work<'_>,
-) -> Result<Found, Faults> {
-    let existence =
-        ExistenceOptions { range, greatest_normal_force: options.max_reaction, patterns: PATTERNS };
-    let found = found(varied, &existence, options.effort, work);
+) -> Result<ModesFound, Faults> {
+    let options = ExistenceOptions { range, greatest_normal_force: greatest, patterns: PATTERNS };
+    let found = found(varied, &options, effort, work);
     found.map_err(|TooManyModes { contacts, limit, .. }| {
         Fault::general(FaultKind::TooManyModes { contacts, limit }).into()
     })
@@ -136,7 +37,7 @@ fn found(
     options: &ExistenceOptions,
     effort: u64,
     work: Work<'_>,
-) -> Result<Found, TooManyModes> {
+) -> Result<ModesFound, TooManyModes> {
     let scanner = Scanner { varied, options: *options, work: work.part(0, 2) };
     let mut found = match closed_form(varied, options, work.part(0, 2))? {
         Some(found) => found,

@@ -1,11 +1,11 @@
 //! What a search for limits can miss, in words.
 
-use super::find::{Elsewhere, Found, Method, SingleValues, left_out};
+use super::found::{Elsewhere, Method, ModesFound, SingleValues, left_out};
 use super::text::at_most;
 use crate::report::precise;
 
 /// How the ends were found, and how the numbers of solutions between them are known.
-pub(crate) fn guarantee(found: &Found) -> String {
+pub(crate) fn guarantee(found: &ModesFound) -> String {
     let mut sentences = vec![match found.method {
         Method::ClosedForm => {
             "The mode problem depends linearly on it, so all ends are zeros of determinants.".to_owned()
@@ -42,7 +42,7 @@ pub(crate) fn guarantee(found: &Found) -> String {
 }
 
 /// How the numbers of solutions are known.
-fn knowledge(found: &Found) -> Option<String> {
+fn knowledge(found: &ModesFound) -> Option<String> {
     let known = found.known.iter().map(|known| known.elsewhere);
     let sampled =
         known.clone().filter_map(|one| if let Elsewhere::Sampled(by) = one { Some(by) } else { None });

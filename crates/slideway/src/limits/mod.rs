@@ -1,90 +1,70 @@
 //! Limits: for which values of a parameter each contact mode exists, and what ends it.
 //!
 //! ```
-//! use slideway::limits::{LimitsOptions, limits};
+//! use slideway::limits::{LimitsOptions, Vary, limits};
 //! use slideway::model::{Model, Settings};
+//! use slideway::report::ModeEndCause;
 //!
 //! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
 //! let settings = Settings::default().parameter("F_20", "0").parameter("direction", "-1");
 //! let model = Model::parse(text)?.with(&settings)?;
-//! let report = limits(&model, &LimitsOptions::of("mu_1=0..0.8"))?;
+//! let report = limits(&model, &LimitsOptions::new(Vary::between("mu_1", 0.0, 0.8)))?;
 //! // Klepp (2002), section 7: moving to the left it jams from mu_1 = 0.4526 on.
 //! let last = report.modes.last().expect("two modes");
-//! assert_eq!(last.to_is, "locking");
+//! assert_eq!(last.to_is, ModeEndCause::Locking);
 //! assert!((last.to.unwrap_or_default() - 0.452_653_96).abs() < 1e-8);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
 //!
 //! # Files
-//! `limits` varies a parameter: `varied.rs` is what is varied (with a `Follower` for the positions from value
+//! `limits` varies a parameter: `vary.rs` is what is asked for, `varied.rs` is what is varied (with a `Follower` for the positions from value
 //! to value), `solve::Parts` the mode problem at one value, with the couples of guided sliders.
 //! `model/dependence.rs` decides from the formulas whether that is affine in it; `closed_form.rs` has
 //! `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs` asks the certified
 //! search for the numbers of solutions over whole intervals, and `find.rs` scans anew where these contradict;
 //! `between_faces.rs` counts the states of guided sliders between their faces, which
 //! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `guarantee.rs`
-//! and `conclusion.rs` put it into words. `limits/curves.rs` samples quantities along the modes that were
+//! and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples quantities along the modes that were
 //! found, for plots.
 
+mod analysis;
+mod answer;
 mod between_faces;
 mod closed_form;
 mod conclusion;
 mod curves;
 mod examine;
 mod find;
+mod found;
 mod guarantee;
+mod options;
 mod report;
 mod scan;
 mod text;
 mod varied;
+mod vary;
 
+pub(crate) use answer::Naming;
 pub use curves::{Curve, CurvePoint, Curves, Quantity, Series, curves_with, limits_with_curves};
-pub(crate) use find::{Found, find};
+pub(crate) use find::find;
+pub(crate) use found::ModesFound;
 pub(crate) use guarantee::guarantee;
-pub(crate) use report::Naming;
+pub use options::{EFFORT, LimitsOptions};
 pub use report::{
-    CountLimits, Direction, EndReaction, Known, LimitsReport, ModeLimits, RangeWithoutProblem, SCHEMA,
-    VariedQuantity, to_json,
+    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
+    SCHEMA, VariedQuantity,
 };
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
-pub use text::to_text;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
+pub use vary::Vary;
 
-use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
-use crate::mechanism::MAGNITUDES;
+use crate::fault::Faults;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-
-/// Certified searches that are made by default to prove numbers of solutions.
-pub const EFFORT: u64 = 800;
-/// Without a range the factor of all coefficients of friction is varied from 0 to this.
-const USUAL_FACTOR: f64 = 10.0;
-/// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.
-const USUAL_FRICTION: f64 = 1.0;
-
-/// What to find the limits of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LimitsOptions {
-    /// "NAME" or "NAME=FROM..TO": a parameter, a coordinate, or [`FRICTION`].
-    pub vary: String,
-    /// Modes count only where no normal force exceeds this (N).
-    pub max_reaction: Option<f64>,
-    /// Whether motion in the opposite direction is looked at, too.
-    pub both_directions: bool,
-    /// How many certified searches may be made in each direction to prove numbers of solutions over intervals; one that
-    /// visits many nodes counts as several. With 0 nothing is proven.
-    pub effort: u64,
-}
-
-impl LimitsOptions {
-    /// The limits of what is named, in the direction of the model, whatever the reactions, with the usual effort.
-    pub fn of(vary: &str) -> Self {
-        Self { vary: vary.to_owned(), max_reaction: None, both_directions: false, effort: EFFORT }
-    }
-}
+use analysis::Analysis;
 
 /// The intervals in which each mode exists, what ends it, and the number of solutions in between.
 ///
@@ -115,85 +95,4 @@ pub fn limits_with(
 fn limits_of(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<LimitsReport, Faults> {
     let analysis = Analysis::new(model, options, work)?;
     finite(analysis.report(&Naming::new(model)?))
-}
-
-/// What is varied, over which range, and the modes of both directions.
-struct Analysis {
-    varied: Varied,
-    range: [f64; 2],
-    shown_in: ShownIn,
-    found: Found,
-    reversed: Option<(Varied, Found)>,
-}
-
-impl Analysis {
-    fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
-        let (name, range) = match options.vary.split_once('=') {
-            Some((name, range)) => (name.trim(), Some(range)),
-            None => (options.vary.trim(), None),
-        };
-        let varied = Varied::new(model, name)?;
-        let shown_in = varied.shown_in(range.unwrap_or_default());
-        let range = match range {
-            Some(text) => given_range(&varied, text)?,
-            None => usual_range(model, &varied)?,
-        };
-        let directions = 1 + usize::from(options.both_directions);
-        let found = find(&varied, range, options, work.part(0, directions))?;
-        let reversed = if options.both_directions {
-            let varied = Varied::new(&model.reversed(), name)?;
-            let found = find(&varied, range, options, work.part(1, directions))?;
-            Some((varied, found))
-        } else {
-            None
-        };
-        Ok(Self { varied, range, shown_in, found, reversed })
-    }
-
-    fn report(&self, naming: &Naming) -> LimitsReport {
-        let reversed = self.reversed.as_ref().map(|(_, found)| found);
-        report::report(naming, &self.varied, self.range, (&self.found, reversed))
-    }
-}
-
-/// The range that is written as FROM..TO.
-///
-/// # Errors
-/// A text that is no range, or a range that is reversed, empty, too great to compute with, or one of coefficients of friction
-/// that begins below zero.
-pub(crate) fn given_range(varied: &Varied, text: &str) -> Result<[f64; 2], Faults> {
-    let what = varied.in_words();
-    let Some((from, to)) = text.split_once("..") else {
-        return Err(fault(FaultKind::MalformedRange { text: text.to_owned(), name: varied.name.clone() }));
-    };
-    let (from, to) = (varied.value_of(from)?, varied.value_of(to)?);
-    if from.abs().max(to.abs()) > *MAGNITUDES.end() {
-        return Err(fault(FaultKind::Overflow { quantity: format!("the range of {}", varied.name) }));
-    }
-    if from > to {
-        return Err(fault(FaultKind::ReversedRange { what, from, to }));
-    }
-    if from == to {
-        return Err(fault(FaultKind::EmptyRange { what, from }));
-    }
-    if from < 0.0 && varied.is_itself_friction() {
-        let problem = AxisProblem::NegativeCoefficients { from, to: to.min(0.0) };
-        return Err(fault(FaultKind::Axis { text: format!("{}={}", varied.name, text.trim()), problem }));
-    }
-    Ok([from, to])
-}
-
-/// The range of a coefficient of friction, or of their factor; whatever else is varied needs one.
-fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
-    if varied.is_friction_factor() {
-        Ok([0.0, USUAL_FACTOR])
-    } else if model.is_friction_coefficient(&varied.name) {
-        Ok([0.0, (2.0 * varied.present()?).max(USUAL_FRICTION)])
-    } else {
-        Err(fault(FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() }))
-    }
-}
-
-fn fault(kind: FaultKind) -> Faults {
-    Fault::general(kind).into()
 }

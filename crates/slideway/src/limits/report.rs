@@ -1,18 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
-use super::conclusion::conclusion;
-use super::find::{Elsewhere, Found, Knowledge, Method, left_out};
-use super::guarantee::guarantee;
-use super::varied::Varied;
-use crate::configuration::Configuration;
-use crate::fault::Faults;
-use crate::ids::JointId;
-use crate::mechanism::{JointKind, Mechanism, Slider};
-use crate::model::Model;
-use crate::modes::ContactState;
-use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
-use crate::report::{JointMode, indented_json, locked};
-use crate::solve::{mode_in_words, pattern, signs};
+use super::found::left_out;
+use crate::report::{JointMode, ModeEndCause};
 use serde::Serialize;
 
 /// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
@@ -32,8 +21,8 @@ pub struct LimitsReport {
     /// where they are those of the drawing, and where a coordinate is varied: then `guarantee` tells of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
-    /// "closed form", "bracketing", or "independent".
-    pub method: &'static str,
+    /// How the ends of modes were found.
+    pub method: LimitsMethod,
     /// What the method can miss, in words.
     pub guarantee: String,
     /// The modes in the direction of the model's rates.
@@ -52,6 +41,20 @@ pub struct LimitsReport {
     pub conclusion: Vec<String>,
 }
 
+/// How the ends of modes were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum LimitsMethod {
+    /// As zeros of determinants.
+    #[serde(rename = "closed form")]
+    ClosedForm,
+    /// Between values that were tried.
+    Bracketing,
+    /// Nothing depends on what is varied.
+    Independent,
+}
+
 /// What is varied, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -66,12 +69,6 @@ pub struct VariedQuantity {
     pub to: f64,
     /// Its value in the model.
     pub value: f64,
-}
-
-impl VariedQuantity {
-    pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
-        Self { name: varied.name.clone(), unit: varied.unit(), from, to, value }
-    }
 }
 
 /// The modes of the opposite direction of motion.
@@ -105,11 +102,10 @@ pub struct ModeLimits {
     pub from: Option<f64>,
     /// Where it ends.
     pub to: Option<f64>,
-    /// Why it begins there: "range", "locking", "side_change", "gap_closes", "tipping", "greatest_reaction",
-    /// "reversal" or "no_mode_problem".
-    pub from_is: &'static str,
-    /// Why it ends there, likewise.
-    pub to_is: &'static str,
+    /// Why it begins there.
+    pub from_is: ModeEndCause,
+    /// Why it ends there.
+    pub to_is: ModeEndCause,
     /// The contacts or guided sliders that begin it.
     pub from_at: Vec<String>,
     /// The contacts or guided sliders that end it.
@@ -186,180 +182,4 @@ pub struct RangeWithoutProblem {
     pub to: f64,
     /// Why: what is at fault in its middle.
     pub reason: String,
-}
-
-impl RangeWithoutProblem {
-    pub(crate) fn of(found: &Found) -> Vec<Self> {
-        let range = |gap: &super::find::Gap| Self { from: gap.from, to: gap.to, reason: gap.reason() };
-        found.gaps.iter().map(range).collect()
-    }
-}
-
-/// The report as indented JSON.
-pub fn to_json(report: &LimitsReport) -> String {
-    indented_json(report)
-}
-
-/// The names of a mechanism's parts, and how its guides lie.
-pub(crate) struct Naming {
-    pub(super) mechanism: Mechanism,
-    configuration: Configuration,
-}
-
-impl Naming {
-    /// # Errors
-    /// A model that cannot be assembled in its state.
-    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
-        let mechanism = Mechanism::new(model)?;
-        let configuration = Configuration::new(&mechanism)?;
-        Ok(Self { mechanism, configuration })
-    }
-
-    fn joint_modes(&self, signs: &[i8]) -> Vec<JointMode> {
-        let one = |(_, name, slider): (JointId, &str, &Slider)| {
-            let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
-            let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-            JointMode { name: name.to_owned(), mode: mode_in_words(slider, tangent, &signs) }
-        };
-        self.sliders().map(one).collect()
-    }
-
-    /// The contact modes of all joints in a pattern, in words.
-    pub(crate) fn in_words(&self, pattern: &str) -> String {
-        let sign = |sign: char| match sign {
-            '+' => 1,
-            '-' => -1,
-            _ => 0,
-        };
-        let signs: Vec<i8> = pattern.chars().map(sign).collect();
-        let words =
-            self.joint_modes(&signs).into_iter().map(|joint| format!("{} {}", joint.name, joint.mode));
-        words.collect::<Vec<_>>().join("; ")
-    }
-
-    fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
-        self.mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
-            JointKind::Slider(slider) => Some((JointId(index), &*joint.name, slider)),
-            JointKind::Hinge(_) => None,
-        })
-    }
-
-    fn contacts(&self, contacts: &[usize]) -> Vec<String> {
-        contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
-    }
-
-    /// The guided sliders with these bounds, which are numbered in the order of the joints.
-    fn guided(&self, bounds: &[usize]) -> Vec<String> {
-        let guided = self.sliders().filter(|(_, _, slider)| slider.kind == crate::model::SliderKind::Guided);
-        let names: Vec<&str> = guided.map(|(_, name, _)| name).collect();
-        bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
-    }
-
-    fn mode(&self, mode: &ModeInterval) -> ModeLimits {
-        let signs = signs(&mode.pattern);
-        let (from_is, from_at) = self.cause(&mode.from.cause);
-        let (to_is, to_at) = self.cause(&mode.to.cause);
-        let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
-            let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
-            EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
-        };
-        ModeLimits {
-            pattern: pattern(&mode.pattern),
-            preload_gap: mode.pattern.contains(&ContactState::Gap),
-            joints: self.joint_modes(&signs),
-            signs,
-            from: finite(mode.from.at),
-            to: finite(mode.to.at),
-            from_is,
-            to_is,
-            from_at,
-            to_at,
-            reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
-        }
-    }
-
-    fn cause(&self, cause: &EndCause) -> (&'static str, Vec<String>) {
-        match cause {
-            EndCause::Range => ("range", Vec::new()),
-            EndCause::Locking => ("locking", Vec::new()),
-            EndCause::SideChange(contacts) => ("side_change", self.contacts(contacts)),
-            EndCause::GapCloses(contacts) => ("gap_closes", self.contacts(contacts)),
-            EndCause::OutputBound(bounds) => ("tipping", self.guided(bounds)),
-            EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", self.contacts(contacts)),
-            EndCause::Reversal => ("reversal", Vec::new()),
-            EndCause::NoProblem => ("no_mode_problem", Vec::new()),
-        }
-    }
-
-    fn direction(&self, found: &Found) -> Direction {
-        let count = |(interval, known): (&CountInterval, &Knowledge)| CountLimits {
-            from: interval.from,
-            to: interval.to,
-            solutions: interval.solutions,
-            preload_gap_states: interval.gap_states,
-            known: match known.elsewhere {
-                Elsewhere::Nothing => Known::Proven,
-                Elsewhere::ClosedForm => Known::ClosedForm,
-                Elsewhere::Sampled(_) => Known::Sampled,
-                Elsewhere::Contradicted => Known::Undecided,
-            },
-            proven: known.proven.clone(),
-            spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
-        };
-        Direction {
-            modes: found.existence.modes.iter().map(|mode| self.mode(mode)).collect(),
-            counts: found.counts.iter().zip(&found.known).map(count).collect(),
-            without_mode_problem: RangeWithoutProblem::of(found),
-            between_faces_at: found.between_faces.values().to_vec(),
-        }
-    }
-}
-
-/// The report on both directions, of which the opposite one may be absent.
-pub(super) fn report(
-    naming: &Naming,
-    varied: &Varied,
-    range: [f64; 2],
-    (found, reversed): (&Found, Option<&Found>),
-) -> LimitsReport {
-    let forwards = naming.direction(found);
-    let reversed = reversed.map(|found| naming.direction(found));
-    let locked = locked(varied.model().has_guided_sliders());
-    let conclusion = conclusion((&varied.name, found.method), locked, &forwards, reversed.as_ref());
-    let value = varied.present().unwrap_or_default();
-    let mut guarantee = guarantee(found);
-    if varied.is_coordinate() {
-        guarantee += " Each position was followed from the drawing by steps that are proven to stay on its assembly branch.";
-    }
-    LimitsReport {
-        schema: SCHEMA,
-        title: naming.mechanism.title.clone(),
-        vary: VariedQuantity::new(varied, range, value),
-        steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
-        method: match found.method {
-            Method::ClosedForm => "closed form",
-            Method::Same { .. } => "independent",
-            Method::Bracketing => "bracketing",
-        },
-        guarantee,
-        modes: forwards.modes,
-        counts: forwards.counts,
-        without_mode_problem: forwards.without_mode_problem,
-        between_faces_at: forwards.between_faces_at,
-        reversed,
-        conclusion,
-    }
-}
-
-fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {
-    match end.normal_force.as_ref().and_then(|force| force.get(contact)) {
-        // Adding zero turns -0 into 0.
-        Some(Limit::Finite(value)) => (finite(value + 0.0), 0),
-        Some(Limit::Infinite(sign)) => (None, if *sign > 0.0 { 1 } else { -1 }),
-        None => (None, 0),
-    }
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
 }

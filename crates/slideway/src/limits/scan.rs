@@ -4,7 +4,7 @@
 //! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values inside every
 //! interval between two ends that has none yet, until no further mode turns up.
 
-use super::find::{Elsewhere, Found, Gap, Knowledge, Method, SingleValues};
+use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
 use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::ContactState;
@@ -30,7 +30,7 @@ const ROUNDS: usize = 12;
 const SAME: f64 = 1e-9;
 
 /// The mode problem at a place, alone.
-struct Place {
+struct Tried {
     at: f64,
     /// The faults where the mechanism cannot be assembled, or cannot be solved for another reason.
     line: Result<ModeProblemLine, Faults>,
@@ -52,7 +52,7 @@ impl Scanner<'_> {
     ///
     /// # Errors
     /// More patterns than the options allow.
-    pub(super) fn scan(&self, further: &[f64]) -> Result<Found, TooManyModes> {
+    pub(super) fn scan(&self, further: &[f64]) -> Result<ModesFound, TooManyModes> {
         let [from, to] = self.options.range;
         let even = (0..=STEPS)
             .map(|step| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 });
@@ -82,7 +82,7 @@ impl Scanner<'_> {
             self.line(at).map_or(modes.len(), |line| line.distinct(modes, 0.0))
         });
         let known = Knowledge::unproven(Elsewhere::Sampled(0.0));
-        Ok(Found {
+        Ok(ModesFound {
             existence,
             known: vec![known; counts.len()],
             counts,
@@ -95,7 +95,7 @@ impl Scanner<'_> {
     }
 
     /// Adds places, in their order.
-    fn add(&self, places: &mut Vec<Place>, values: impl Iterator<Item = f64>) -> Result<(), TooManyModes> {
+    fn add(&self, places: &mut Vec<Tried>, values: impl Iterator<Item = f64>) -> Result<(), TooManyModes> {
         let values: Vec<f64> = values.collect();
         for (index, &at) in values.iter().enumerate() {
             match self.work.part(0, 2).piece("values", index, values.len()) {
@@ -108,12 +108,12 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    fn place(&self, at: f64) -> Result<Place, TooManyModes> {
+    fn place(&self, at: f64) -> Result<Tried, TooManyModes> {
         let line = self.varied.parts(at).map(|parts| parts.line_to(&parts));
         let goes_on = || !self.work.is_over();
         let present =
             line.as_ref().map_or(Ok(Vec::new()), |line| line.present(0.0, &self.options, &goes_on))?;
-        Ok(Place { at, line, present })
+        Ok(Tried { at, line, present })
     }
 
     fn line(&self, at: f64) -> Option<ModeProblemLine> {
@@ -124,7 +124,7 @@ impl Scanner<'_> {
     }
 
     /// Values on both sides of where the mode problem ceases to exist or has another fault, and ever closer to it.
-    fn edges(&self, places: &[Place]) -> Vec<f64> {
+    fn edges(&self, places: &[Tried]) -> Vec<f64> {
         let mut values = Vec::new();
         for pair in places.windows(2) {
             let (Err(faults), inside, outside) = (match (&pair[0].line, &pair[1].line) {
@@ -152,7 +152,7 @@ impl Scanner<'_> {
     }
 
     /// Places inside intervals between neighbouring ends in which there are none.
-    fn unexamined(&self, places: &[Place], modes: &[ModeInterval]) -> Vec<f64> {
+    fn unexamined(&self, places: &[Tried], modes: &[ModeInterval]) -> Vec<f64> {
         let is_empty = |[from, to]: &[f64; 2]| {
             let inside = places.iter().filter(|place| *from < place.at && place.at < *to);
             inside.count() < INSIDE.len()
@@ -169,7 +169,7 @@ impl Scanner<'_> {
     }
 
     /// The intervals of all patterns that are present somewhere.
-    fn modes(&self, places: &[Place], ends: &mut Ends) -> Vec<ModeInterval> {
+    fn modes(&self, places: &[Tried], ends: &mut Ends) -> Vec<ModeInterval> {
         let mut patterns: Vec<&Vec<ContactState>> = places.iter().flat_map(|place| &place.present).collect();
         patterns.sort_unstable();
         patterns.dedup();
@@ -177,8 +177,8 @@ impl Scanner<'_> {
     }
 
     /// The intervals of one pattern, from the places at which it is present.
-    fn intervals(&self, pattern: &[ContactState], places: &[Place], ends: &mut Ends) -> Vec<ModeInterval> {
-        let present = |place: &Place| place.present.iter().any(|other| other == pattern);
+    fn intervals(&self, pattern: &[ContactState], places: &[Tried], ends: &mut Ends) -> Vec<ModeInterval> {
+        let present = |place: &Tried| place.present.iter().any(|other| other == pattern);
         let mut end = |inside: f64, outside: f64| {
             let key = (pattern.to_vec(), inside.to_bits(), outside.to_bits());
             ends.entry(key).or_insert_with(|| self.end(pattern, inside, outside)).clone()
@@ -266,15 +266,15 @@ fn is_same_fault<T>(one: &Result<T, Faults>, other: &Result<T, Faults>) -> bool 
 
 /// The ranges without a mode problem, one for each reason, up to the last places where there is one. The reason is that of a place
 /// in the middle.
-fn gaps(places: &[Place]) -> Vec<Gap> {
+fn gaps(places: &[Tried]) -> Vec<Gap> {
     let mut gaps = Vec::new();
     let stretches = places.chunk_by(|one, next| is_same_fault(&one.line, &next.line));
     let mut first = 0;
     for stretch in stretches {
         let last = first + stretch.len() - 1;
         if let Err(faults) = &stretch[stretch.len() / 2].line {
-            let edge = |neighbour: Option<&Place>, own: f64| match neighbour {
-                Some(Place { at, line: Ok(_), .. }) => *at,
+            let edge = |neighbour: Option<&Tried>, own: f64| match neighbour {
+                Some(Tried { at, line: Ok(_), .. }) => *at,
                 _ => own,
             };
             gaps.push(Gap {

@@ -5,18 +5,20 @@ use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, followed, precise, spaced};
+use crate::report::{ModeEndCause, Report, Style, followed, precise, spaced};
 
-/// The report as text: what it comes to, the modes, the numbers of solutions.
-pub fn to_text(report: &LimitsReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.direction("", (&report.modes, &report.counts, &report.without_mode_problem));
-    if let Some(reversed) = &report.reversed {
-        let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
-        text.direction(", moving in the opposite direction", parts);
+impl Report for LimitsReport {
+    /// What it comes to, the modes, the numbers of solutions.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.direction("", (&self.modes, &self.counts, &self.without_mode_problem));
+        if let Some(reversed) = &self.reversed {
+            let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
+            text.direction(", moving in the opposite direction", parts);
+        }
+        text.text()
     }
-    text.text()
 }
 
 impl Page<'_, LimitsReport> {
@@ -80,25 +82,25 @@ fn mode_row(mode: &ModeLimits) -> Vec<String> {
 }
 
 /// Why a mode begins or ends, in words.
-fn cause<'r>(is: &str, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>) -> String {
+fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r str, i8)>) -> String {
     let several = at.len() > 1;
     let at = at.join(", ");
     match is {
-        "range" => "the range".to_owned(),
-        "locking" => {
+        ModeEndCause::Range => "the range".to_owned(),
+        ModeEndCause::Locking => {
             let growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
             match growing.as_slice() {
                 [] => "locking".to_owned(),
                 list => format!("locking: {} without bound", list.join(", ")),
             }
         }
-        "side_change" if several => format!("{at} change side"),
-        "side_change" => format!("{at} changes side"),
-        "gap_closes" => format!("the gap of {at} closes"),
-        "tipping" if several => format!("{at} tip"),
-        "tipping" => format!("{at} tips"),
-        "greatest_reaction" => format!("{at} at the greatest reaction"),
-        "reversal" => "sliding reverses".to_owned(),
+        ModeEndCause::SideChange if several => format!("{at} change side"),
+        ModeEndCause::SideChange => format!("{at} changes side"),
+        ModeEndCause::GapCloses => format!("the gap of {at} closes"),
+        ModeEndCause::Tipping if several => format!("{at} tip"),
+        ModeEndCause::Tipping => format!("{at} tips"),
+        ModeEndCause::GreatestReaction => format!("{at} at the greatest reaction"),
+        ModeEndCause::Reversal => "sliding reverses".to_owned(),
         _ => "no position".to_owned(),
     }
 }

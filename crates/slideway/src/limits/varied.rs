@@ -2,11 +2,11 @@
 
 use crate::configuration::Follower;
 use crate::enclosure::{UncertainParameters, enclosure};
-use crate::expression::Degree;
+use crate::expression::{Degree, unit_in_si};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::interval::Interval;
 use crate::mechanism::{Coordinate, Mechanism};
-use crate::model::{Dependence, Model, Setting, SettingKind, Settings};
+use crate::model::{Dependence, Model, Setting, SettingKind, Settings, Value};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::progress::{Progress, Work};
@@ -95,37 +95,37 @@ impl Varied {
         })
     }
 
-    /// The value that a text stands for, in SI units.
+    /// A value in SI units.
     ///
     /// # Errors
     /// A text that is no quantity of the right dimension.
-    pub(crate) fn value_of(&self, text: &str) -> Result<f64, Faults> {
-        let value = match self.kind {
-            Kind::Friction => return self.factor(text),
-            Kind::Parameter => self.model.setting_value(&self.setting(SettingKind::Parameter, text)),
-            Kind::Coordinate => self.model.setting_value(&self.setting(SettingKind::Position, text)),
+    pub(crate) fn value_of(&self, value: &Value) -> Result<f64, Faults> {
+        let kind = match self.kind {
+            Kind::Friction => return self.factor(value),
+            Kind::Parameter => SettingKind::Parameter,
+            Kind::Coordinate => SettingKind::Position,
         };
         // Its places are those of a setting, but the range is none.
-        value.map_err(|faults| {
-            let text = format!("{}={}", self.name, text.trim());
+        let setting = Setting::new(kind, &self.name, value.clone());
+        self.model.setting_value(&setting).map_err(|faults| {
+            let text = setting.text();
             Fault::general(FaultKind::Axis { text, problem: AxisProblem::of(&faults) }).into()
         })
     }
 
     /// A factor of friction: a plain number, not below zero.
-    fn factor(&self, text: &str) -> Result<f64, Faults> {
-        let text = text.trim();
+    fn factor(&self, value: &Value) -> Result<f64, Faults> {
         let fault =
-            |problem| Fault::general(FaultKind::Axis { text: format!("{}={text}", self.name), problem });
-        match text.parse::<f64>() {
-            Ok(value) if value < 0.0 => Err(fault(AxisProblem::NegativeFriction { value }).into()),
-            Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) => {
-                let message = format!("`{text}` is not finite");
+            |problem| Fault::general(FaultKind::Axis { text: format!("{}={value}", self.name), problem });
+        match value.plain_number() {
+            Some(value) if value < 0.0 => Err(fault(AxisProblem::NegativeFriction { value }).into()),
+            Some(value) if value.is_finite() => Ok(value),
+            Some(_) => {
+                let message = format!("`{value}` is not finite");
                 Err(fault(AxisProblem::Value { message, hint: None }).into())
             }
-            Err(_) => {
-                let (text, name) = (text.to_owned(), self.name.clone());
+            None => {
+                let (text, name) = (value.to_string(), self.name.clone());
                 Err(Fault::general(FaultKind::MalformedRange { text, name }).into())
             }
         }
@@ -206,10 +206,9 @@ impl Varied {
     }
 
     /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.
-    pub(crate) fn shown_in(&self, range: &str) -> ShownIn {
-        let [from, to] = range.split_once("..").map_or([""; 2], |(from, to)| [unit_of(from), unit_of(to)]);
-        let scale =
-            if from == to && !from.is_empty() { self.value_of(&format!("1 {from}")).ok() } else { None };
+    pub(crate) fn shown_in(&self, range: Option<[&Value; 2]>) -> ShownIn {
+        let [from, to] = range.map_or([""; 2], |ends| ends.map(unit_of));
+        let scale = if from == to && !from.is_empty() { unit_in_si(from) } else { None };
         match scale {
             Some(scale) if scale > 0.0 => ShownIn { unit: from.to_owned(), scale },
             _ => ShownIn { unit: self.unit(), scale: 1.0 },
@@ -232,17 +231,12 @@ impl Varied {
         }
     }
 
-    fn setting(&self, kind: SettingKind, value: &str) -> Setting {
-        Setting { kind, name: self.name.clone(), value: value.trim().to_owned() }
-    }
-
     /// These settings and this value; a factor of friction is no setting.
     pub(crate) fn set(&self, settings: Settings, value: f64) -> Settings {
-        let value = format!("{value:e}");
         match self.kind {
             Kind::Friction => settings,
-            Kind::Parameter => settings.parameter(&self.name, &value),
-            Kind::Coordinate => settings.position(&self.name, &value),
+            Kind::Parameter => settings.parameter(&self.name, value),
+            Kind::Coordinate => settings.position(&self.name, value),
         }
     }
 
@@ -326,8 +320,9 @@ pub struct ShownIn {
     pub scale: f64,
 }
 
-/// What stands behind the number of a quantity.
-fn unit_of(text: &str) -> &str {
+/// What stands behind the number of a text.
+fn unit_of(value: &Value) -> &str {
+    let Value::Text(text) = value else { return "" };
     let text = text.trim();
     let number =
         (0..=text.len()).rev().filter_map(|end| text.get(..end)).find(|start| start.parse::<f64>().is_ok());

@@ -199,7 +199,7 @@ mod tests {
                 let mu = 0.01 + 0.0131 * f64::from(step);
                 let values = [mu, 0.3 - 0.004 * f64::from(step)];
                 let set = |settings: Settings, (name, value): (&&str, f64)| {
-                    settings.parameter(name, &value.to_string())
+                    settings.parameter(name, value.to_string())
                 };
                 let settings = coefficients.iter().zip(values).fold(Settings::default(), set);
                 let stages = Stages::new(&model.with(&settings).expect("sound")).expect("solvable");

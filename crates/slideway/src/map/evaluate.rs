@@ -191,7 +191,8 @@ mod tests {
         let walking = |step: usize| [(step as f64 + 0.5) / 32.0, 0.1 + 0.02 * step as f64];
         for (name, x, y) in planes {
             let model = Model::parse(gallery::find(name).expect("in the gallery").text).expect("sound");
-            let axes = [x, y].map(|axis| Axis::new(&model, axis).expect("an axis"));
+            let axes =
+                [x, y].map(|axis| Axis::new(&model, &axis.parse().expect("a range")).expect("an axis"));
             for colour_by in [ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
                 let evaluator = Evaluator::new(&model, &axes, colour_by).expect("something varies");
                 assert!(!evaluator.is_bilinear(), "{name}");

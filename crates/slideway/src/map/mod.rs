@@ -1,13 +1,14 @@
 //! Maps: which solutions there are over the plane of two parameters or coordinates.
 //!
 //! ```
-//! use slideway::map::{ColourBy, MapOptions, map};
+//! use slideway::limits::Vary;
+//! use slideway::map::{MapOptions, map};
 //! use slideway::model::{Model, Settings};
 //!
 //! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
 //! let model = Model::parse(text)?.with(&Settings::default().parameter("F_20", "0"))?;
-//! let options = MapOptions { width: 40, height: 40, ..MapOptions::of("mu_1=0..0.8", "mu_2=0..0.4") };
-//! let report = map(&model, &options)?;
+//! let options = MapOptions::new(Vary::between("mu_1", 0.0, 0.8), Vary::between("mu_2", 0.0, 0.4));
+//! let report = map(&model, &options.size(40, 40))?;
 //! // One solution on the left of the locking value, two on the right of it.
 //! let words: Vec<&str> = report.classes.iter().map(|class| &*class.words).collect();
 //! assert_eq!(words, ["one solution", "two solutions"]);
@@ -25,16 +26,17 @@ mod refine;
 mod report;
 
 pub use class::ClassMeaning;
-pub use report::{MapAxis, MapClass, MapReport, SCHEMA, to_json};
+pub use report::{MapAxis, MapClass, MapReport, SCHEMA};
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{ShownIn, Varied, given_range};
+use crate::limits::{ShownIn, Varied, Vary};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use class::ClassKey;
 use evaluate::Evaluator;
 use refine::{Grid, Raster};
+use serde::Serialize;
 
 /// Pixels of the usual map along each side.
 const USUAL_SIZE: usize = 400;
@@ -44,7 +46,9 @@ const USUAL_PROBE: usize = 8;
 pub const GREATEST_SIZE: usize = 8192;
 
 /// What the colours of a map tell.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ColourBy {
     /// The number of solutions, and of states with the preload between the faces.
     #[default]
@@ -59,11 +63,12 @@ pub enum ColourBy {
 
 /// What to map.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct MapOptions {
-    /// "NAME=FROM..TO", from left to right: a parameter, a coordinate, or [`FRICTION`](crate::limits::FRICTION).
-    pub x: String,
+    /// What varies from left to right; there is no usual range.
+    pub x: Vary,
     /// The same from bottom to top.
-    pub y: String,
+    pub y: Vary,
     /// Pixels from left to right.
     pub width: usize,
     /// Pixels from bottom to top.
@@ -76,15 +81,36 @@ pub struct MapOptions {
 
 impl MapOptions {
     /// A map of 400 x 400 pixels by the number of solutions, with probes every 8 pixels.
-    pub fn of(x: &str, y: &str) -> Self {
+    pub fn new(x: Vary, y: Vary) -> Self {
         Self {
-            x: x.to_owned(),
-            y: y.to_owned(),
+            x,
+            y,
             width: USUAL_SIZE,
             height: USUAL_SIZE,
             colour_by: ColourBy::default(),
             probe: USUAL_PROBE,
         }
+    }
+
+    /// A map of so many pixels.
+    #[must_use]
+    pub fn size(mut self, width: usize, height: usize) -> Self {
+        (self.width, self.height) = (width, height);
+        self
+    }
+
+    /// With colours that tell something else.
+    #[must_use]
+    pub fn colour_by(mut self, colour_by: ColourBy) -> Self {
+        self.colour_by = colour_by;
+        self
+    }
+
+    /// With so many pixels between probes.
+    #[must_use]
+    pub fn probe(mut self, pixels: usize) -> Self {
+        self.probe = pixels;
+        self
     }
 }
 
@@ -96,18 +122,13 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(model: &Model, text: &str) -> Result<Self, Faults> {
-        let (name, range) = match text.split_once('=') {
-            Some((name, range)) => (name.trim(), range),
-            None => (text.trim(), ""),
-        };
-        let varied = Varied::new(model, name)?;
-        if range.is_empty() {
+    fn new(model: &Model, vary: &Vary) -> Result<Self, Faults> {
+        let varied = Varied::new(model, &vary.name)?;
+        let range = vary.ends(&varied, || {
             let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
-            return Err(Fault::general(kind).into());
-        }
-        let range_of = given_range(&varied, range)?;
-        Ok(Self { shown_in: varied.shown_in(range), range: range_of, varied })
+            Err(Fault::general(kind).into())
+        })?;
+        Ok(Self { shown_in: vary.shown_in(&varied), range, varied })
     }
 
     /// The value in the middle of a pixel.
@@ -160,7 +181,7 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {
     let mut faults = Faults::default();
-    let mut axis = |text: &str| Axis::new(model, text).map_err(|found| faults.append(found)).ok();
+    let mut axis = |vary: &Vary| Axis::new(model, vary).map_err(|found| faults.append(found)).ok();
     let both = (axis(&options.x), axis(&options.y));
     let (Some(x), Some(y)) = both else { return Err(faults) };
     if x.varied.name == y.varied.name {

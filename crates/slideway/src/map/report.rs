@@ -7,7 +7,9 @@ use super::{Axis, ColourBy, MapOptions};
 use crate::limits::Naming;
 use crate::model::Model;
 use crate::progress::Work;
-use crate::report::{indented_json, locked, precise, spaced};
+use crate::report::number::number;
+use crate::report::page::Page;
+use crate::report::{Report, Style, indented, locked, precise, spaced};
 use serde::Serialize;
 
 /// Version of the layout of a [`MapReport`]; changes whenever a field is renamed or removed.
@@ -21,8 +23,8 @@ pub struct MapReport {
     pub schema: &'static str,
     /// The title of the model.
     pub title: Option<String>,
-    /// "solutions", "modes", "margin" or "jam".
-    pub colour_by: &'static str,
+    /// What the colours tell.
+    pub colour_by: ColourBy,
     /// From left to right.
     pub x: MapAxis,
     /// From bottom to top.
@@ -92,12 +94,35 @@ impl MapReport {
     }
 }
 
-/// The report as JSON, indented but for the rows, of which each has a line.
-pub fn to_json(report: &MapReport) -> String {
-    let row = |row: &Vec<[usize; 2]>| serde_json::to_string(row).unwrap_or_default();
-    let rows: Vec<String> = report.rows.iter().map(row).collect();
-    let empty = indented_json(&MapReport { rows: Vec::new(), ..report.clone() });
-    empty.replace("\"rows\": []", &format!("\"rows\": [\n    {}\n  ]", rows.join(",\n    ")))
+impl Report for MapReport {
+    /// The axes, and which part of the plane each class has.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        if let Some(title) = &self.title {
+            text.headline(title);
+        }
+        for axis in [&self.x, &self.y] {
+            let [from, to] = [axis.from, axis.to].map(|end| precise(end / axis.scale));
+            text.line(format!("{} from {from} to {to} {}", axis.name, axis.unit).trim_end());
+        }
+        text.line("");
+        let pixels = (self.x.pixels * self.y.pixels) as f64;
+        for class in &self.classes {
+            let share = number(100.0 * class.pixels as f64 / pixels);
+            text.line(&format!("  {share:>9} %  {}", class.words));
+            class.modes.iter().for_each(|mode| text.line(&format!("               {mode}")));
+        }
+        text.line(&self.guarantee);
+        text.text()
+    }
+
+    /// Indented but for the rows, of which each has a line.
+    fn json(&self) -> String {
+        let row = |row: &Vec<[usize; 2]>| serde_json::to_string(row).unwrap_or_default();
+        let rows: Vec<String> = self.rows.iter().map(row).collect();
+        let empty = indented(&Self { rows: Vec::new(), ..self.clone() });
+        empty.replace("\"rows\": []", &format!("\"rows\": [\n    {}\n  ]", rows.join(",\n    ")))
+    }
 }
 
 /// The report of a raster; its rows end where the work is to end.
@@ -145,12 +170,7 @@ pub(super) fn report(
     MapReport {
         schema: SCHEMA,
         title: model.title.clone(),
-        colour_by: match options.colour_by {
-            ColourBy::Solutions => "solutions",
-            ColourBy::Modes => "modes",
-            ColourBy::Margin => "margin",
-            ColourBy::Jam => "jam",
-        },
+        colour_by: options.colour_by,
         x: axis(&axes[0], raster.grid.width),
         y: axis(&axes[1], raster.grid.height),
         classes,

@@ -1,6 +1,7 @@
 //! A number of the model that may be an expression, with the dimension it must have and its place.
 
-use super::quantity::{Quantity, Span, Written};
+use super::Value;
+use super::quantity::{Quantity, Span};
 use crate::expression::{Dimension, Expression, ExpressionFault, Inferred, Piece, Symbol, Values};
 use crate::fault::{Fault, FaultKind, Place, Source};
 use crate::interval::Real;
@@ -182,7 +183,7 @@ impl Formula {
 /// Where the text of a quantity begins in the file, if it can be told: behind one quotation mark, and only if
 /// no escape sequence or line end shifts it.
 pub(super) fn expression_start(quantity: &Quantity, source: &str) -> Option<usize> {
-    let Written::Text(text) = &quantity.written else { return None };
+    let Value::Text(text) = &quantity.written else { return None };
     let start = quantity.span.start + 1;
     (source.get(start..start + text.len()) == Some(text.as_str())).then_some(start)
 }

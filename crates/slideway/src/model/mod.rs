@@ -33,7 +33,7 @@
 //! # Files
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what both
 //! give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs` deserializes entry by entry, `read/` resolves names,
-//! `check.rs` judges the whole, `settings.rs` applies changes.
+//! `check.rs` judges the whole, `value.rs` is what is given, `settings.rs` applies changes.
 
 mod check;
 mod dependence;
@@ -48,6 +48,7 @@ mod sections;
 mod settings;
 mod stop;
 mod structure;
+mod value;
 
 pub(crate) use dependence::Dependence;
 pub use file::{CarriedBy, CrossingDirection, ForceFrame, PreloadLine};
@@ -55,6 +56,7 @@ pub use formula::{Allowed, Formula, Origin, Varies};
 pub use range::ParameterRange;
 pub use settings::{Setting, SettingKind, Settings};
 pub use stop::Stop;
+pub use value::Value;
 
 use crate::fault::{Fault, FaultKind, Faults, Place};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};

@@ -1,5 +1,6 @@
 //! The kinds of value that a model file holds: names, quantities, places, directions, each with its place.
 
+use super::Value;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 use std::ops::Range;
@@ -22,45 +23,38 @@ impl<'de> Deserialize<'de> for Name {
     }
 }
 
-/// A plain number in SI units, or text with a unit or an expression.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Written {
-    Number(f64),
-    Text(String),
-}
-
 /// A quantity as it is written, with its place.
 #[derive(Debug, Clone)]
 pub(super) struct Quantity {
-    pub(super) written: Written,
+    pub(super) written: Value,
     pub(super) span: Span,
 }
 
-impl<'de> Deserialize<'de> for Written {
+impl<'de> Deserialize<'de> for Value {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct WrittenVisitor;
-        impl Visitor<'_> for WrittenVisitor {
-            type Value = Written;
+        struct ValueVisitor;
+        impl Visitor<'_> for ValueVisitor {
+            type Value = Value;
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 formatter.write_str("a number or a text with a unit or an expression")
             }
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Written, E> {
-                Ok(Written::Number(value))
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Value, E> {
+                Ok(Value::Number(value))
             }
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Written, E> {
-                Ok(Written::Number(value as f64))
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Value, E> {
+                Ok(Value::Number(value as f64))
             }
-            fn visit_str<E: de::Error>(self, value: &str) -> Result<Written, E> {
-                Ok(Written::Text(value.to_owned()))
+            fn visit_str<E: de::Error>(self, value: &str) -> Result<Value, E> {
+                Ok(Value::Text(value.to_owned()))
             }
         }
-        deserializer.deserialize_any(WrittenVisitor)
+        deserializer.deserialize_any(ValueVisitor)
     }
 }
 
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let spanned = Spanned::<Written>::deserialize(deserializer)?;
+        let spanned = Spanned::<Value>::deserialize(deserializer)?;
         Ok(Self { span: spanned.span(), written: spanned.into_inner() })
     }
 }
@@ -136,13 +130,13 @@ impl<'de, T: Either<'de>> Visitor<'de> for EitherVisitor<T> {
         formatter.write_str(T::EXPECTED)
     }
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<Form<T>, E> {
-        Ok(Form::Scalar(Written::Number(value)))
+        Ok(Form::Scalar(Value::Number(value)))
     }
     fn visit_i64<E: de::Error>(self, value: i64) -> Result<Form<T>, E> {
-        Ok(Form::Scalar(Written::Number(value as f64)))
+        Ok(Form::Scalar(Value::Number(value as f64)))
     }
     fn visit_str<E: de::Error>(self, value: &str) -> Result<Form<T>, E> {
-        Ok(Form::Scalar(Written::Text(value.to_owned())))
+        Ok(Form::Scalar(Value::Text(value.to_owned())))
     }
     fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<Form<T>, A::Error> {
         T::from_sequence(sequence).map(Form::Whole)
@@ -154,7 +148,7 @@ impl<'de, T: Either<'de>> Visitor<'de> for EitherVisitor<T> {
 
 /// A value read from a single scalar, or whole from a list or table.
 enum Form<T> {
-    Scalar(Written),
+    Scalar(Value),
     Whole(T),
 }
 
@@ -188,8 +182,8 @@ impl<'de> Either<'de> for Place {
     const EXPECTED: &'static str = "the name of a point, or its coordinates [x, y]";
     fn from_quantity(quantity: Quantity) -> Option<Self> {
         match quantity.written {
-            Written::Text(text) => Some(Self::Point(Name { text, span: quantity.span })),
-            Written::Number(_) => None,
+            Value::Text(text) => Some(Self::Point(Name { text, span: quantity.span })),
+            Value::Number(_) => None,
         }
     }
     fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {

@@ -29,13 +29,13 @@ impl ParameterRange {
 }
 
 /// The value of a parameter: an expression, or the middle of a range with its ends.
-pub(super) type Value = (Expression, Option<Box<[Expression; 2]>>);
+pub(super) type Parsed = (Expression, Option<Box<[Expression; 2]>>);
 
 /// Reads an expression, or a range of two, `from..to`.
 ///
 /// # Errors
 /// The faults of the expressions, with places in the whole text.
-pub(super) fn parse_value(text: &str, names: &Names) -> Result<Value, Vec<ExpressionFault>> {
+pub(super) fn parse_value(text: &str, names: &Names) -> Result<Parsed, Vec<ExpressionFault>> {
     let Some((from, to)) = text.split_once(TO) else { return Ok((parse(text, names)?, None)) };
     let start = from.len() + TO.len();
     let ends = [(from, 0), (to, start)].map(|(end, offset)| {

@@ -1,9 +1,9 @@
 //! What a command changes in a model before it is solved: parameters, coordinate values and rates.
 
 use super::formula::{Allowed, Formula, Origin, Varies};
-use super::range::parse_value;
-use super::{Coordinate, Model};
-use crate::expression::{Dimension, parse};
+use super::range::{Parsed, parse_value};
+use super::{Coordinate, Model, Value};
+use crate::expression::{Dimension, Expression, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
 use crate::ids::FormulaId;
 use std::sync::Arc;
@@ -12,23 +12,29 @@ use std::sync::Arc;
 const TIME: &str = "time";
 
 /// Changes to a model, in the order in which they were given; a later one wins.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Settings {
     entries: Vec<Setting>,
 }
 
 /// One change.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Setting {
     /// What is changed.
     pub kind: SettingKind,
     /// Name of the parameter or coordinate.
     pub name: String,
     /// Its new value: a number, a quantity with a unit, or an expression of parameters.
-    pub value: String,
+    pub value: Value,
 }
 
 impl Setting {
+    /// A change of what bears this name.
+    pub fn new(kind: SettingKind, name: &str, value: impl Into<Value>) -> Self {
+        Self { kind, name: name.to_owned(), value: value.into() }
+    }
+
     /// The text to which the places of its faults refer.
     pub fn text(&self) -> String {
         format!("{}={}", self.name, self.value)
@@ -37,6 +43,7 @@ impl Setting {
 
 /// What a setting changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SettingKind {
     /// A parameter (`--set`).
     Parameter,
@@ -51,56 +58,38 @@ pub enum SettingKind {
 impl Settings {
     /// Adds a value for a parameter.
     #[must_use]
-    pub fn parameter(self, name: &str, value: &str) -> Self {
-        self.with(SettingKind::Parameter, name, value)
+    pub fn parameter(self, name: &str, value: impl Into<Value>) -> Self {
+        self.with(Setting::new(SettingKind::Parameter, name, value))
     }
 
     /// Adds a value for a coordinate.
     #[must_use]
-    pub fn position(self, name: &str, value: &str) -> Self {
-        self.with(SettingKind::Position, name, value)
+    pub fn position(self, name: &str, value: impl Into<Value>) -> Self {
+        self.with(Setting::new(SettingKind::Position, name, value))
     }
 
     /// Adds a value for the rate of a coordinate.
     #[must_use]
-    pub fn rate(self, name: &str, value: &str) -> Self {
-        self.with(SettingKind::Rate, name, value)
+    pub fn rate(self, name: &str, value: impl Into<Value>) -> Self {
+        self.with(Setting::new(SettingKind::Rate, name, value))
     }
 
     /// Sets the time of the state.
     #[must_use]
-    pub fn time(self, value: &str) -> Self {
-        self.with(SettingKind::Time, TIME, value)
+    pub fn time(self, value: impl Into<Value>) -> Self {
+        self.with(Setting::new(SettingKind::Time, TIME, value))
     }
 
-    /// Adds a setting written as `name=value`.
-    ///
-    /// # Errors
-    /// A fault if there is no `=`, or nothing on one side of it.
-    pub fn push(&mut self, kind: SettingKind, text: &str) -> Result<(), Fault> {
-        let malformed = || Fault::general(FaultKind::MalformedSetting { text: text.to_owned() });
-        let (name, value) = text.split_once('=').ok_or_else(malformed)?;
-        let (name, value) = (name.trim(), value.trim());
-        if name.is_empty() || value.is_empty() {
-            return Err(malformed());
-        }
-        self.entries.push(Setting { kind, name: name.to_owned(), value: value.to_owned() });
-        Ok(())
+    /// Adds a change.
+    #[must_use]
+    pub fn with(mut self, setting: Setting) -> Self {
+        self.entries.push(setting);
+        self
     }
 
     /// The settings; [`Source::Setting`] counts them.
     pub fn entries(&self) -> &[Setting] {
         &self.entries
-    }
-
-    /// A single setting.
-    pub fn single(setting: Setting) -> Self {
-        Self { entries: vec![setting] }
-    }
-
-    fn with(mut self, kind: SettingKind, name: &str, value: &str) -> Self {
-        self.entries.push(Setting { kind, name: name.to_owned(), value: value.to_owned() });
-        self
     }
 }
 
@@ -206,18 +195,10 @@ impl Model {
         wanted: Option<Dimension>,
     ) -> Result<Formula, Faults> {
         let start = setting.name.len() + 1;
-        let origin =
-            Origin { source, span: start..start + setting.value.len(), expression_start: Some(start) };
-        let value = match setting.kind {
-            SettingKind::Parameter => parse_value(&setting.value, &self.names()),
-            _ => parse(&setting.value, &self.names()).map(|expression| (expression, None)),
-        };
-        let (expression, range) = value.map_err(|list| {
-            let mut faults = Faults::default();
-            faults.extend(list.into_iter().map(|fault| origin.fault(fault)));
-            faults
-        })?;
-        let what = Arc::from(format!("the value of {}", setting.name));
+        let expression_start = matches!(setting.value, Value::Text(_)).then_some(start);
+        let origin = Origin { source, span: start..setting.text().len(), expression_start };
+        let what: Arc<str> = Arc::from(format!("the value of {}", setting.name));
+        let (expression, range) = self.parsed(setting, &origin, &what)?;
         Ok(Formula {
             expression,
             range,
@@ -227,6 +208,29 @@ impl Model {
             broken: false,
             what,
             origin,
+        })
+    }
+
+    /// The expression of a new value, or the middle of its range.
+    fn parsed(&self, setting: &Setting, origin: &Origin, what: &Arc<str>) -> Result<Parsed, Faults> {
+        let text = match &setting.value {
+            Value::Number(value) if value.is_finite() => {
+                return Ok((Expression::decimal(*value, &format!("{value:e}")), None));
+            }
+            Value::Number(_) => {
+                let kind = FaultKind::NotFinite { what: what.to_string() };
+                return Err(Fault::new(kind, origin.place()).into());
+            }
+            Value::Text(text) => text,
+        };
+        let parsed = match setting.kind {
+            SettingKind::Parameter => parse_value(text, &self.names()),
+            _ => parse(text, &self.names()).map(|expression| (expression, None)),
+        };
+        parsed.map_err(|list| {
+            let mut faults = Faults::default();
+            faults.extend(list.into_iter().map(|fault| origin.fault(fault)));
+            faults
         })
     }
 

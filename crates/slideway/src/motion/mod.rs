@@ -42,15 +42,14 @@ pub use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
 pub use decision::rules::{Continuation, Continuations, Decisions, HaltingImpulse, Hold, Instant};
 pub use decision::thorough::Thorough;
 pub use following::{simulate, simulate_with};
-pub use moving::cause::Cause;
+pub use moving::cause::{Cause, CauseKind};
 pub use moving::equations::Drift;
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
 pub use record::event::Event;
 pub use record::history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
 pub use told::report::{
-    BranchReport, CauseReport, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
-    SampledReport, SimulateReport, StatisticsReport, report, to_json,
+    BranchReport, CauseReport, EndKind, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,
+    SampledReport, SimulateReport, StatisticsReport, report,
 };
 pub use told::series::{Column, Series};
-pub use told::text::{to_text, tree_to_text};
-pub use told::tree::{Branching, Tree, TreeReport, simulate_all, tree_report, tree_to_json};
+pub use told::tree::{Branching, BranchingReport, Tree, TreeReport, simulate_all, tree_report};

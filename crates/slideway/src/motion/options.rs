@@ -8,6 +8,7 @@ use crate::model::CrossingDirection;
 
 /// What a simulation is asked for, and what it may cost.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct SimulateOptions {
     /// How long the mechanism is followed (s).
     pub duration: f64,
@@ -53,6 +54,69 @@ impl SimulateOptions {
         }
     }
 
+    /// With another relative error of each step.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// With steps that are no longer than this (s).
+    #[must_use]
+    pub fn longest_step(mut self, step: impl Into<Option<f64>>) -> Self {
+        self.longest_step = step.into();
+        self
+    }
+
+    /// Ends after so many steps.
+    #[must_use]
+    pub fn most_steps(mut self, steps: usize) -> Self {
+        self.most_steps = steps;
+        self
+    }
+
+    /// Ends after so many events.
+    #[must_use]
+    pub fn most_events(mut self, events: usize) -> Self {
+        self.most_events = events;
+        self
+    }
+
+    /// Counts the mechanism as locked from this normal force (N) on.
+    #[must_use]
+    pub fn reaction_limit(mut self, force: impl Into<Option<f64>>) -> Self {
+        self.reaction_limit = force.into();
+        self
+    }
+
+    /// Begins in the phase of this [pattern](super::Phase::pattern).
+    #[must_use]
+    pub fn initial(mut self, pattern: &str) -> Self {
+        self.initial = Some(pattern.to_owned());
+        self
+    }
+
+    /// Takes these phases at the branchings, counted from 0.
+    #[must_use]
+    pub fn branches(mut self, branches: impl IntoIterator<Item = usize>) -> Self {
+        self.branches = branches.into_iter().collect();
+        self
+    }
+
+    /// Whether at a branching behind those that are given the phase is taken in which the fewest joints stick.
+    #[must_use]
+    pub fn prefers_sliding(mut self, prefers: bool) -> Self {
+        self.prefers_sliding = prefers;
+        self
+    }
+
+    /// Watches a function, too.
+    #[must_use]
+    pub fn event(mut self, event: UserEvent) -> Self {
+        self.events.push(event);
+        self
+    }
+
     /// With the events of a model.
     #[must_use]
     pub fn with_events_of(mut self, mechanism: &Mechanism) -> Self {
@@ -72,6 +136,7 @@ impl SimulateOptions {
 
 /// In which direction a function of the user passes zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Crossing {
     /// Either.
     #[default]
@@ -84,6 +149,7 @@ pub enum Crossing {
 
 /// A function of coordinates, rates and time whose zeros are events.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct UserEvent {
     /// Its name.
     pub name: String,
@@ -97,6 +163,7 @@ pub struct UserEvent {
 
 /// What is watched for zeros.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum EventFunction {
     /// A quantity of the mechanism.
     OfModel(Quantity),
@@ -105,6 +172,25 @@ pub enum EventFunction {
 }
 
 impl UserEvent {
+    /// Every zero of a function; the simulation goes on.
+    pub fn new(name: &str, function: EventFunction) -> Self {
+        Self { name: name.to_owned(), function, crossing: Crossing::Any, ends: false }
+    }
+
+    /// Only zeros in this direction.
+    #[must_use]
+    pub fn crossing(mut self, crossing: Crossing) -> Self {
+        self.crossing = crossing;
+        self
+    }
+
+    /// Whether the simulation ends there.
+    #[must_use]
+    pub fn ends(mut self, ends: bool) -> Self {
+        self.ends = ends;
+        self
+    }
+
     pub(super) fn value(&self, mechanism: &Mechanism, configuration: &Configuration) -> Result<f64, Fault> {
         let Configuration { coordinates, rates, time, .. } = configuration;
         match &self.function {

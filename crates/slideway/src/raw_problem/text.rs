@@ -6,7 +6,7 @@ use super::{
 use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Status, Style, count};
+use crate::report::{Report, Status, Style, count};
 
 /// Groups that are told one by one.
 const GROUPS: usize = 8;
@@ -15,17 +15,19 @@ const PARTS: usize = 8;
 /// Signs that are told in one line.
 const SIGNS: usize = 64;
 
-/// The report as text: the verdict first, then the solutions, then how they were found.
-pub fn to_text(report: &RawReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.verdict();
-    text.within_rounding();
-    text.solutions("Solution", &report.totals[0], &report.solutions);
-    text.solutions("Preload gap", &report.totals[1], &report.gap_states);
-    text.continua();
-    text.strategy();
-    text.text()
+impl Report for RawReport {
+    /// The verdict first, then the solutions, then how they were found.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.verdict();
+        text.within_rounding();
+        text.solutions("Solution", &self.totals[0], &self.solutions);
+        text.solutions("Preload gap", &self.totals[1], &self.gap_states);
+        text.continua();
+        text.strategy();
+        text.text()
+    }
 }
 
 type Text<'r> = Page<'r, RawReport>;

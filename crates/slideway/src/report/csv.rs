@@ -1,29 +1,31 @@
 //! The report as CSV: one row for each number, so that any tool can filter it.
 
-use super::{Report, Solution};
+use super::{Solution, SolveReport};
 
-/// The report as CSV with the columns `status`, `solution`, `kind`, `name`, `quantity`, `value`, `unit`.
-///
-/// `solution` counts from 1; the states of preload gaps are "gap 1", "gap 2", ... A report without solutions has
-/// one row, whose `status` says why.
-pub fn to_csv(report: &Report) -> String {
-    let mut rows = Rows { writer: csv::Writer::from_writer(Vec::new()), status: status_word(report) };
-    rows.write(["status", "solution", "kind", "name", "quantity", "value", "unit"]);
-    let solutions = report.solutions.iter().enumerate().map(|(i, s)| ((i + 1).to_string(), s));
-    let gaps = report.preload_gap_states.iter().enumerate().map(|(i, s)| (format!("gap {}", i + 1), s));
-    let all: Vec<_> = solutions.chain(gaps).collect();
-    if all.is_empty() {
-        let status = rows.status.clone();
-        rows.write([status.as_str(), "", "", "", "", "", ""]);
+impl SolveReport {
+    /// The report as CSV with the columns `status`, `solution`, `kind`, `name`, `quantity`, `value`, `unit`.
+    ///
+    /// `solution` counts from 1; the states of preload gaps are "gap 1", "gap 2", ... A report without solutions has
+    /// one row, whose `status` says why.
+    pub fn csv(&self) -> String {
+        let mut rows = Rows { writer: csv::Writer::from_writer(Vec::new()), status: status_word(self) };
+        rows.write(["status", "solution", "kind", "name", "quantity", "value", "unit"]);
+        let solutions = self.solutions.iter().enumerate().map(|(i, s)| ((i + 1).to_string(), s));
+        let gaps = self.preload_gap_states.iter().enumerate().map(|(i, s)| (format!("gap {}", i + 1), s));
+        let all: Vec<_> = solutions.chain(gaps).collect();
+        if all.is_empty() {
+            let status = rows.status.clone();
+            rows.write([status.as_str(), "", "", "", "", "", ""]);
+        }
+        for (number, solution) in all {
+            rows.solution(&number, solution);
+        }
+        String::from_utf8(rows.writer.into_inner().expect("writing to memory cannot fail"))
+            .expect("only text was written")
     }
-    for (number, solution) in all {
-        rows.solution(&number, solution);
-    }
-    String::from_utf8(rows.writer.into_inner().expect("writing to memory cannot fail"))
-        .expect("only text was written")
 }
 
-fn status_word(report: &Report) -> String {
+fn status_word(report: &SolveReport) -> String {
     serde_json::to_value(report.status)
         .ok()
         .and_then(|value| value.as_str().map(str::to_owned))

@@ -229,7 +229,7 @@ impl SerializeMap for Parts<'_> {
 #[cfg(test)]
 mod tests {
     use super::{defined, finite};
-    use crate::report::indented_json;
+    use crate::report::indented;
     use serde::Serialize;
     use std::collections::BTreeMap;
 
@@ -274,7 +274,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "`parts[0][1]`")]
     fn json_has_no_null_for_a_number() {
-        let _ = indented_json(&Whole { parts: vec![(1, f64::NAN)], ..whole() });
+        let _ = indented(&Whole { parts: vec![(1, f64::NAN)], ..whole() });
     }
 
     #[test]

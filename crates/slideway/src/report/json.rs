@@ -1,16 +1,7 @@
-//! The report as JSON.
+//! A report as JSON.
 
-use super::Report;
 use crate::printable;
 use serde::Serialize;
-
-/// The report as indented JSON, ending in a line end; the layout is that of [`Report`], its version in `schema`.
-///
-/// # Panics
-/// If a number of the report is not finite, which no function that makes reports lets through ([`finite`](super::finite)).
-pub fn to_json(report: &Report) -> String {
-    indented(report)
-}
 
 /// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped. All JSON is written here: a
 /// number that is not finite, for which there would be `null`, is refused.

@@ -1,10 +1,11 @@
-//! What is told: the answer as plain data, and its forms as text, JSON and CSV.
+//! What is told: answers as plain data, and their forms as text, JSON and CSV.
 //!
 //! Last stage of the pipeline. Every face of slideway (command line, library, later Python) gets the same
-//! [`Report`]; its fields are the JSON output, documented in the book under "Output".
+//! [`SolveReport`]; its fields are the JSON output, documented in the book under "Output".
 
 mod attainability;
 mod csv;
+mod end;
 mod finite;
 mod json;
 pub(crate) mod number;
@@ -13,34 +14,60 @@ pub(crate) mod table;
 mod text;
 
 pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
-pub use csv::to_csv;
+pub use end::ModeEndCause;
 pub use finite::{defined, finite};
-pub(crate) use json::indented as indented_json;
-pub use json::to_json;
+pub(crate) use json::indented;
 pub use number::precise;
-pub use text::{Style, followed, to_text};
+pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
 use serde::Serialize;
-pub use slideway_modes::Status;
+pub use slideway_modes::{Proof, Status};
 
-/// Version of the layout of a [`Report`]; changes whenever a field is renamed or removed.
+/// What every report can do. Its fields are the JSON output.
+///
+/// ```
+/// use slideway::report::Style;
+/// use slideway::{Model, Report, gallery, solve};
+///
+/// let report = solve(&Model::parse(gallery::find("drawer").expect("in the gallery").text)?)?;
+/// assert!(report.text(Style::Plain).contains("One solution."));
+/// assert!(report.json().contains("\"status\": \"one\""));
+/// # Ok::<(), slideway::Faults>(())
+/// ```
+pub trait Report: Serialize {
+    /// As text for people: words first, then aligned numbers.
+    fn text(&self, style: Style) -> String;
+
+    /// As indented JSON, ending in a line end; the version of its layout is in `schema`.
+    ///
+    /// # Panics
+    /// If a number of the report is not finite, which no function that makes reports lets through ([`finite`]).
+    fn json(&self) -> String
+    where
+        Self: Sized,
+    {
+        json::indented(self)
+    }
+}
+
+/// Version of the layout of a [`SolveReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/solve/2";
 
 /// All solutions of the kinetic problem of a mechanism in one state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Report {
+pub struct SolveReport {
     /// Version of this layout: [`SCHEMA`].
     pub schema: &'static str,
     /// How many solutions there are; of those that were found if the search ended early.
     pub status: Status,
-    /// "proven" or "not proven": whether these are certainly all solutions of the mechanism, rounding included.
-    pub complete: &'static str,
+    /// Whether these are certainly all solutions of the mechanism, rounding included.
+    pub complete: Proof,
     /// Whether the search ended before every possibility was dealt with.
     pub partial: bool,
-    /// What remains open, in words; empty if `complete` is "proven".
+    /// What remains open, in words; empty if `complete` is [`Proof::Proven`].
     pub open: Vec<String>,
     /// Number of solutions, as decimal text: it may be beyond any integer type, and more than are listed.
     pub count: String,
@@ -285,8 +312,8 @@ pub struct ModeMargin {
     /// The factor; absent if the mode never ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// "nothing", "locking", "side_change", "gap_closes" or "tipping".
-    pub ends_with: &'static str,
+    /// What ends it.
+    pub ends_with: ModeEndCause,
     /// The contacts that end it.
     pub contacts: Vec<String>,
 }

@@ -4,8 +4,8 @@ use super::number::{against, number};
 use super::page::Page;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, JointMode, ModeMargin, PatternSummary, Persistence, Report,
-    Solution, Status, UncertainMode,
+    CertificateKind, ClosestMode, Contact, JointMode, ModeEndCause, ModeMargin, PatternSummary, Persistence,
+    Report, Solution, SolveReport, Status, UncertainMode,
 };
 use std::fmt::Write;
 
@@ -19,30 +19,31 @@ pub enum Style {
     Colour,
 }
 
-/// The report as text.
-pub fn to_text(report: &Report, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.verdict();
-    text.margins();
-    text.uncertainty();
-    for (index, solution) in report.solutions.iter().enumerate() {
-        let title = format!("Solution {} of {}", index + 1, report.solutions.len());
-        text.solution(&title, solution);
+impl Report for SolveReport {
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.verdict();
+        text.margins();
+        text.uncertainty();
+        for (index, solution) in self.solutions.iter().enumerate() {
+            let title = format!("Solution {} of {}", index + 1, self.solutions.len());
+            text.solution(&title, solution);
+        }
+        for (index, state) in self.preload_gap_states.iter().enumerate() {
+            let title = format!("Preload gap {} of {}", index + 1, self.preload_gap_states.len());
+            text.solution(&title, state);
+        }
+        text.continua();
+        text.undecided();
+        text.rejected();
+        text.locked_modes();
+        text.closest_modes();
+        text.text()
     }
-    for (index, state) in report.preload_gap_states.iter().enumerate() {
-        let title = format!("Preload gap {} of {}", index + 1, report.preload_gap_states.len());
-        text.solution(&title, state);
-    }
-    text.continua();
-    text.undecided();
-    text.rejected();
-    text.locked_modes();
-    text.closest_modes();
-    text.text()
 }
 
-type Text<'r> = Page<'r, Report>;
+type Text<'r> = Page<'r, SolveReport>;
 
 impl Text<'_> {
     fn heading(&mut self) {
@@ -375,15 +376,15 @@ fn margin_in_words(margin: &ModeMargin) -> String {
     };
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {
-        "locking" => "locking".to_owned(),
-        "side_change" => format!("{contacts} changes side"),
-        "gap_closes" => format!("the gap of {contacts} closes"),
+        ModeEndCause::Locking => "locking".to_owned(),
+        ModeEndCause::SideChange => format!("{contacts} changes side"),
+        ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
         _ => "a guided slider tips".to_owned(),
     };
     format!("the mode ends at {} times the friction: {end}", number(factor))
 }
 
-fn uncertain_row(report: &Report, mode: &UncertainMode) -> Vec<String> {
+fn uncertain_row(report: &SolveReport, mode: &UncertainMode) -> Vec<String> {
     let exists = match mode.persistence {
         Persistence::AllValues => "for all values",
         Persistence::SomeValues => "for some values",
@@ -431,7 +432,7 @@ fn contact_table(contacts: &[Contact]) -> String {
 }
 
 /// Coordinates, drives, hinges and bodies: name, what, value, unit.
-fn motion_table(report: &Report, solution: &Solution) -> String {
+fn motion_table(report: &SolveReport, solution: &Solution) -> String {
     let mut rows = Vec::new();
     let mut row = |name: &str, what: &str, value: String, unit: &str| {
         rows.push(vec![name.to_owned(), what.to_owned(), value, unit.to_owned()]);

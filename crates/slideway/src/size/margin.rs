@@ -62,14 +62,14 @@ impl Margin {
 }
 
 /// What is varied, and which margin is asked for.
-pub(super) struct Question<'v> {
+pub(super) struct MarginQuestion<'v> {
     pub(super) varied: &'v Varied,
     /// The same with all rates reversed, if both directions count.
     pub(super) reversed: Option<&'v Varied>,
     pub(super) against: &'v Against,
 }
 
-impl Question<'_> {
+impl MarginQuestion<'_> {
     /// The margin at a value; with both directions the smaller one.
     ///
     /// # Errors

@@ -8,11 +8,12 @@
 //!
 //! ```
 //! use slideway::model::Model;
+//! use slideway::limits::Vary;
 //! use slideway::size::{SizeOptions, size};
 //!
 //! // A drawer jams at mu = L / (2 a): for a margin x it needs L = 2 a mu x.
 //! let drawer = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
-//! let report = size(&drawer, &SizeOptions::against_locking("L", 2.0))?;
+//! let report = size(&drawer, &SizeOptions::new(Vary::usual("L"), 2.0))?;
 //! assert!((report.met[0].from - 2.0 * 0.3 * 0.3 * 2.0).abs() < 1e-14);
 //! # Ok::<(), slideway::fault::Faults>(())
 //! ```
@@ -28,17 +29,16 @@ mod text;
 mod words;
 
 pub use report::{
-    MarginKind, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport, to_json,
+    MarginKind, MetEnd, MetInterval, RangeWithoutPosition, SCHEMA, Sample, SampleKind, SizeReport,
 };
-pub use text::to_text;
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, given_range};
+use crate::limits::{Varied, Vary};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-use margin::{Margin, Question};
-use search::Search;
+use margin::{Margin, MarginQuestion};
+use search::MarginSearch;
 
 /// Steps of the evenly spaced values against locking.
 const STEPS: usize = 500;
@@ -49,6 +49,7 @@ const USUAL_FACTOR: f64 = 5.0;
 
 /// Against what there is to be a margin.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Against {
     /// Locking in motion: there is no solution.
     Locking,
@@ -66,9 +67,11 @@ pub enum Against {
 
 /// What is to be sized.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct SizeOptions {
-    /// "NAME" or "NAME=FROM..TO": a parameter, a coordinate, or [`crate::limits::FRICTION`].
-    pub vary: String,
+    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to twice its value, but
+    /// at least to 1, any other parameter that is not zero from a fifth of its value to five times it.
+    pub vary: Vary,
     /// The wanted margin, positive: a factor of friction.
     pub margin: f64,
     /// Against what.
@@ -79,8 +82,22 @@ pub struct SizeOptions {
 
 impl SizeOptions {
     /// A margin against locking in the direction of the model.
-    pub fn against_locking(vary: &str, margin: f64) -> Self {
-        Self { vary: vary.to_owned(), margin, against: Against::Locking, both_directions: false }
+    pub fn new(vary: Vary, margin: f64) -> Self {
+        Self { vary, margin, against: Against::Locking, both_directions: false }
+    }
+
+    /// A margin against something else.
+    #[must_use]
+    pub fn against(mut self, against: Against) -> Self {
+        self.against = against;
+        self
+    }
+
+    /// Whether it is the smaller margin of both directions of motion.
+    #[must_use]
+    pub fn both_directions(mut self, both: bool) -> Self {
+        self.both_directions = both;
+        self
     }
 }
 
@@ -109,30 +126,24 @@ pub fn size_with(
 }
 
 fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeReport, Faults> {
-    let (name, range) = match options.vary.split_once('=') {
-        Some((name, range)) => (name.trim(), Some(range)),
-        None => (options.vary.trim(), None),
-    };
+    let name = &options.vary.name;
     let at_rest = options.against != Against::Locking;
     if at_rest && options.both_directions {
         return Err(Fault::general(FaultKind::NoDirectionAtRest).into());
     }
     let varied = Varied::new(model, name)?;
-    let range = match range {
-        Some(text) => given_range(&varied, text)?,
-        None => usual_range(model, &varied)?,
-    };
+    let range = options.vary.ends(&varied, || usual_range(model, &varied))?;
     let opposite = if options.both_directions { Some(Varied::new(&model.reversed(), name)?) } else { None };
-    let question = Question { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
+    let question = MarginQuestion { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
     let value = varied.present()?;
     let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
-    let found = Search { question: &question, wanted: options.margin, range, steps, work }.run();
+    let found = MarginSearch { question: &question, wanted: options.margin, range, steps, work }.run();
     finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
 }
 
 /// The margin in the model; nothing where it has no position, which other values may have.
-fn present(question: &Question<'_>, value: f64, work: Work<'_>) -> Result<Option<Margin>, Faults> {
+fn present(question: &MarginQuestion<'_>, value: f64, work: Work<'_>) -> Result<Option<Margin>, Faults> {
     let everywhere = |fault: &&Fault| {
         matches!(
             fault.kind,

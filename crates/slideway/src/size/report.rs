@@ -1,12 +1,11 @@
 //! What is told of a design: plain data, which are the JSON output.
 
-use super::margin::{Margin, Question};
-use super::search::{Cause, End, Found, Place};
+use super::margin::{Margin, MarginQuestion};
+use super::search::{Cause, End, SizesFound, Tried};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
 use crate::model::Model;
-use crate::report::indented_json;
 use serde::Serialize;
 
 /// Version of the layout of a [`SizeReport`]; changes whenever a field is renamed or removed.
@@ -68,14 +67,29 @@ pub struct MetInterval {
     pub from: f64,
     /// Where it ends.
     pub to: f64,
-    /// Why it begins there: "range", "margin" (it is just met), "jump" (the margin jumps) or "no_position".
-    pub from_is: &'static str,
-    /// Why it ends there, likewise.
-    pub to_is: &'static str,
+    /// Why it begins there.
+    pub from_is: MetEnd,
+    /// Why it ends there.
+    pub to_is: MetEnd,
     /// The margin outside of the beginning where it jumps; null where it is infinite, or does not jump.
     pub from_jumps_to: Option<f64>,
     /// The same at the end.
     pub to_jumps_to: Option<f64>,
+}
+
+/// Why an interval ends in which the wanted margin is met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum MetEnd {
+    /// The range ends.
+    Range,
+    /// The margin is just met.
+    Margin,
+    /// The margin jumps.
+    Jump,
+    /// The mechanism cannot be assembled or solved beyond.
+    NoPosition,
 }
 
 /// What a sample says.
@@ -114,20 +128,15 @@ pub struct RangeWithoutPosition {
     pub reason: String,
 }
 
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &SizeReport) -> String {
-    indented_json(report)
-}
-
 /// What was sought, and what was found.
 pub(super) struct Sought<'q> {
-    pub(super) question: Question<'q>,
+    pub(super) question: MarginQuestion<'q>,
     pub(super) range: [f64; 2],
     pub(super) steps: usize,
     pub(super) value: f64,
     /// The margin in the model.
     pub(super) present: Option<Margin>,
-    pub(super) found: Found,
+    pub(super) found: SizesFound,
 }
 
 pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) -> SizeReport {
@@ -146,7 +155,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         load,
         margin: options.margin,
         both_directions: options.both_directions,
-        present: sample(&Place { at: *value, margin: *present }),
+        present: sample(&Tried { at: *value, margin: *present }),
         met: found.met.iter().map(interval).collect(),
         without_position: found.gaps.iter().map(gap).collect(),
         samples: samples(found, *steps, options.margin),
@@ -172,12 +181,12 @@ fn interval([from, to]: &[End; 2]) -> MetInterval {
     }
 }
 
-fn cause(end: &End) -> &'static str {
+fn cause(end: &End) -> MetEnd {
     match end.cause {
-        Cause::Range => "range",
-        Cause::Margin => "margin",
-        Cause::Jump(_) => "jump",
-        Cause::NoPosition => "no_position",
+        Cause::Range => MetEnd::Range,
+        Cause::Margin => MetEnd::Margin,
+        Cause::Jump(_) => MetEnd::Jump,
+        Cause::NoPosition => MetEnd::NoPosition,
     }
 }
 
@@ -186,7 +195,7 @@ fn gap(gap: &super::search::Gap) -> RangeWithoutPosition {
     RangeWithoutPosition { from: gap.from, to: gap.to, reason }
 }
 
-fn sample(place: &Place) -> Sample {
+fn sample(place: &Tried) -> Sample {
     let (is, margin) = match place.margin {
         Some(Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
         Some(Margin::Infinite) => (SampleKind::Infinite, None),
@@ -196,10 +205,10 @@ fn sample(place: &Place) -> Sample {
 }
 
 /// Every so many of the values that were tried, and those at which the wanted margin is just met.
-fn samples(found: &Found, steps: usize, wanted: f64) -> Vec<Sample> {
+fn samples(found: &SizesFound, steps: usize, wanted: f64) -> Vec<Sample> {
     let [first, last] = [found.places.first(), found.places.last()].map(|place| place.map_or(0.0, |p| p.at));
     let step = (last - first) / steps as f64;
-    let is_row = |place: &&Place| {
+    let is_row = |place: &&Tried| {
         let index = (place.at - first) / step;
         let row = (index / (steps / ROWS) as f64).round() * (steps / ROWS) as f64;
         (index - row).abs() < 1e-6

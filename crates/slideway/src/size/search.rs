@@ -1,6 +1,6 @@
 //! The values at which a margin is just met: evenly spaced values, and bisection of what changes between them.
 
-use super::margin::{Margin, Question};
+use super::margin::{Margin, MarginQuestion};
 use crate::fault::Faults;
 use crate::limits::bisect;
 use crate::progress::Work;
@@ -14,7 +14,7 @@ const JUMP: f64 = 1e-6;
 
 /// The margin at a value.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Tried {
     pub(super) at: f64,
     /// None where the mechanism cannot be assembled or solved.
     pub(super) margin: Option<Margin>,
@@ -48,25 +48,25 @@ pub(super) struct Gap {
 }
 
 /// What a search finds.
-pub(super) struct Found {
+pub(super) struct SizesFound {
     /// The margin at evenly spaced values, and where dips and humps made more necessary.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<Tried>,
     /// Where the margin is met.
     pub(super) met: Vec<[End; 2]>,
     pub(super) gaps: Vec<Gap>,
 }
 
 /// A search over a range.
-pub(super) struct Search<'q> {
-    pub(super) question: &'q Question<'q>,
+pub(super) struct MarginSearch<'q> {
+    pub(super) question: &'q MarginQuestion<'q>,
     pub(super) wanted: f64,
     pub(super) range: [f64; 2],
     pub(super) steps: usize,
     pub(super) work: Work<'q>,
 }
 
-impl Search<'_> {
-    pub(super) fn run(&self) -> Found {
+impl MarginSearch<'_> {
+    pub(super) fn run(&self) -> SizesFound {
         let [from, to] = self.range;
         // Both ends of the range stay exact.
         let value = |step: usize| {
@@ -75,15 +75,15 @@ impl Search<'_> {
         let place = |step: usize| {
             let piece = self.work.part(0, 2).piece("values", step, self.steps + 1);
             let margin = piece.continue_value().and_then(|work| self.question.margin(value(step), work).ok());
-            Place { at: value(step), margin }
+            Tried { at: value(step), margin }
         };
-        let mut places: Vec<Place> = (0..=self.steps).map(place).collect();
+        let mut places: Vec<Tried> = (0..=self.steps).map(place).collect();
         self.follow_extrema(&mut places);
-        Found { met: self.met(&places), gaps: self.gaps(&places), places }
+        SizesFound { met: self.met(&places), gaps: self.gaps(&places), places }
     }
 
-    fn place(&self, at: f64) -> Place {
-        Place { at, margin: self.refined(at).ok() }
+    fn place(&self, at: f64) -> Tried {
+        Tried { at, margin: self.refined(at).ok() }
     }
 
     /// The margin between the evenly spaced values.
@@ -92,19 +92,19 @@ impl Search<'_> {
         if work.is_over() { Err(Faults::default()) } else { self.question.margin(at, work) }
     }
 
-    fn is_met(&self, place: &Place) -> bool {
+    fn is_met(&self, place: &Tried) -> bool {
         place.margin.is_some_and(|margin| margin.meets(self.wanted))
     }
 
     /// Adds the extremum of a dip or hump that crosses the wanted margin between values that do not.
-    fn follow_extrema(&self, places: &mut Vec<Place>) {
-        let found: Vec<Place> = places.windows(3).filter_map(|three| self.extremum(three)).collect();
+    fn follow_extrema(&self, places: &mut Vec<Tried>) {
+        let found: Vec<Tried> = places.windows(3).filter_map(|three| self.extremum(three)).collect();
         places.extend(found);
         places.sort_by(|one, other| one.at.total_cmp(&other.at));
     }
 
     /// A value between three neighbours on the other side of the wanted margin, sought where the middle one comes nearest.
-    fn extremum(&self, three: &[Place]) -> Option<Place> {
+    fn extremum(&self, three: &[Tried]) -> Option<Tried> {
         let is_met = self.is_met(&three[1]);
         let [before, middle, after] =
             [three[0].margin?, three[1].margin?, three[2].margin?].map(|margin| margin.demand(self.wanted));
@@ -138,7 +138,7 @@ impl Search<'_> {
     }
 
     /// The intervals in which the margin is met.
-    fn met(&self, places: &[Place]) -> Vec<[End; 2]> {
+    fn met(&self, places: &[Tried]) -> Vec<[End; 2]> {
         let mut intervals = Vec::new();
         let mut start: Option<End> = None;
         for (index, place) in places.iter().enumerate() {
@@ -176,11 +176,11 @@ impl Search<'_> {
     }
 
     /// The ranges in which the mechanism cannot be assembled or solved.
-    fn gaps(&self, places: &[Place]) -> Vec<Gap> {
+    fn gaps(&self, places: &[Tried]) -> Vec<Gap> {
         let mut gaps: Vec<Gap> = Vec::new();
         let has_position = |at: f64| self.refined(at).is_ok();
         for (index, place) in places.iter().enumerate().filter(|(_, place)| place.margin.is_none()) {
-            let edge = |neighbour: Option<&Place>| match neighbour {
+            let edge = |neighbour: Option<&Tried>| match neighbour {
                 Some(neighbour) if neighbour.margin.is_some() => {
                     bisect(neighbour.at, place.at, has_position).1
                 }

@@ -1,19 +1,21 @@
 //! A design as text for people.
 
-use super::report::{MetInterval, SampleKind, SizeReport};
+use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::quantity;
-use crate::report::Style;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
+use crate::report::{Report, Style};
 
-/// The report as text: what it comes to, where the margin is met, and a table of margins.
-pub fn to_text(report: &SizeReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.intervals();
-    text.margins();
-    text.text()
+impl Report for SizeReport {
+    /// What it comes to, where the margin is met, and a table of margins.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.intervals();
+        text.margins();
+        text.text()
+    }
 }
 
 impl Page<'_, SizeReport> {
@@ -70,12 +72,12 @@ fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
     ]
 }
 
-fn cause(report: &SizeReport, is: &str, jumps_to: Option<f64>) -> String {
+fn cause(report: &SizeReport, is: MetEnd, jumps_to: Option<f64>) -> String {
     match (is, jumps_to) {
-        ("range", _) => "the range".to_owned(),
-        ("margin", _) => format!("margin {}", precise(report.margin)),
-        ("jump", Some(margin)) => format!("a jump of the margin to {}", precise(margin)),
-        ("jump", None) => "a jump of the margin".to_owned(),
+        (MetEnd::Range, _) => "the range".to_owned(),
+        (MetEnd::Margin, _) => format!("margin {}", precise(report.margin)),
+        (MetEnd::Jump, Some(margin)) => format!("a jump of the margin to {}", precise(margin)),
+        (MetEnd::Jump, None) => "a jump of the margin".to_owned(),
         _ => "no answer".to_owned(),
     }
 }

@@ -1,7 +1,7 @@
 //! What a design comes to, in words.
 
-use super::report::{MarginKind, MetInterval, Sample, SampleKind, SizeReport};
-use super::search::Place;
+use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
+use super::search::Tried;
 use crate::report::number::number;
 use crate::report::number::precise;
 
@@ -11,7 +11,7 @@ const SAME: f64 = 1e-9;
 /// A report whose conclusion is sought.
 pub(super) struct Words<'r> {
     pub(super) report: &'r SizeReport,
-    pub(super) places: &'r [Place],
+    pub(super) places: &'r [Tried],
 }
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize) -> String {
@@ -74,9 +74,9 @@ impl Words<'_> {
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
         let bare = precise(interval.from);
         match (interval.from_is, interval.to_is) {
-            ("range", "range") => format!("anything from {bare} to {to}"),
-            (_, "range") => format!("at least {from} (examined up to {to})"),
-            ("range", _) => format!("at most {to} (examined down to {from})"),
+            (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
+            (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
+            (MetEnd::Range, _) => format!("at most {to} (examined down to {from})"),
             _ if interval.from == interval.to => format!("{from} alone"),
             _ => format!("from {bare} to {to}"),
         }

@@ -3,7 +3,7 @@
 use super::attainability::not_computed;
 use super::distinct::distinct;
 use super::equilibrium::{Balance, Residual};
-use super::found::Found;
+use super::found::SearchFound;
 use super::friction::friction;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::mode_in_words;
@@ -19,7 +19,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Report, Status};
+use crate::report::{self, Proof, SolveReport, Status};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -53,7 +53,7 @@ pub(super) struct Answer<'a> {
 
 impl<'a> Answer<'a> {
     /// The report on all solutions.
-    pub(super) fn report(&self, found: &Found<'_>) -> Result<Report, Faults> {
+    pub(super) fn report(&self, found: &SearchFound<'_>) -> Result<SolveReport, Faults> {
         let lists = found.lists();
         let mut tipping = Tipped::default();
         let mut states = States::default();
@@ -79,10 +79,10 @@ impl<'a> Answer<'a> {
         open.extend(tipping.unproven.iter().map(|joint| format!("that {joint} tips is not proven")));
         let undecided = !lists.undecided.is_empty() || found.is_partial();
         let outcomes = found.result.outcomes();
-        Ok(Report {
+        Ok(SolveReport {
             schema: report::SCHEMA,
             status: status(undecided, solutions.len(), gaps.len(), continua.len()),
-            complete: if open.is_empty() { "proven" } else { "not proven" },
+            complete: if open.is_empty() { Proof::Proven } else { Proof::NotProven },
             partial: found.is_partial(),
             open,
             count,
@@ -142,7 +142,7 @@ impl<'a> Answer<'a> {
     }
 
     /// The groups of contacts that admit nothing, where several groups were searched one by one.
-    fn jammed_groups(&self, found: &Found<'_>) -> Vec<Vec<String>> {
+    fn jammed_groups(&self, found: &SearchFound<'_>) -> Vec<Vec<String>> {
         if found.result.groups.len() < 2 || found.is_partial() {
             return Vec::new();
         }

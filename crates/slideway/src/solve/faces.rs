@@ -12,8 +12,9 @@
 //! its range are two states.
 
 use super::answer::Answer;
+use super::mode_problem::has_free_face;
 use super::state::{State, pattern};
-use crate::ids::{ContactId, JointId};
+use crate::ids::JointId;
 use crate::interval::Interval;
 use crate::kinetics::Reaction;
 use crate::mechanism::Contact;
@@ -56,9 +57,9 @@ impl Faces {
 }
 
 impl Answer<'_> {
-    /// Whether the friction of the contact's preload jumps with its side, but no normal force with it.
+    /// Whether the preload of a contact rubs on a face that the mode problem does not tell.
     pub(super) fn has_free_face(&self, contact: usize) -> bool {
-        self.mechanism.preload_jumps(ContactId(contact)) && !self.jumps[contact]
+        has_free_face(self.mechanism, &self.jumps, contact)
     }
 
     /// The states of the mechanism that a solution of the mode problem stands for, by the faces at which preloads rub.

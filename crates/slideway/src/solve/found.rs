@@ -7,7 +7,7 @@ use crate::modes::{BigCount, Completeness, SearchResult, StateLists, StopReason}
 const PATTERNS: usize = 1024;
 
 /// A search, and whether it was one for bounds of the exact numbers.
-pub(super) struct Found<'f> {
+pub(super) struct SearchFound<'f> {
     pub(super) result: &'f SearchResult,
     /// Why the proof refers to the rounded numbers only.
     pub(super) rounded: Option<&'f NotEnclosed>,
@@ -15,7 +15,7 @@ pub(super) struct Found<'f> {
     pub(super) most: usize,
 }
 
-impl Found<'_> {
+impl SearchFound<'_> {
     pub(super) fn lists(&self) -> StateLists {
         self.result.lists(self.most, PATTERNS)
     }

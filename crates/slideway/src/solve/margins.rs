@@ -1,15 +1,15 @@
 //! How far friction may grow before the answer changes.
 
+use super::mode_problem::has_free_face;
 use super::parts::Parts;
 use super::state::pattern;
 use crate::fault::Faults;
-use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
 };
-use crate::report::{self, CriticalContact, Margins, Report};
+use crate::report::{self, CriticalContact, Margins, SolveReport};
 use nalgebra::DVector;
 
 /// The most patterns for which margins are computed.
@@ -21,7 +21,7 @@ const AT_ONCE: f64 = 1e-9;
 
 /// Adds the margins to a report, if there are few enough modes, and each can be followed.
 pub(super) fn add(
-    report: &mut Report,
+    report: &mut SolveReport,
     mechanism: &Mechanism,
     influence: &Influence,
     velocity_signs: &DVector<f64>,
@@ -29,9 +29,7 @@ pub(super) fn add(
     let friction = Friction { mechanism, influence, velocity_signs };
     let Some(all) = friction.along(&|_| true) else { return };
     // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no mode that could be followed.
-    let is_free = |k: usize| {
-        mechanism.preload_jumps(ContactId(k)) && !all.line.has_jump.get(k).copied().unwrap_or(false)
-    };
+    let is_free = |k: usize| has_free_face(mechanism, &all.line.has_jump, k);
     let hangs =
         |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
     if report.solutions.iter().chain(&report.preload_gap_states).any(hangs) {
@@ -134,13 +132,16 @@ fn mode_margin(mechanism: &Mechanism, mode: &ModeInterval) -> report::ModeMargin
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
-    let (ends_with, contacts) = match &mode.to.cause {
-        EndCause::Range | EndCause::Reversal | EndCause::NoProblem => ("nothing", Vec::new()),
-        EndCause::Locking => ("locking", Vec::new()),
-        EndCause::SideChange(contacts) => ("side_change", names(contacts)),
-        EndCause::GapCloses(contacts) => ("gap_closes", names(contacts)),
-        EndCause::OutputBound(_) => ("tipping", Vec::new()),
-        EndCause::GreatestNormalForce(contacts) => ("greatest_reaction", names(contacts)),
+    let cause = &mode.to.cause;
+    let ends_with = match cause {
+        EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
+        cause => cause.into(),
+    };
+    let contacts = match cause {
+        EndCause::SideChange(contacts)
+        | EndCause::GapCloses(contacts)
+        | EndCause::GreatestNormalForce(contacts) => names(contacts),
+        _ => Vec::new(),
     };
     report::ModeMargin { factor: mode.to.at.is_finite().then_some(mode.to.at), ends_with, contacts }
 }

@@ -56,12 +56,13 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::Callback;
-use crate::report::{Report, finite};
+use crate::report::{SolveReport, finite};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SolveOptions {
     /// Limits of the search.
     pub search: SearchOptions,
@@ -78,15 +79,38 @@ impl Default for SolveOptions {
     }
 }
 
+impl SolveOptions {
+    /// With these limits of the search.
+    #[must_use]
+    pub fn search(mut self, search: SearchOptions) -> Self {
+        self.search = search;
+        self
+    }
+
+    /// With so many solutions, gap states and continua in the lists, each.
+    #[must_use]
+    pub fn most(mut self, most: usize) -> Self {
+        self.most = most;
+        self
+    }
+
+    /// Whether margins of friction are computed.
+    #[must_use]
+    pub fn margins(mut self, margins: bool) -> Self {
+        self.margins = margins;
+        self
+    }
+}
+
 /// All solutions of the kinetic problem of a model in its state, with their contact modes.
 ///
-/// The list is proven complete for the exact mechanism that the model describes, unless [`Report::complete`] says
+/// The list is proven complete for the exact mechanism that the model describes, unless [`SolveReport::complete`] says
 /// otherwise: the search holds for rigorous bounds of the influence coefficients ([`crate::enclosure`]).
 ///
 /// # Errors
 /// Whatever makes no sense in the model or its state. That there is no solution is no error, but
 /// [`crate::report::Status::None`].
-pub fn solve(model: &Model) -> Result<Report, Faults> {
+pub fn solve(model: &Model) -> Result<SolveReport, Faults> {
     solve_with(model, &SolveOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
@@ -98,7 +122,7 @@ pub fn solve_with(
     model: &Model,
     options: &SolveOptions,
     progress: &mut Callback<'_>,
-) -> Result<Report, Faults> {
+) -> Result<SolveReport, Faults> {
     let mut mechanism = Mechanism::new(model)?;
     check_size(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
@@ -119,7 +143,7 @@ pub fn solve_with(
         jumps,
         enclosed: enclosed.as_ref().ok(),
     };
-    let mut report = answer.report(&found::Found {
+    let mut report = answer.report(&found::SearchFound {
         result: &result,
         rounded: enclosed.as_ref().err(),
         most: options.most,

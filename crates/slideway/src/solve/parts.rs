@@ -297,8 +297,8 @@ impl Parts {
         Screen::new(contacts).states(&problem, accuracy.part).is_ok()
     }
 
-    /// The contacts of guided sliders whose preload changes their couple on the other side, but no normal force: only with one
-    /// of these may there be a state between its faces that no sign pattern tells.
+    /// The contacts of guided sliders with a free face ([`has_free_face`](super::mode_problem::has_free_face)) at which their preload
+    /// changes the couple: only with one of these may there be a state between its faces that no sign pattern tells.
     pub(crate) fn with_free_faces(&self) -> Vec<usize> {
         let contacts = self.columns.positive.ncols();
         let BySide { positive, negative } = &self.jumps;

@@ -1,7 +1,7 @@
 //! The answer for a mechanism whose friction is multiplied by a factor: no model describes it.
 
 use super::answer::Answer;
-use super::found::Found;
+use super::found::SearchFound;
 use super::parts::{Stages, rougher};
 use super::{SolveOptions, searched};
 use crate::enclosure::{UncertainParameters, enclosure};
@@ -10,7 +10,7 @@ use crate::interval::Interval;
 use crate::kinetics::KineticEquations;
 use crate::model::Model;
 use crate::progress::Callback;
-use crate::report::{Report, finite};
+use crate::report::{SolveReport, finite};
 
 /// The answer of [`super::solve`] for a model and its stages with all coefficients of friction multiplied by a factor, without
 /// margins and uncertainty.
@@ -22,7 +22,7 @@ pub(crate) fn solve_with_friction(
     (stages, friction): (&Stages, f64),
     options: &SolveOptions,
     progress: &mut Callback<'_>,
-) -> Result<Report, Faults> {
+) -> Result<SolveReport, Faults> {
     let Stages { configuration, influence, velocity_signs, .. } = stages;
     let mechanism = rougher(&stages.mechanism, &|_| friction);
     let equations = KineticEquations::new(&mechanism, configuration)?;
@@ -39,6 +39,6 @@ pub(crate) fn solve_with_friction(
         jumps,
         enclosed: enclosed.as_ref().ok(),
     };
-    let found = Found { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
+    let found = SearchFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
     finite(answer.report(&found)?)
 }

@@ -19,7 +19,7 @@
 //! use slideway::standstill::{HoldOptions, hold};
 //!
 //! let bracket = Model::parse(slideway::gallery::find("bracket-on-pole").expect("in the gallery").text)?;
-//! let options = HoldOptions { load: Some("W".to_owned()), ..HoldOptions::default() };
+//! let options = HoldOptions::default().load("W");
 //! let load = |settings: Settings| -> Result<_, slideway::fault::Faults> {
 //!     Ok(hold(&bracket.with(&settings)?, &options)?.load.expect("it is varied"))
 //! };
@@ -47,9 +47,8 @@ mod words;
 
 pub use report::{
     AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, HingeRange, HoldReport,
-    JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Verdict,
+    HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold,
 };
-pub use text::to_text;
 
 use crate::configuration::{free_motions, motion_in_words, unit};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -72,6 +71,7 @@ const NO_INERTIA: f64 = 1e-12;
 
 /// What is asked of a mechanism at rest.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct HoldOptions {
     /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m.
     pub load: Option<String>,
@@ -80,6 +80,29 @@ pub struct HoldOptions {
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.
     pub hold_drives: bool,
+}
+
+impl HoldOptions {
+    /// Multiplies a load, or the effort of a drive, by a factor.
+    #[must_use]
+    pub fn load(mut self, name: &str) -> Self {
+        self.load = Some(name.to_owned());
+        self
+    }
+
+    /// Varies a parameter of static friction for the threshold of self-locking.
+    #[must_use]
+    pub fn vary(mut self, parameter: &str) -> Self {
+        self.vary = Some(parameter.to_owned());
+        self
+    }
+
+    /// Whether drives hold their coordinates.
+    #[must_use]
+    pub fn hold_drives(mut self, hold: bool) -> Self {
+        self.hold_drives = hold;
+        self
+    }
 }
 
 /// Whether a mechanism stays at rest in its position; the rates of the model are set to zero.
@@ -119,9 +142,9 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
         let found = (rest.found.is_some(), !release.found.is_empty());
         verdict(&setup, nominal, found, work.part(3, 4))
     } else if rest.found.is_some() {
-        Verdict::MayHold
+        HoldVerdict::MayHold
     } else {
-        Verdict::DoesNotHold
+        HoldVerdict::DoesNotHold
     };
     let original = Mechanism::new(model)?;
     finite(HoldReport {
@@ -154,16 +177,11 @@ pub(crate) fn self_locking_factor(
     load: &str,
     work: Work<'_>,
 ) -> Result<(Option<f64>, usize), Faults> {
-    let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load(load);
     let setup = Setup::new(model, &options)?;
     check_states(&setup)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
-}
-
-/// The report as indented JSON, ending in a line end.
-pub fn to_json(report: &HoldReport) -> String {
-    crate::report::indented_json(report)
 }
 
 /// Patterns of sides, and of states of joints and sides.
@@ -200,13 +218,13 @@ fn load_report(
     Ok(Some(Over { found: report, undecided }))
 }
 
-fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> Verdict {
+fn verdict(setup: &Setup, factor: f64, (holds, moves): (bool, bool), work: Work<'_>) -> HoldVerdict {
     match (holds, moves) {
-        (true, false) => Verdict::Holds,
-        (true, true) if slips_against_static_friction(setup, factor, work) => Verdict::HoldsOrSlips,
-        (true, true) => Verdict::HoldsUntilPushed,
-        (false, true) => Verdict::Moves,
-        (false, false) => Verdict::Neither,
+        (true, false) => HoldVerdict::Holds,
+        (true, true) if slips_against_static_friction(setup, factor, work) => HoldVerdict::HoldsOrSlips,
+        (true, true) => HoldVerdict::HoldsUntilPushed,
+        (false, true) => HoldVerdict::Moves,
+        (false, false) => HoldVerdict::Neither,
     }
 }
 

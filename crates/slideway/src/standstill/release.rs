@@ -5,7 +5,7 @@ use super::reactions::{range, reactions};
 use super::report::{CoordinateRange, JointRelease, Range, Release};
 use super::rest::{Over, possible, static_coefficients, until_over};
 use super::setup::{Setup, SlidingJoint};
-use super::state::{Question, State, sides};
+use super::state::{State, StateQuestion, sides};
 use super::words::slip_in_words;
 use crate::configuration::unit;
 use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
@@ -51,7 +51,7 @@ fn sliding_states(joints: usize) -> Vec<Vec<JointPhase>> {
 }
 
 fn release(setup: &Setup, pattern: &Phase, factor: f64) -> Result<Option<Release>, Unsolved> {
-    let question = Question { moving: true, factor: Some(factor) };
+    let question = StateQuestion { moving: true, factor: Some(factor) };
     let Some(state) = State::new(setup, pattern, question) else { return Ok(None) };
     let Some(region) = possible(state.region(&static_coefficients(setup)))? else { return Ok(None) };
     let Some(region) = really_slipping(setup, pattern, &state, region)? else { return Ok(None) };

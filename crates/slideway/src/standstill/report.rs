@@ -8,7 +8,7 @@ pub const SCHEMA: &str = "slideway/hold/1";
 /// Whether a mechanism stays at rest, begins to move, may do both, or neither.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum HoldVerdict {
     /// It stays at rest; no state of sliding is possible.
     Holds,
     /// It stays at rest, but once pushed it goes on sliding, as kinetic friction is below static friction.
@@ -25,7 +25,7 @@ pub enum Verdict {
     DoesNotHold,
 }
 
-impl Verdict {
+impl HoldVerdict {
     /// Whether some state of rest is possible.
     pub fn holds(self) -> bool {
         matches!(self, Self::Holds | Self::HoldsUntilPushed | Self::HoldsOrSlips | Self::MayHold)
@@ -50,7 +50,7 @@ pub struct HoldReport {
     /// The model's title.
     pub title: Option<String>,
     /// The answer.
-    pub verdict: Verdict,
+    pub verdict: HoldVerdict,
     /// Whether it can stay at rest: of the verdict.
     pub holds: bool,
     /// Values of the chosen coordinates.

@@ -4,7 +4,7 @@ use super::TOLERANCE;
 use super::reactions::{range, reactions};
 use super::report::{AtRest, Range};
 use super::setup::Setup;
-use super::state::{Question, State, sides};
+use super::state::{State, StateQuestion, sides};
 use crate::pattern::{ContactPhase, JointPhase, Phase, Region, Unsolved};
 use crate::progress::Work;
 
@@ -48,7 +48,7 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
     for sides in until_over(sides(setup), work) {
         let symbols: String = sides.iter().map(|side| side.symbol()).collect();
         let pattern = resting(setup, sides);
-        let question = Question { moving: false, factor: Some(factor) };
+        let question = StateQuestion { moving: false, factor: Some(factor) };
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_coefficients(setup));
         let found =
@@ -73,7 +73,7 @@ pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
     for sides in until_over(sides(setup), work) {
         let pattern = resting(setup, sides);
-        let question = Question { moving: false, factor: None };
+        let question = StateQuestion { moving: false, factor: None };
         let Some(state) = State::new(setup, &pattern, question) else { continue };
         let region = state.region(&static_coefficients(setup));
         let extent = |region: Region| range(&state, &region, &state.factor(), state.factor_unit());

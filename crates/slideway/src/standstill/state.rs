@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// What is asked of a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Question {
+pub(super) struct StateQuestion {
     /// Whether bodies may accelerate; else the equations are those of statics.
     pub(super) moving: bool,
     /// The factor of the varied load; nothing where it is an unknown.
@@ -22,7 +22,7 @@ pub(super) struct Question {
 pub(super) struct State<'s> {
     setup: &'s Setup,
     pattern: &'s Phase,
-    question: Question,
+    question: StateQuestion,
     friction: Vec<Friction>,
     columns: usize,
     solutions: AffineSet,
@@ -30,7 +30,7 @@ pub(super) struct State<'s> {
 
 impl<'s> State<'s> {
     /// The state with its equations; nothing where they contradict each other.
-    pub(super) fn new(setup: &'s Setup, pattern: &'s Phase, question: Question) -> Option<Self> {
+    pub(super) fn new(setup: &'s Setup, pattern: &'s Phase, question: StateQuestion) -> Option<Self> {
         let mut state = Self {
             setup,
             pattern,

@@ -1,25 +1,27 @@
 //! The analysis of standstill as text for people.
 
-use super::report::{HoldReport, LoadReport, Range, Reactions, Release, Threshold, Verdict};
+use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
 use crate::report::number::{against, number};
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, count, followed, spaced};
+use crate::report::{Report, Style, count, followed, spaced};
 use anstyle::AnsiColor;
 use std::fmt::Write;
 
-/// The report as text: the verdict first, then load, reactions and release.
-pub fn to_text(report: &HoldReport, style: Style) -> String {
-    let mut text = Page::new(report, style);
-    text.heading();
-    text.verdict();
-    text.load();
-    text.at_rest();
-    for (index, release) in report.releases.iter().enumerate() {
-        text.release(index, release);
+impl Report for HoldReport {
+    /// The verdict first, then load, reactions and release.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        text.heading();
+        text.verdict();
+        text.load();
+        text.at_rest();
+        for (index, release) in self.releases.iter().enumerate() {
+            text.release(index, release);
+        }
+        text.tried();
+        text.text()
     }
-    text.tried();
-    text.text()
 }
 
 type Text<'r> = Page<'r, HoldReport>;
@@ -48,26 +50,26 @@ impl Text<'_> {
     fn verdict(&mut self) {
         let ways = count(self.report.releases.len(), "state", "states");
         let (colour, words) = match self.report.verdict {
-            Verdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
-            Verdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
-            Verdict::HoldsUntilPushed => (
+            HoldVerdict::Holds => (AnsiColor::Green, "It holds: it stays at rest.".to_owned()),
+            HoldVerdict::MayHold => (AnsiColor::Green, "It holds: it can stay at rest.".to_owned()),
+            HoldVerdict::HoldsUntilPushed => (
                 AnsiColor::Green,
                 format!(
                     "It holds. Once pushed, it keeps sliding, since kinetic friction is below static: {ways}."
                 ),
             ),
-            Verdict::HoldsOrSlips => (
+            HoldVerdict::HoldsOrSlips => (
                 AnsiColor::Yellow,
                 format!("It can hold, but it can also begin to slide: {ways} of sliding besides rest."),
             ),
-            Verdict::Moves => {
+            HoldVerdict::Moves => {
                 (AnsiColor::Red, format!("It does not hold: {ways} in which it begins to move."))
             }
-            Verdict::Neither => (
+            HoldVerdict::Neither => (
                 AnsiColor::Red,
                 "It can neither stay at rest nor begin to move with finite accelerations.".to_owned(),
             ),
-            Verdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
+            HoldVerdict::DoesNotHold => (AnsiColor::Red, "It does not hold.".to_owned()),
         };
         self.painted(colour.on_default().bold(), &words, "");
         if !self.report.motions_without_inertia.is_empty() {

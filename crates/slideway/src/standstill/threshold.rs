@@ -15,7 +15,7 @@ use super::HoldOptions;
 use super::report::{Coefficients, Threshold};
 use super::rest::{Over, resting, static_coefficients, until_over};
 use super::setup::Setup;
-use super::state::{Question, State, sides};
+use super::state::{State, StateQuestion, sides};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::model::Model;
@@ -94,7 +94,7 @@ fn least_value(alone: &Setup, law: &Law, work: Work<'_>) -> Over<Option<f64>> {
     let mut over = Over { found: None, undecided: 0 };
     for sides in until_over(sides(alone), work) {
         let pattern = resting(alone, sides);
-        let question = Question { moving: false, factor: Some(0.0) };
+        let question = StateQuestion { moving: false, factor: Some(0.0) };
         let Some(state) = State::new(alone, &pattern, question) else { continue };
         let best = over.found.unwrap_or(GREATEST);
         let missing = |value| state.region(&law.coefficients(value)).highest().map(|(slack, _)| -slack);

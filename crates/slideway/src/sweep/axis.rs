@@ -1,18 +1,18 @@
-//! The values that a varied quantity takes, from their text: `mu=0..0.8:801`, `mu=0.01..1:50:log`, `mu=0.1,0.2,0.5`,
-//! `mu=normal(0.3, 0.05)`.
+//! The values that a varied quantity takes, in SI units.
 
 use super::distribution::Distribution;
+use super::options::{GridAxis, GridValues, LOGARITHM, SampledAxis, SampledValues, fault};
 use super::quantity::Quantity;
-use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
-use crate::model::Model;
+use crate::fault::{AxisProblem, Faults};
+use crate::model::{Model, Value};
 
 /// A varied quantity and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Axis {
     pub(super) quantity: Quantity,
     pub(super) values: Values,
-    /// The values as they were written.
-    pub(super) written: String,
+    /// The ends of a range as they were given.
+    pub(super) given: Option<[Value; 2]>,
 }
 
 /// The values of an axis, in SI units.
@@ -29,23 +29,28 @@ pub(super) enum Values {
 }
 
 impl Axis {
-    /// Reads an axis; one with samples is a distribution, or a plain range for the uniform one.
-    ///
     /// # Errors
     /// An unknown name, or what is wrong with the values.
-    pub(super) fn parse(model: &Model, text: &str, with_samples: bool) -> Result<Self, Faults> {
-        let fault =
-            |problem| Faults::from(Fault::general(FaultKind::Axis { text: text.to_owned(), problem }));
-        let Some((name, values)) = text.split_once('=') else { return Err(fault(AxisProblem::Malformed)) };
-        let (name, values) = (name.trim(), values.trim());
-        if name.is_empty() || values.is_empty() {
-            return Err(fault(AxisProblem::Malformed));
-        }
-        let quantity = Quantity::find(model, name)?;
+    pub(super) fn of_grid(model: &Model, axis: &GridAxis) -> Result<Self, Faults> {
+        let quantity = Quantity::find(model, &axis.name)?;
+        let given = match &axis.values {
+            GridValues::Linear { from, to, .. } | GridValues::Logarithmic { from, to, .. } => {
+                Some([from.clone(), to.clone()])
+            }
+            GridValues::Listed(_) => None,
+        };
         let reader = Reader { model, quantity: &quantity };
-        let read = if with_samples { reader.drawn(values) } else { reader.grid(values) };
-        let written = values.to_owned();
-        Ok(Self { values: read.map_err(fault)?, quantity, written })
+        let values = reader.grid(&axis.values).map_err(|problem| fault(&axis.to_string(), problem))?;
+        Ok(Self { quantity, values, given })
+    }
+
+    /// # Errors
+    /// An unknown name, or what is wrong with the distribution.
+    pub(super) fn of_samples(model: &Model, axis: &SampledAxis) -> Result<Self, Faults> {
+        let quantity = Quantity::find(model, &axis.name)?;
+        let reader = Reader { model, quantity: &quantity };
+        let values = reader.drawn(&axis.values).map_err(|problem| fault(&axis.to_string(), problem))?;
+        Ok(Self { quantity, values, given: None })
     }
 }
 
@@ -101,77 +106,67 @@ struct Reader<'r> {
 }
 
 impl Reader<'_> {
-    fn value(&self, text: &str) -> Result<f64, AxisProblem> {
-        self.quantity.value_of(self.model, text)
+    fn value(&self, value: &Value) -> Result<f64, AxisProblem> {
+        self.quantity.value_of(self.model, value)
     }
 
-    fn range(&self, text: &str) -> Result<Option<[f64; 2]>, AxisProblem> {
-        let Some((from, to)) = text.split_once("..") else { return Ok(None) };
+    fn ends(&self, [from, to]: [&Value; 2]) -> Result<[f64; 2], AxisProblem> {
         let (from, to) = (self.value(from)?, self.value(to)?);
         if from > to {
             Err(AxisProblem::Reversed { from, to })
         } else if from == to {
             Err(AxisProblem::Empty { from })
-        } else if from < 0.0 && self.quantity.is_itself_friction(self.model) {
-            Err(AxisProblem::NegativeCoefficients { from, to: to.min(0.0) })
         } else {
-            Ok(Some([from, to]))
+            Ok([from, to])
         }
     }
 
-    fn grid(&self, text: &str) -> Result<Values, AxisProblem> {
-        if distribution(text).is_some() {
-            return Err(AxisProblem::WithoutSamples);
+    fn range(&self, ends: [&Value; 2]) -> Result<[f64; 2], AxisProblem> {
+        let [from, to] = self.ends(ends)?;
+        if from < 0.0 && self.quantity.is_itself_friction(self.model) {
+            return Err(AxisProblem::NegativeCoefficients { from, to: to.min(0.0) });
         }
-        if !text.contains("..") {
-            let values =
-                parts(text).into_iter().map(|part| self.value(part)).collect::<Result<Vec<f64>, _>>()?;
-            return match values.iter().find(|value| **value < 0.0) {
-                Some(&value) if self.quantity.is_itself_friction(self.model) => {
-                    Err(AxisProblem::NegativeCoefficient { value })
-                }
-                _ => Ok(Values::Listed(values)),
-            };
-        }
-        let mut fields = text.split(':').map(str::trim);
-        let range = fields.next().unwrap_or_default();
-        let Some([from, to]) = self.range(range)? else { return Err(AxisProblem::Malformed) };
-        let count = fields.next().ok_or(AxisProblem::NoCount)?;
-        let number = count.parse::<u64>().ok().filter(|count| *count >= 2);
-        let count = number.ok_or_else(|| AxisProblem::Count { text: count.to_owned() })?;
-        match (fields.next(), fields.next()) {
-            (None, _) => Ok(Values::Linear { from, to, count }),
-            (Some("log"), None) if from > 0.0 => Ok(Values::Logarithmic { from, to, count }),
-            (Some("log"), None) => Err(AxisProblem::NotPositive { from }),
-            (Some(spacing), other) => Err(AxisProblem::Spacing { text: other.unwrap_or(spacing).to_owned() }),
-        }
+        Ok([from, to])
     }
 
-    fn drawn(&self, text: &str) -> Result<Values, AxisProblem> {
-        let drawn = if let Some((name, arguments)) = distribution(text) {
-            self.distribution(name, arguments)?
-        } else if text.contains(':') || !text.contains("..") {
-            return Err(AxisProblem::GridWithSamples);
-        } else {
-            let Some([from, to]) = self.range(text)? else { return Err(AxisProblem::GridWithSamples) };
-            Distribution::uniform(from, to)
+    fn grid(&self, values: &GridValues) -> Result<Values, AxisProblem> {
+        let (given, number) = match values {
+            GridValues::Listed(list) => return self.listed(list),
+            GridValues::Linear { from, to, count } | GridValues::Logarithmic { from, to, count } => {
+                ([from, to], *count)
+            }
         };
+        let ([from, to], count) = (self.range(given)?, number);
+        if count < 2 {
+            return Err(AxisProblem::Count { text: count.to_string() });
+        }
+        match values {
+            GridValues::Logarithmic { .. } if from <= 0.0 => Err(AxisProblem::NotPositive { from }),
+            GridValues::Logarithmic { .. } => Ok(Values::Logarithmic { from, to, count }),
+            _ => Ok(Values::Linear { from, to, count }),
+        }
+    }
+
+    fn listed(&self, list: &[Value]) -> Result<Values, AxisProblem> {
+        let values = list.iter().map(|value| self.value(value)).collect::<Result<Vec<f64>, _>>()?;
+        match values.iter().find(|value| **value < 0.0) {
+            Some(&value) if self.quantity.is_itself_friction(self.model) => {
+                Err(AxisProblem::NegativeCoefficient { value })
+            }
+            _ if values.is_empty() => Err(AxisProblem::Malformed),
+            _ => Ok(Values::Listed(values)),
+        }
+    }
+
+    fn drawn(&self, values: &SampledValues) -> Result<Values, AxisProblem> {
+        let drawn = self.distribution(values)?;
         if !self.quantity.is_friction(self.model) {
             return Ok(Values::Drawn(drawn));
         }
         drawn.not_negative().map(Values::Drawn).ok_or(AxisProblem::NoSupport)
     }
 
-    fn distribution(&self, name: &'static str, arguments: &str) -> Result<Distribution, AxisProblem> {
-        let words = match name {
-            NORMAL => "its mean and its standard deviation",
-            LOGNORMAL => "its median and the standard deviation of its logarithm",
-            _ => "its ends",
-        };
-        let [first, second] = parts(arguments)[..] else {
-            return Err(AxisProblem::Arguments { distribution: name, arguments: words });
-        };
-        let first = self.value(first)?;
+    fn distribution(&self, values: &SampledValues) -> Result<Distribution, AxisProblem> {
         let positive = |what, value: f64| {
             if value > 0.0 && value.is_finite() {
                 Ok(value)
@@ -179,56 +174,22 @@ impl Reader<'_> {
                 Err(AxisProblem::Parameter { what, value })
             }
         };
-        match name {
-            NORMAL => {
-                let deviation = positive("the standard deviation", self.value(second)?)?;
-                Ok(Distribution::normal(first, deviation))
+        match values {
+            SampledValues::Range { from, to } => {
+                self.range([from, to]).map(|[from, to]| Distribution::uniform(from, to))
             }
-            LOGNORMAL => {
-                let what = "the standard deviation of the logarithm";
-                // It is a pure number, whatever the dimension of the quantity.
-                let deviation = second.trim().parse().unwrap_or(f64::NAN);
-                let median = positive("the median", first)?;
-                Ok(Distribution::lognormal(median, positive(what, deviation)?))
+            SampledValues::Uniform { from, to } => {
+                self.ends([from, to]).map(|[from, to]| Distribution::uniform(from, to))
             }
-            _ => {
-                let (from, to) = (first, self.value(second)?);
-                if from > to {
-                    Err(AxisProblem::Reversed { from, to })
-                } else if from == to {
-                    Err(AxisProblem::Empty { from })
-                } else {
-                    Ok(Distribution::uniform(from, to))
-                }
+            SampledValues::Normal { mean, deviation } => {
+                let mean = self.value(mean)?;
+                let deviation = positive("the standard deviation", self.value(deviation)?)?;
+                Ok(Distribution::normal(mean, deviation))
+            }
+            SampledValues::LogNormal { median, deviation } => {
+                let median = positive("the median", self.value(median)?)?;
+                Ok(Distribution::lognormal(median, positive(LOGARITHM, *deviation)?))
             }
         }
     }
-}
-
-const NORMAL: &str = "normal";
-const LOGNORMAL: &str = "lognormal";
-const UNIFORM: &str = "uniform";
-
-/// Name and arguments of a distribution.
-fn distribution(text: &str) -> Option<(&'static str, &str)> {
-    [NORMAL, LOGNORMAL, UNIFORM].into_iter().find_map(|name| {
-        let arguments = text.strip_prefix(name)?.trim_start();
-        Some((name, arguments.strip_prefix('(')?.strip_suffix(')')?))
-    })
-}
-
-/// The parts between commas that stand in no parentheses.
-fn parts(text: &str) -> Vec<&str> {
-    let mut depth = 0;
-    let mut starts = vec![0];
-    for (at, character) in text.char_indices() {
-        match character {
-            '(' => depth += 1,
-            ')' => depth -= 1,
-            ',' if depth == 0 => starts.push(at + 1),
-            _ => {}
-        }
-    }
-    let ends = starts.iter().skip(1).map(|start| start - 1).chain([text.len()]);
-    starts.iter().zip(ends).map(|(&start, end)| text[start..end].trim()).collect()
 }

@@ -2,9 +2,10 @@
 
 use super::axis::Axis;
 use super::rows::Breakpoint;
-use crate::limits::{LimitsOptions, ModeLimits, limits_with};
+use crate::limits::{LimitsOptions, ModeLimits, Vary, limits_with};
 use crate::model::Model;
 use crate::progress::Callback;
+use crate::report::ModeEndCause;
 
 /// Ends that are nearer to each other than this part of the range are one.
 const SAME: f64 = 1e-12;
@@ -28,8 +29,7 @@ pub(super) fn between(
 ) -> Option<(Vec<Inserted>, Option<String>)> {
     // Listed values are those that are wanted.
     let Some([from, to]) = axis.values.range() else { return Some((Vec::new(), None)) };
-    let vary = format!("{}={from:e}..{to:e}", axis.quantity.name);
-    let options = LimitsOptions { effort: 0, ..LimitsOptions::of(&vary) };
+    let options = LimitsOptions::new(Vary::between(&axis.quantity.name, from, to)).effort(0);
     let report = match limits_with(model, &options, callback) {
         Ok(report) => report?,
         Err(faults) => return Some((Vec::new(), Some(faults.to_string()))),
@@ -54,12 +54,12 @@ pub(super) fn between(
 
 /// Both ends of a mode, unless they are those of the range.
 fn ends(mode: &ModeLimits) -> impl Iterator<Item = (f64, Breakpoint)> {
-    let cause = |word: &str| match word {
-        "locking" => Some(Breakpoint::Locking),
-        "side_change" => Some(Breakpoint::SideChange),
-        "gap_closes" => Some(Breakpoint::GapCloses),
-        "tipping" => Some(Breakpoint::Tipping),
-        "reversal" | "no_mode_problem" => Some(Breakpoint::NotSolved),
+    let cause = |cause: ModeEndCause| match cause {
+        ModeEndCause::Locking => Some(Breakpoint::Locking),
+        ModeEndCause::SideChange => Some(Breakpoint::SideChange),
+        ModeEndCause::GapCloses => Some(Breakpoint::GapCloses),
+        ModeEndCause::Tipping => Some(Breakpoint::Tipping),
+        ModeEndCause::Reversal | ModeEndCause::NoModeProblem => Some(Breakpoint::NotSolved),
         _ => None,
     };
     let ends = [(mode.from, cause(mode.from_is)), (mode.to, cause(mode.to_is))];

@@ -6,7 +6,7 @@ use super::friction::{Friction, FrictionFormulas};
 use super::quantity::Kind;
 use super::rows::{Breakpoint, PointStatus, Rows};
 use super::stages::Stages;
-use super::together::{Found, Together};
+use super::together::{PointsFound, Together};
 use super::told;
 use super::writer::{Writer, head};
 use crate::attainability::ElasticGuides;
@@ -71,16 +71,15 @@ impl Plan {
         let mut settings = Settings::default();
         let mut friction = 1.0;
         for (kind, value) in self.varied.iter().zip(values) {
-            let text = format!("{value:e}");
             settings = match *kind {
                 Kind::Friction => {
                     friction = *value;
                     settings
                 }
-                Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, &text),
-                Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, &text),
-                Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, &text),
-                Kind::Time => settings.time(&text),
+                Kind::Parameter(index) => settings.parameter(&self.model.parameters[index].name, *value),
+                Kind::Coordinate(index) => settings.position(&self.model.coordinates[index].name, *value),
+                Kind::Rate(index) => settings.rate(&self.model.coordinates[index].name, *value),
+                Kind::Time => settings.time(*value),
             };
         }
         (settings, friction)
@@ -214,7 +213,13 @@ impl<'p> Evaluator<'p> {
     }
 
     /// Adds the rows of a point that was solved together with others; nothing, and `false`, if it was left in doubt.
-    fn write_found(&mut self, found: &Found<'_>, index: usize, point: Point<'_>, rows: &mut Rows) -> bool {
+    fn write_found(
+        &mut self,
+        found: &PointsFound<'_>,
+        index: usize,
+        point: Point<'_>,
+        rows: &mut Rows,
+    ) -> bool {
         let (Some(stages), Some(states)) = (&self.stages, found.states(index)) else { return false };
         if point.breakpoint == Breakpoint::NotSolved {
             return false;

@@ -27,10 +27,9 @@ impl Sweep {
             values => values.range()?,
         };
         let model = &self.plan.model;
-        let shown_in = Varied::new(model, &axis.quantity.name).ok().map(|varied| {
-            let (range, _) = axis.written.split_once(':').unwrap_or((&axis.written, ""));
-            varied.shown_in(range)
-        });
+        let given = axis.given.as_ref().map(|[from, to]| [from, to]);
+        let varied = Varied::new(model, &axis.quantity.name).ok();
+        let shown_in = varied.map(|varied| varied.shown_in(given));
         let si = || ShownIn { unit: axis.quantity.unit(model).to_owned(), scale: 1.0 };
         let shown_in = shown_in.unwrap_or_else(si);
         let logarithmic = matches!(axis.values, Values::Logarithmic { .. });

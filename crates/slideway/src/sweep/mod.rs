@@ -2,11 +2,11 @@
 //!
 //! ```
 //! use slideway::model::{Model, Settings};
-//! use slideway::sweep::{Sweep, SweepOptions};
+//! use slideway::sweep::{GridAxis, Sweep, SweepOptions};
 //!
 //! let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
 //! let model = Model::parse(text)?.with(&Settings::default().parameter("F_20", "0"))?;
-//! let sweep = Sweep::new(&model, &SweepOptions::of(&["mu_1=0..0.8:801"]))?;
+//! let sweep = Sweep::new(&model, &SweepOptions::grid([GridAxis::linear("mu_1", 0.0, 0.8, 801)]))?;
 //! let tally = sweep.tally();
 //! // Klepp (2002), section 7: two solutions from mu_1 = 0.4526 on, so at 0.453 and the 347 points behind it.
 //! assert_eq!((tally.solutions[&1], tally.solutions[&2]), (453, 348));
@@ -30,7 +30,7 @@
 //! what is varied alone, so that nothing depends on the number of threads.
 //!
 //! # Files
-//! `sweep` evaluates points one after another: `axis.rs`, `quantity.rs` and `distribution.rs` are what is
+//! `sweep` evaluates points one after another: `options.rs` is what is asked for, `axis.rs`, `quantity.rs` and `distribution.rs` what is
 //! varied, `friction.rs` the formulas that only change friction, `stages.rs` all else about a point,
 //! `evaluator.rs` solves it, `together.rs` many points that differ in friction alone (`modes::batch`),
 //! `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`, `branches.rs`
@@ -46,6 +46,7 @@ mod distribution;
 mod evaluator;
 mod friction;
 mod line;
+mod options;
 mod quantity;
 mod rows;
 mod stages;
@@ -59,11 +60,11 @@ pub use branches::Branches;
 pub use columns::Column;
 pub use distribution::{Sampling, Spread};
 pub use line::Line;
+pub use options::{GridAxis, GridValues, SampledAxis, SampledValues, SweepOptions, SweepPoints};
 pub use rows::{Breakpoint, PointStatus, RowHead, RowKind, RowVerdict, Rows};
 pub use summary::{Probability, Tally};
-pub use text::to_text;
 
-use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
+use crate::fault::{AxisProblem, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::Callback;
@@ -73,6 +74,7 @@ use breakpoints::Inserted;
 use columns::Columns;
 use evaluator::{Evaluator, Plan, Points};
 use friction::FrictionFormulas;
+use options::fault;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -86,31 +88,6 @@ const CHUNKS_PER_THREAD: usize = 4;
 const NEGLIGIBLE: f64 = 1e-9;
 /// The most points of a sweep.
 const MOST_POINTS: u64 = 1_000_000_000_000;
-
-/// What to sweep over.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct SweepOptions {
-    /// "NAME=FROM..TO:COUNT", "NAME=FROM..TO:COUNT:log", "NAME=VALUE,VALUE,..."; with samples "NAME=FROM..TO",
-    /// "NAME=uniform(FROM, TO)", "NAME=normal(MEAN, DEVIATION)", "NAME=lognormal(MEDIAN, DEVIATION OF THE LOGARITHM)". A name
-    /// is that of a parameter or coordinate, `COORDINATE.rate`, `friction` for the common factor of all coefficients, or
-    /// `time`.
-    pub vary: Vec<String>,
-    /// Random samples in place of a grid.
-    pub samples: Option<Sampling>,
-    /// Whether exact ends of modes are not inserted into sweeps over one quantity.
-    pub without_breakpoints: bool,
-    /// Whether the attainability of each solution is examined.
-    pub attainability: bool,
-    /// Whether accelerations of bodies and hinge forces are told, too.
-    pub all_columns: bool,
-}
-
-impl SweepOptions {
-    /// A grid of these quantities.
-    pub fn of(vary: &[&str]) -> Self {
-        Self { vary: vary.iter().map(|text| (*text).to_owned()).collect(), ..Self::default() }
-    }
-}
 
 /// A sweep that is ready to be computed.
 #[derive(Debug, Clone)]
@@ -141,7 +118,7 @@ impl SweepState {
 }
 
 impl Sweep {
-    /// Prepares a sweep: reads the axes, finds the exact ends of modes between their points.
+    /// Prepares a sweep: evaluates the axes, finds the exact ends of modes between their points.
     ///
     /// # Errors
     /// Every axis that makes no sense; values of the model that are not allowed.
@@ -161,7 +138,7 @@ impl Sweep {
     ) -> Result<Option<Self>, Faults> {
         let mechanism = Mechanism::new(model)?;
         check_size(&mechanism)?;
-        let axes = axes(model, options)?;
+        let axes = axes(model, &options.points)?;
         let varied: Vec<_> = axes.iter().map(|axis| axis.quantity.kind).collect();
         let friction = FrictionFormulas::new(model, &varied)?;
         let columns = Columns::new(model, &mechanism, &axes, options.all_columns);
@@ -177,11 +154,14 @@ impl Sweep {
             together: None,
         };
         plan.prepare();
-        let own = options
-            .samples
+        let samples = match &options.points {
+            SweepPoints::Grid(_) => None,
+            SweepPoints::Samples(sampling, _) => Some(*sampling),
+        };
+        let own = samples
             .map_or_else(|| axes.iter().map(|axis| axis.values.len()).product(), |samples| samples.count);
         let (inserted, without_breakpoints) = match &axes[..] {
-            [axis] if !options.without_breakpoints && options.samples.is_none() => {
+            [axis] if options.breakpoints && samples.is_none() => {
                 match breakpoints::between(model, axis, callback) {
                     Some(found) => found,
                     None => return Ok(None),
@@ -190,7 +170,7 @@ impl Sweep {
             _ => (Vec::new(), None),
         };
         let points = own + inserted.iter().filter(|breakpoint| breakpoint.own).count() as u64;
-        Ok(Some(Self { plan, axes, samples: options.samples, inserted, without_breakpoints, points }))
+        Ok(Some(Self { plan, axes, samples, inserted, without_breakpoints, points }))
     }
 
     /// Number of points, inserted ones included.
@@ -365,33 +345,39 @@ impl Sweep {
 }
 
 /// The axes, with every fault of each.
-fn axes(model: &Model, options: &SweepOptions) -> Result<Vec<Axis>, Faults> {
+fn axes(model: &Model, points: &SweepPoints) -> Result<Vec<Axis>, Faults> {
+    let read: Vec<(String, Result<Axis, Faults>)> = match points {
+        SweepPoints::Grid(axes) => {
+            axes.iter().map(|axis| (axis.to_string(), Axis::of_grid(model, axis))).collect()
+        }
+        SweepPoints::Samples(_, axes) => {
+            axes.iter().map(|axis| (axis.to_string(), Axis::of_samples(model, axis))).collect()
+        }
+    };
     let mut faults = Faults::default();
     let mut axes: Vec<Axis> = Vec::new();
     let mut points = Some(1_u64);
-    for text in &options.vary {
-        let axis = match Axis::parse(model, text, options.samples.is_some()) {
+    if read.is_empty() {
+        faults.append(fault("", AxisProblem::Malformed));
+    }
+    for (text, axis) in read {
+        let axis = match axis {
             Ok(axis) => axis,
             Err(list) => {
                 faults.append(list);
                 continue;
             }
         };
-        let fault = |problem| Fault::general(FaultKind::Axis { text: text.clone(), problem });
         if axes.iter().any(|other| other.quantity.kind == axis.quantity.kind) {
-            faults.push(fault(AxisProblem::Twice { name: axis.quantity.name.clone() }));
+            faults.append(fault(&text, AxisProblem::Twice { name: axis.quantity.name.clone() }));
         }
         let more = points.and_then(|points| points.checked_mul(axis.values.len()));
         points = more.filter(|points| *points <= MOST_POINTS);
         if points.is_none() {
-            faults.push(fault(AxisProblem::TooMany { limit: MOST_POINTS }));
+            faults.append(fault(&text, AxisProblem::TooMany { limit: MOST_POINTS }));
             points = Some(1);
         }
         axes.push(axis);
-    }
-    if axes.is_empty() && faults.is_empty() {
-        let problem = AxisProblem::Malformed;
-        faults.push(Fault::general(FaultKind::Axis { text: String::new(), problem }));
     }
     faults.or(axes)
 }

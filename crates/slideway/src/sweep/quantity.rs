@@ -2,7 +2,7 @@
 
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults, nearest};
 use crate::limits::FRICTION;
-use crate::model::{Model, Setting, SettingKind, Settings};
+use crate::model::{Model, Setting, SettingKind, Settings, Value};
 
 /// What follows the name of a coordinate whose rate is meant.
 const RATE: &str = ".rate";
@@ -54,28 +54,24 @@ impl Quantity {
         }
     }
 
-    /// The value that a text stands for, in SI units.
+    /// A value in SI units.
     ///
     /// # Errors
     /// A text that is no quantity of the right dimension.
-    pub(super) fn value_of(&self, model: &Model, text: &str) -> Result<f64, AxisProblem> {
+    pub(super) fn value_of(&self, model: &Model, value: &Value) -> Result<f64, AxisProblem> {
         let name = self.name.strip_suffix(RATE).filter(|_| matches!(self.kind, Kind::Rate(_)));
-        let setting = |kind| Setting {
-            kind,
-            name: name.unwrap_or(&self.name).to_owned(),
-            value: text.trim().to_owned(),
-        };
-        let value = match self.kind {
-            Kind::Friction => return factor(text),
+        let kind = match self.kind {
+            Kind::Friction => return factor(value),
             Kind::Parameter(_) => {
-                dimension(model, &self.name, text)?;
-                model.setting_value(&setting(SettingKind::Parameter))
+                dimension(model, &self.name, value)?;
+                SettingKind::Parameter
             }
-            Kind::Coordinate(_) => model.setting_value(&setting(SettingKind::Position)),
-            Kind::Rate(_) => model.setting_value(&setting(SettingKind::Rate)),
-            Kind::Time => model.setting_value(&setting(SettingKind::Time)),
+            Kind::Coordinate(_) => SettingKind::Position,
+            Kind::Rate(_) => SettingKind::Rate,
+            Kind::Time => SettingKind::Time,
         };
-        value.map_err(|faults| AxisProblem::of(&faults))
+        let setting = Setting::new(kind, name.unwrap_or(&self.name), value.clone());
+        model.setting_value(&setting).map_err(|faults| AxisProblem::of(&faults))
     }
 
     /// Whether negative values make no sense because it is friction.
@@ -104,8 +100,8 @@ impl Quantity {
 }
 
 /// A parameter may be of any dimension, but what uses it may not.
-fn dimension(model: &Model, name: &str, text: &str) -> Result<(), AxisProblem> {
-    let Err(faults) = model.with(&Settings::default().parameter(name, text.trim())) else { return Ok(()) };
+fn dimension(model: &Model, name: &str, value: &Value) -> Result<(), AxisProblem> {
+    let Err(faults) = model.with(&Settings::default().parameter(name, value.clone())) else { return Ok(()) };
     let wrong = |kind: &FaultKind| matches!(kind, FaultKind::WrongDimension { .. });
     if faults.sorted().iter().any(|fault| wrong(&fault.kind)) {
         return Err(AxisProblem::of(&faults));
@@ -114,12 +110,12 @@ fn dimension(model: &Model, name: &str, text: &str) -> Result<(), AxisProblem> {
 }
 
 /// A factor of all friction: a plain number, not below zero.
-fn factor(text: &str) -> Result<f64, AxisProblem> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value < 0.0 => Err(AxisProblem::NegativeFriction { value }),
-        Ok(value) if value.is_finite() => Ok(value),
+fn factor(value: &Value) -> Result<f64, AxisProblem> {
+    match value.plain_number() {
+        Some(value) if value < 0.0 => Err(AxisProblem::NegativeFriction { value }),
+        Some(value) if value.is_finite() => Ok(value),
         _ => {
-            let message = format!("`{}` is not a factor of friction, which is a plain number", text.trim());
+            let message = format!("`{value}` is not a factor of friction, which is a plain number");
             Err(AxisProblem::Value { message, hint: None })
         }
     }

@@ -5,14 +5,16 @@ use crate::report::number::number;
 use crate::report::page::Page;
 use crate::report::{Style, locked};
 
-/// What the points that are done come to. With samples also the probability that it jams.
-pub fn to_text(sweep: &Sweep, state: &SweepState, style: Style) -> String {
-    let mut text = Page::new(state, style);
-    text.points(sweep);
-    text.solutions(sweep);
-    text.probability(sweep);
-    text.remarks(sweep);
-    text.text()
+impl Sweep {
+    /// What the points that are done come to, as text for people. With samples also the probability that it jams.
+    pub fn text(&self, state: &SweepState, style: Style) -> String {
+        let mut text = Page::new(state, style);
+        text.points(self);
+        text.solutions(self);
+        text.probability(self);
+        text.remarks(self);
+        text.text()
+    }
 }
 
 impl Page<'_, SweepState> {

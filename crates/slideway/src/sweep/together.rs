@@ -19,7 +19,7 @@ pub(super) struct Together {
 }
 
 /// Points that are solved together.
-pub(super) struct Found<'t> {
+pub(super) struct PointsFound<'t> {
     together: &'t Together,
     /// Coefficients of all points, for each varied contact.
     mu: Vec<Vec<f64>>,
@@ -54,8 +54,8 @@ impl Together {
     }
 
     /// Points whose friction is not known yet.
-    pub(super) fn points(&self, count: usize) -> Found<'_> {
-        Found {
+    pub(super) fn points(&self, count: usize) -> PointsFound<'_> {
+        PointsFound {
             together: self,
             // What is not a number is left in doubt.
             mu: vec![vec![f64::NAN; count]; self.contacts.len()],
@@ -66,7 +66,7 @@ impl Together {
     }
 }
 
-impl Found<'_> {
+impl PointsFound<'_> {
     /// Takes the friction of a point from its contacts.
     pub(super) fn take_friction(&mut self, point: usize, contacts: &[Contact]) {
         for (mu, contact) in self.mu.iter_mut().zip(&self.together.contacts) {
@@ -160,7 +160,8 @@ mod tests {
     fn sweep(name: &str, parameter: (&str, &str), axes: &[&str]) -> (Sweep, bool) {
         let model = Model::parse(gallery::find(name).unwrap().text).unwrap();
         let model = model.with(&Settings::default().parameter(parameter.0, parameter.1)).unwrap();
-        let sweep = Sweep::new(&model, &SweepOptions::of(axes)).unwrap();
+        let sweep =
+            Sweep::new(&model, &SweepOptions::grid(axes.iter().map(|axis| axis.parse().unwrap()))).unwrap();
         let together = sweep.plan.together.is_some();
         (sweep, together)
     }

@@ -3,10 +3,10 @@
 use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
 use super::writer::{head, verdict};
-use crate::report::{CertificateKind, Report, Solution, Status};
+use crate::report::{CertificateKind, Solution, SolveReport, Status};
 
 /// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.
-pub(super) fn write(report: &Report, plan: &Plan, point: Point<'_>, rows: &mut Rows) {
+pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &mut Rows) {
     let first = rows.len();
     let status = match report.status {
         Status::None => PointStatus::None,

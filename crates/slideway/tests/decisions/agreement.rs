@@ -7,7 +7,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
 use slideway::motion::JointPhase;
 use slideway::motion::decision::{Standing, successors};
-use slideway::report::Report;
+use slideway::report::SolveReport;
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
 
@@ -28,17 +28,17 @@ fn random_model(text: &str, random: &mut Random) -> Option<Model> {
     for parameter in &model.parameters {
         let name = &*parameter.name;
         if name.starts_with("mu") {
-            settings = settings.parameter(name, &format!("{:.4}", 1.5 * random.next()));
+            settings = settings.parameter(name, format!("{:.4}", 1.5 * random.next()));
         } else if name == "direction" {
             settings = settings.parameter(name, if random.next() < 0.5 { "-1" } else { "1" });
         } else if name.starts_with("F_") && name.ends_with('0') {
-            settings = settings.parameter(name, &format!("{:.3} N", (10.0 * random.next() - 5.0).max(0.0)));
+            settings = settings.parameter(name, format!("{:.3} N", (10.0 * random.next() - 5.0).max(0.0)));
         }
     }
     model.with(&settings).ok()
 }
 
-fn patterns(report: &Report) -> Vec<(String, Vec<f64>)> {
+fn patterns(report: &SolveReport) -> Vec<(String, Vec<f64>)> {
     let all = report.solutions.iter().chain(&report.preload_gap_states);
     let one = |solution: &slideway::report::Solution| {
         let signs = solution.signs.iter().map(|sign| match sign {
@@ -138,7 +138,7 @@ fn slips(release: &slideway::standstill::Release) -> String {
 #[test]
 fn mechanisms_at_rest_do_what_hold_says() {
     let mut random = Random(1781);
-    let options = HoldOptions { hold_drives: true, ..HoldOptions::default() };
+    let options = HoldOptions::default().hold_drives(true);
     let (mut compared, mut held, mut released, mut both, mut partly) = (0, 0, 0, 0, 0);
     for entry in MODELS {
         for _ in 0..25 {

@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
+use slideway::Report;
 use slideway::modes::{Arguments, SearchOptions};
-use slideway::raw_problem::{RawProblem, RawReport, RawSolution, Unknowns, solve, to_json, to_text};
-use slideway::report::{Status, Style};
+use slideway::raw_problem::{RawProblem, RawReport, RawSolution, Unknowns, solve};
+use slideway::report::{Proof, Status, Style};
 
 use super::oracle::{State, Truth, exact, truth};
 
@@ -57,12 +58,12 @@ fn count(report: &RawReport, tally: &mut Tally) {
 }
 
 fn check(report: &RawReport, truth: &Truth, context: &str) {
-    assert_eq!(report.complete, "proven", "{context}");
+    assert_eq!(report.complete, Proof::Proven, "{context}");
     assert_eq!(report.continuum_count != "0", truth.continuum, "{context}");
     let (gaps, points): (Vec<&State>, Vec<&State>) =
         truth.states.iter().partition(|state| state.is_gap_state());
-    assert!(!to_text(report, Style::Plain).contains("NaN"), "{context}");
-    assert!(!to_json(report).contains("inf"), "{context}");
+    assert!(!report.text(Style::Plain).contains("NaN"), "{context}");
+    assert!(!report.json().contains("inf"), "{context}");
     if !truth.continuum {
         let status = match (points.len(), gaps.len()) {
             (0, 0) => Status::None,

@@ -12,7 +12,7 @@
 
 use crate::model;
 use slideway::configuration::Configuration;
-use slideway::limits::{LimitsOptions, limits};
+use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
 use slideway::motion::decision::{self, jam};
@@ -118,7 +118,7 @@ fn the_impulse_on_the_drawer_is_that_of_its_derivation() {
 #[test]
 fn limits_tell_where_the_drawer_locks_and_jams() {
     let report =
-        limits(&drawer("0.3 m"), &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0 m..0.39 m") }).unwrap();
+        limits(&drawer("0.3 m"), &LimitsOptions::new(Vary::between("x", "0 m", "0.39 m")).effort(0)).unwrap();
     let ends = |pattern: &str| -> Vec<[f64; 2]> {
         let modes = report.modes.iter().filter(|mode| mode.pattern == pattern);
         modes.map(|mode| [mode.from.unwrap(), mode.to.unwrap()]).collect()
@@ -133,7 +133,7 @@ fn limits_tell_where_the_drawer_locks_and_jams() {
     let jam = place(&history, &history.events[1]);
     assert!((jam - ends("+-")[0][1]).abs() < 1e-9, "{jam}");
     let report =
-        limits(&drawer("0.2 m"), &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0 m..0.39 m") }).unwrap();
+        limits(&drawer("0.2 m"), &LimitsOptions::new(Vary::between("x", "0 m", "0.39 m")).effort(0)).unwrap();
     let braked = report.modes.iter().find(|mode| mode.pattern == "+-").unwrap();
     close(&[[braked.from.unwrap(), braked.to.unwrap()]], [0.2, LOCKS]);
 }

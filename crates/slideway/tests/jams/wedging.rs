@@ -31,8 +31,7 @@ fn greatest_pull(mu_1: f64) -> f64 {
 
 #[test]
 fn statics_hold_what_the_derivation_says() {
-    let options =
-        HoldOptions { load: Some("P".to_owned()), vary: Some("mu_1".to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load("P").vary("mu_1");
     for mu_1 in [0.2, 0.24, 0.25] {
         let settings = [("F_20", "0"), ("mu_1", &*mu_1.to_string()), ("P", "-10 N")];
         let report = hold(&model("klepp-2002", &settings), &options).unwrap();

@@ -3,7 +3,7 @@
 use slideway::fault::Faults;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{Contact, Report, Solution};
+use slideway::report::{Contact, Solution, SolveReport};
 use slideway::solve::solve;
 
 /// A model of the gallery.
@@ -17,22 +17,22 @@ pub(crate) fn parameters(list: &[(&str, &str)]) -> Settings {
 }
 
 /// The report on a model of the gallery with some parameters set.
-pub(crate) fn report(name: &str, list: &[(&str, &str)]) -> Report {
+pub(crate) fn report(name: &str, list: &[(&str, &str)]) -> SolveReport {
     report_with(&model(name), &parameters(list))
 }
 
 /// The report on a model with settings.
-pub(crate) fn report_with(model: &Model, settings: &Settings) -> Report {
+pub(crate) fn report_with(model: &Model, settings: &Settings) -> SolveReport {
     solve(&model.with(settings).expect("sound settings")).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
 /// The report on the text of a model file.
-pub(crate) fn report_on(text: &str) -> Report {
+pub(crate) fn report_on(text: &str) -> SolveReport {
     try_report_on(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }
 
 /// The report on the text of a model file, or its faults.
-pub(crate) fn try_report_on(text: &str) -> Result<Report, Faults> {
+pub(crate) fn try_report_on(text: &str) -> Result<SolveReport, Faults> {
     solve(&Model::parse(text)?)
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn assert_close(found: f64, expected: f64, scale: f64, tolerance: f64
 
 /// The only solution of a report.
 #[track_caller]
-pub(crate) fn only(report: &Report) -> &Solution {
+pub(crate) fn only(report: &SolveReport) -> &Solution {
     assert_eq!(report.solutions.len(), 1, "status {:?}", report.status);
     assert_eq!(report.status, slideway::report::Status::One);
     &report.solutions[0]

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use rstest::rstest;
 use slideway::gallery;
 use slideway::model::Model;
-use slideway::report::{Fate, Report, Solution, Verdict};
+use slideway::report::{Fate, Solution, SolveReport, Verdict};
 
 const WEIGHT: f64 = 9.81;
 
@@ -17,7 +17,7 @@ fn eigenvalues(solution: &Solution) -> Vec<f64> {
     solution.attainability.eigenvalues.iter().map(|[real, _]| *real).collect()
 }
 
-fn klepp(mu_1: &str, preload: &str) -> Report {
+fn klepp(mu_1: &str, preload: &str) -> SolveReport {
     report("klepp-2002", &[("mu_1", mu_1), ("F_20", preload)])
 }
 
@@ -126,7 +126,7 @@ fn painleve_klein(#[case] mu: f64, #[case] direction: i8) {
 }
 
 /// The example with stiffnesses in its joints.
-fn klepp_with_stiffness(kappa: [f64; 3]) -> Report {
+fn klepp_with_stiffness(kappa: [f64; 3]) -> SolveReport {
     let text = gallery::find("klepp-2002").unwrap().text;
     let [upper, front, rear] = kappa;
     let text = text

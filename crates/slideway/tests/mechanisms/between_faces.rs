@@ -3,7 +3,7 @@
 
 use crate::answers::{assert_close, parameters};
 use slideway::drive::{DriveOptions, drive};
-use slideway::limits::{LimitsOptions, LimitsReport, limits};
+use slideway::limits::{LimitsOptions, LimitsReport, Vary, limits};
 use slideway::map::{ClassMeaning, MapOptions, map};
 use slideway::model::Model;
 use slideway::size::{Against, SizeOptions, size};
@@ -64,7 +64,7 @@ fn sweeps_have_the_states_of_solve() {
     for vary in
         ["a=10 deg..80 deg:9", "P=-20..20:5", "friction=0..2:5", "mu=0.1..0.4:4", "M=-1..1:9", "x=0..1:3"]
     {
-        let sweep = Sweep::new(&slope, &SweepOptions::of(&[vary])).expect("sound");
+        let sweep = Sweep::new(&slope, &SweepOptions::grid([vary.parse().expect("an axis")])).expect("sound");
         let mut points = 0;
         sweep.run(&mut sweep.start(), &Rows::clone, &mut |rows: Vec<Rows>, _| {
             for rows in rows {
@@ -88,8 +88,9 @@ fn sweeps_have_the_states_of_solve() {
 fn maps_have_them() {
     let size = [6, 5];
     for y in ["P=-20..20", "a=10 deg..80 deg"] {
-        let options =
-            MapOptions { width: size[0], height: size[1], probe: 1, ..MapOptions::of("M=-1..1", y) };
+        let options = MapOptions::new(Vary::between("M", -1.0, 1.0), y.parse().expect("a range"))
+            .probe(1)
+            .size(size[0], size[1]);
         let report = map(&slope(), &options).expect("sound");
         assert_eq!(report.guarantee.contains("interpolated"), y.starts_with('P'));
         for (column, row) in (0..size[0]).flat_map(|column| (0..size[1]).map(move |row| (column, row))) {
@@ -102,7 +103,7 @@ fn maps_have_them() {
 
 #[test]
 fn tables_of_drives_have_them() {
-    let options = DriveOptions { vary: Some("M=-1..1".to_owned()), ..DriveOptions::default() };
+    let options = DriveOptions::default().vary(Vary::between("M", -1.0, 1.0));
     let report = drive(&slope(), &options).expect("sound");
     for (direction, effort) in report.course.expect("asked for").directions.iter().zip([-4.0, -16.0]) {
         assert_eq!(direction.rows.len(), 11);
@@ -125,10 +126,8 @@ fn tables_of_drives_have_them() {
 #[test]
 fn sizes_have_no_answer_there() {
     for vary in ["M=-1..1", "friction=0.5..2"] {
-        let report = size(
-            &slope(),
-            &SizeOptions { against: Against::Locking, ..SizeOptions::against_locking(vary, 1.5) },
-        );
+        let report =
+            size(&slope(), &SizeOptions::new(vary.parse().expect("a range"), 1.5).against(Against::Locking));
         let report = report.expect("sound");
         let [gap] = &report.without_position[..] else { panic!("{:?}", report.without_position) };
         assert!(gap.reason.contains("between its faces"), "{}", gap.reason);
@@ -144,7 +143,7 @@ fn sizes_have_no_answer_there() {
 }
 
 fn limits_of(model: &Model, vary: &str) -> LimitsReport {
-    let options = LimitsOptions { effort: 40, both_directions: true, ..LimitsOptions::of(vary) };
+    let options = LimitsOptions::new(vary.parse().expect("a range")).effort(40).both_directions(true);
     limits(model, &options).unwrap_or_else(|faults| panic!("{vary}: {faults}"))
 }
 

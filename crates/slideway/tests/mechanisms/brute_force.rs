@@ -8,12 +8,12 @@ use slideway::fault::FaultKind;
 use slideway::ids::ContactId;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
-use slideway::report::{Report, Solution};
+use slideway::report::{Solution, SolveReport};
 
 /// A drawing with its report and all solutions by brute force.
 pub(crate) struct Solved {
     pub(crate) drawing: Drawing,
-    pub(crate) report: Report,
+    pub(crate) report: SolveReport,
     pub(crate) patterns: Vec<Pattern>,
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn velocity_signs(drawing: &Drawing) -> Vec<f64> {
     contacts.map(|k| configuration.contact(&mechanism, ContactId(k)).sliding_velocity.signum()).collect()
 }
 
-fn patterns(drawing: &Drawing, report: &Report) -> Vec<Pattern> {
+fn patterns(drawing: &Drawing, report: &SolveReport) -> Vec<Pattern> {
     let contacts = drawing.contacts();
     let r = contacts.len();
     let speeds = velocity_signs(drawing);

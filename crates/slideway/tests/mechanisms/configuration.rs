@@ -35,8 +35,7 @@ fn slider_crank_over_two_full_turns() {
     let slider_crank = model("slider-crank");
     for step in -24..=48 {
         let phi = f64::from(step) * 15.0_f64.to_radians() + 0.01;
-        let settings =
-            Settings::default().position("phi", &format!("{phi}")).rate("phi", &format!("{omega}"));
+        let settings = Settings::default().position("phi", format!("{phi}")).rate("phi", format!("{omega}"));
         let (mechanism, configuration) = configured(&slider_crank, &settings).unwrap();
         let (sin, cos) = phi.sin_cos();
         let height = r * sin;
@@ -74,8 +73,8 @@ fn velocities_are_the_derivatives_of_positions() {
         let at_time = |time: f64| {
             let value = at + rate * time;
             let settings = Settings::default()
-                .position(coordinate, &format!("{value}"))
-                .rate(coordinate, &format!("{rate}"));
+                .position(coordinate, format!("{value}"))
+                .rate(coordinate, format!("{rate}"));
             configured(&model(name), &settings).unwrap().1
         };
         let (before, now, after) = (at_time(-step), at_time(0.0), at_time(step));
@@ -136,7 +135,7 @@ fn the_overlaps_of_a_boom_shrink_as_it_extends() {
     let boom = model("telescopic-boom");
     let at = |values: [f64; 3]| {
         let settings = (1..=3).zip(values).fold(Settings::default(), |settings, (stage, value)| {
-            settings.position(&format!("s_{stage}"), &value.to_string())
+            settings.position(&format!("s_{stage}"), value.to_string())
         });
         configured(&boom, &settings)
     };
@@ -245,7 +244,7 @@ fn four_bar_keeps_the_branch_of_its_drawing(#[values(1.0, -1.0)] side: f64) {
     let linkage = Model::parse(&four_bar(side)).unwrap();
     for step in -30..=30 {
         let phi = f64::from(step) * 0.25;
-        let settings = Settings::default().position("phi", &phi.to_string());
+        let settings = Settings::default().position("phi", phi.to_string());
         let (mechanism, configuration) = configured(&linkage, &settings).unwrap();
         let rocker = configuration.poses[body(&mechanism, "rocker")].position;
         let pin = rocker_pin(phi, side);
@@ -305,7 +304,7 @@ fn a_state_out_of_reach_names_the_joint_that_stays_open() {
 fn trammel_points_run_on_ellipses() {
     // The point of the rod at the distances p from A and q from B (p + q = l) has the half-axes q and p.
     for theta in [1.7, 2.0, 2.5, 3.0, 3.6, 5.0, 7.0] {
-        let settings = Settings::default().position("theta", &f64::to_string(&theta));
+        let settings = Settings::default().position("theta", f64::to_string(&theta));
         let (mechanism, configuration) = configured(&model("elliptic-trammel"), &settings).unwrap();
         let frame = slideway::ids::Frame::Body(slideway::ids::BodyId(0));
         let [a, b] = [[0.5 * 55_f64.to_radians().cos(), 0.0], [0.0, 0.5 * 55_f64.to_radians().sin()]];

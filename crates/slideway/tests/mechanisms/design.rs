@@ -1,11 +1,11 @@
 //! The derivations of the book's page "Design", evaluated here on their own, against what the programs say.
 
 use crate::answers::{assert_close, model, parameters};
-use slideway::drive::{DriveOptions, DriveReport, EfficiencyKind, drive};
-use slideway::limits::{LimitsOptions, limits};
+use slideway::drive::{Approach, DriveOptions, DriveReport, EfficiencyKind, drive};
+use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::Verdict;
-use slideway::size::{Against, SampleKind, SizeOptions, SizeReport, size};
+use slideway::size::{Against, MetEnd, SampleKind, SizeOptions, SizeReport, size};
 use slideway::standstill::{HoldOptions, LoadReport, hold};
 
 const MARGINS: [f64; 3] = [1.0, 1.5, 2.0];
@@ -20,7 +20,7 @@ fn example(name: &str) -> Model {
 }
 
 fn sized(model: &Model, vary: &str, margin: f64, against: Against) -> SizeReport {
-    let options = SizeOptions { against, ..SizeOptions::against_locking(vary, margin) };
+    let options = SizeOptions::new(vary.parse().expect("a range"), margin).against(against);
     size(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -37,19 +37,19 @@ fn to_hold(load: &str) -> Against {
 fn only_end(report: &SizeReport) -> (f64, bool) {
     let [met] = &report.met[..] else { panic!("{:#?}", report.met) };
     match (met.from_is, met.to_is) {
-        ("margin", "range") => (met.from, true),
-        ("range", "margin") => (met.to, false),
+        (MetEnd::Margin, MetEnd::Range) => (met.from, true),
+        (MetEnd::Range, MetEnd::Margin) => (met.to, false),
         _ => panic!("{met:?}"),
     }
 }
 
 fn held(model: &Model, load: &str) -> LoadReport {
-    let options = HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load(load);
     hold(model, &options).expect("sound").load.expect("varied")
 }
 
 fn driven(model: &Model, vary: Option<&str>) -> DriveReport {
-    let options = DriveOptions { vary: vary.map(str::to_owned), ..DriveOptions::default() };
+    let options = DriveOptions::default().vary(vary.map(|vary| vary.parse().expect("a range")));
     drive(model, &options).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -189,7 +189,7 @@ fn wedge_push_limit_and_angle() {
     assert_close(back, load * (alpha - 2.0 * rho).tan(), 0.0, 1e-12);
     assert_eq!((back_is, none), (EfficiencyKind::HeldByFriction, None), "2 rho > alpha");
     let lock = (45_f64.to_radians() - alpha / 2.0).tan();
-    let factor = limits(&model("wedge"), &LimitsOptions { effort: 0, ..LimitsOptions::of("friction") })
+    let factor = limits(&model("wedge"), &LimitsOptions::new(Vary::usual("friction")).effort(0))
         .expect("sound")
         .counts[0]
         .to;
@@ -209,7 +209,10 @@ fn wedge_push_limit_and_angle() {
     }
     // At 22.928 deg the iteration for eigenvalues fails at first.
     let report = against_locking(&model("wedge"), "alpha", 2.0);
-    assert_eq!((report.met.len(), report.met[0].from_is, report.met[0].to_is), (1, "range", "range"));
+    assert_eq!(
+        (report.met.len(), report.met[0].from_is, report.met[0].to_is),
+        (1, MetEnd::Range, MetEnd::Range)
+    );
 }
 
 /// The load drives the wedge out if alpha > 2 rho.
@@ -266,7 +269,7 @@ fn a_press_locks_where_its_rod_is_too_steep() {
     let course = &report.course.as_ref().expect("asked for").directions[0];
     let [blow_up] = &course.blow_ups[..] else { panic!("{:#?}", course.blow_ups) };
     assert_close(blow_up.at, locked, 0.0, 1e-12);
-    assert_eq!((blow_up.side, &blow_up.efforts[..]), ("below", &[-1_i8][..]));
+    assert_eq!((blow_up.side, &blow_up.efforts[..]), (Approach::Below, &[-1_i8][..]));
     assert!(course.rows.iter().all(|row| (row.at <= blow_up.at) == row.pattern.is_some()));
     let (angle, above) = only_end(&against_locking(&example("press"), "angle=5 deg..89 deg", 1.5));
     assert!(!above);
@@ -289,8 +292,11 @@ fn an_engine_needs_ever_more_force_towards_its_dead_centres() {
     }
     assert!(!course.blow_ups.is_empty());
     assert!(course.blow_ups.iter().all(|blow_up| blow_up.at.abs() < 1e-9), "{:#?}", course.blow_ups);
-    let sides: Vec<(&str, i8)> = course.blow_ups.iter().map(|one| (one.side, one.efforts[0])).collect();
-    assert!(sides.contains(&("above", 1)) && sides.iter().any(|(side, _)| *side == "below"), "{sides:?}");
+    let sides: Vec<(Approach, i8)> = course.blow_ups.iter().map(|one| (one.side, one.efforts[0])).collect();
+    assert!(
+        sides.contains(&(Approach::Above, 1)) && sides.iter().any(|(side, _)| *side == Approach::Below),
+        "{sides:?}"
+    );
 }
 
 // What the answers have to say where there is no number.
@@ -299,11 +305,14 @@ fn an_engine_needs_ever_more_force_towards_its_dead_centres() {
 fn infinite_margins_and_positions_that_do_not_exist_are_told() {
     let straight = against_locking(&example("engine"), "l=60 mm..200 mm", 2.0);
     assert_eq!(straight.present.is, SampleKind::Infinite);
-    assert_eq!((straight.met.len(), straight.met[0].from_is, straight.met[0].to_is), (1, "range", "range"));
+    assert_eq!(
+        (straight.met.len(), straight.met[0].from_is, straight.met[0].to_is),
+        (1, MetEnd::Range, MetEnd::Range)
+    );
     assert!(straight.conclusion.iter().any(|sentence| sentence.contains("no friction, however great")));
 
     // The rod spans the offset of the piston only while l >= r sin(phi).
-    let options = SizeOptions::against_locking("l=20 mm..200 mm", 2.0);
+    let options = SizeOptions::new(Vary::between("l", "20 mm", "200 mm"), 2.0);
     let rod = size(&example("engine"), &options).expect("a report");
     let [gap] = &rod.without_position[..] else { panic!("{:#?}", rod.without_position) };
     assert_eq!(gap.from, 0.02);
@@ -317,14 +326,14 @@ fn infinite_margins_and_positions_that_do_not_exist_are_told() {
 fn the_smaller_margin_of_both_directions_counts() {
     // Pulled out, the drawer never jams: the other direction changes nothing.
     let both = |list: &[(&str, &str)]| {
-        let options = SizeOptions { both_directions: true, ..SizeOptions::against_locking("L", 2.0) };
+        let options = SizeOptions::new(Vary::usual("L"), 2.0).both_directions(true);
         size(&with("drawer", list), &options).expect("sound")
     };
     assert_close(only_end(&both(&[])).0, 0.36, 0.0, 1e-14);
     // With the velocity reversed in the model, only the other direction jams.
     assert_close(only_end(&both(&[("v", "-0.1 m/s")])).0, 0.36, 0.0, 1e-14);
     let one = against_locking(&with("drawer", &[("v", "-0.1 m/s")]), "L", 2.0);
-    assert_eq!((one.met[0].from_is, one.met[0].to_is), ("range", "range"));
+    assert_eq!((one.met[0].from_is, one.met[0].to_is), (MetEnd::Range, MetEnd::Range));
 }
 
 /// Against margins computed one by one.
@@ -333,7 +342,7 @@ fn sizes_agree_with_scanning() {
     use slideway::solve::solve;
     let report = against_locking(&model("cam-follower"), "phi", 2.0);
     let margin = |phi: f64| {
-        let at = Settings::default().parameter("phi", &format!("{phi:e}"));
+        let at = Settings::default().parameter("phi", format!("{phi:e}"));
         let report = solve(&model("cam-follower").with(&at).expect("sound")).expect("sound");
         let moves = !report.solutions.is_empty();
         moves && report.margins.expect("few modes").no_solution.is_none_or(|margin| margin >= 2.0)

@@ -13,7 +13,7 @@
 use dashu_ratio::RBig;
 use slideway::model::Model;
 use slideway::modes::SearchOptions;
-use slideway::report::{Report, Solution, Status};
+use slideway::report::{Proof, Solution, SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -334,10 +334,9 @@ fn check_values(solution: &Solution, values: &[RBig], context: &str) {
     }
 }
 
-fn report(text: &str) -> Report {
+fn report(text: &str) -> SolveReport {
     let model = Model::parse(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
-    let options =
-        SolveOptions { search: SearchOptions::default(), margins: false, ..SolveOptions::default() };
+    let options = SolveOptions::default().search(SearchOptions::default()).margins(false);
     solve_with(&model, &options, &mut |_| ControlFlow::Continue(()))
         .unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }
@@ -368,7 +367,7 @@ fn random_chains_have_the_states_that_rational_equations_of_motion_have() {
         assert!(report.status != Status::Unknown || !is_found, "{context}");
         if open.is_empty() {
             assert_ne!(report.status, Status::Unknown, "{context}");
-            assert!(report.complete == "proven" && report.undecided_modes.is_empty(), "{context}");
+            assert!(report.complete == Proof::Proven && report.undecided_modes.is_empty(), "{context}");
             clear += 1;
         }
         gaps += usize::from(expected.keys().any(|pattern| pattern.contains('0')));

@@ -6,9 +6,9 @@ use crate::answers::{assert_close, contact, parameters, report_on, try_report_on
 use slideway::drive::{DriveOptions, drive};
 use slideway::fault::FaultKind;
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, limits};
+use slideway::limits::{LimitsMethod, LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
-use slideway::report::Status;
+use slideway::report::{Proof, Status};
 use slideway::size::{SizeOptions, size};
 use slideway::solve::solve;
 use slideway::standstill::{HoldOptions, hold};
@@ -43,7 +43,7 @@ fn solve_takes_friction_at_the_speed_of_the_state_in_both_directions() {
     for (rate, v) in [("0.1", 0.1), ("-0.1", 0.1), ("0.4", 0.4), ("2.5e-9", 2.5e-9)] {
         let model = drawer().with(&Settings::default().rate("x", rate)).unwrap();
         let report = solve(&model).unwrap();
-        assert_eq!((report.status, report.complete), (Status::One, "proven"));
+        assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
         let mu = 0.3 + 0.5 * v;
         let solution = &report.solutions[0];
         let front = contact(solution, "guide.front");
@@ -64,19 +64,19 @@ fn solve_takes_friction_at_the_speed_of_the_state_in_both_directions() {
 #[test]
 fn limits_follow_friction_over_whatever_changes_it() {
     let locks = |vary: &str| {
-        let report = limits(&drawer(), &LimitsOptions::of(vary)).unwrap();
+        let report = limits(&drawer(), &LimitsOptions::new(vary.parse().expect("a range"))).unwrap();
         let end = report.counts.iter().find(|count| count.solutions == 0).expect("it locks").from;
         (end, report.method)
     };
     let (c, method) = locks("c=0..10");
-    assert_eq!(method, "closed form");
+    assert_eq!(method, LimitsMethod::ClosedForm);
     assert_close(c, (2.0 / 3.0 - 0.3) / 0.1, 0.0, 1e-12);
     let (v, method) = locks("v=0.01 m/s..2 m/s");
-    assert_eq!(method, "bracketing");
+    assert_eq!(method, LimitsMethod::Bracketing);
     assert_close(v, (2.0 / 3.0 - 0.3) / 0.5, 0.0, 1e-9);
     let (factor, _) = locks("friction=0..4");
     assert_close(factor, 2.0 / 3.0 / 0.35, 0.0, 1e-12);
-    let report = size(&drawer(), &SizeOptions::against_locking("c=0..10", 1.5)).unwrap();
+    let report = size(&drawer(), &SizeOptions::new(Vary::between("c", 0.0, 10.0), 1.5)).unwrap();
     assert_close(report.met[0].to, (2.0 / 3.0 / 1.5 - 0.3) / 0.1, 0.0, 1e-9);
     let efforts = drive(&drawer(), &DriveOptions::default()).unwrap();
     assert_close(efforts.directions[0].solutions[0].efforts[0], push(0.35), 0.0, 1e-12);
@@ -86,8 +86,9 @@ fn limits_follow_friction_over_whatever_changes_it() {
 #[test]
 fn sweeps_take_friction_at_the_speed_of_each_point() {
     for vary in ["x.rate=0.05..0.7:14", "v=0.05..0.7:14", "c=0.1..3:7", "friction=0.5..1.5:5"] {
-        let sweep =
-            Sweep::new(&drawer(), &SweepOptions { without_breakpoints: true, ..SweepOptions::of(&[vary]) });
+        let sweep = vary
+            .parse()
+            .and_then(|axis| Sweep::new(&drawer(), &SweepOptions::grid([axis]).breakpoints(false)));
         let sweep = sweep.unwrap();
         let effort = sweep.columns().iter().position(|column| column.name == "effort.push").unwrap();
         let mut points = 0;
@@ -113,7 +114,7 @@ fn sweeps_take_friction_at_the_speed_of_each_point() {
 /// At rest the law counts at the speed zero: static friction is 0.3 without a value of its own.
 #[test]
 fn static_friction_is_the_limit_at_speed_zero() {
-    let options = HoldOptions { load: Some("push".to_owned()), ..HoldOptions::default() };
+    let options = HoldOptions::default().load("push");
     let held = hold(&drawer(), &options).unwrap().load.unwrap().held;
     assert_close(held[0].greatest.unwrap(), push(0.3), 0.0, 1e-9);
     assert_close(held[0].least.unwrap(), push(-0.3), 0.0, 1e-9);

@@ -7,8 +7,8 @@ use crate::answers::{
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::gallery::{self, MODELS};
-use slideway::model::{Model, SettingKind, Settings};
-use slideway::report::Status;
+use slideway::model::{Model, Setting, SettingKind, Settings};
+use slideway::report::{Proof, Status};
 use slideway::solve::solve;
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ fn every_model_is_sound_and_says_what_it_shows() {
             continue;
         }
         let report = solve(&model).unwrap_or_else(|faults| panic!("{}: {faults}", entry.name));
-        assert!(report.complete == "proven", "{}", entry.name);
+        assert!(report.complete == Proof::Proven, "{}", entry.name);
         assert!(!report.solutions.is_empty(), "{}", entry.name);
         assert!(report.solutions.iter().all(|solution| solution.residual < 1e-12), "{}", entry.name);
     }
@@ -45,7 +45,8 @@ fn every_command_of_the_comments_runs() {
                     "--rate" => SettingKind::Rate,
                     other => panic!("{other} in {line}"),
                 };
-                settings.push(kind, &pair[1]).unwrap();
+                let (name, value) = pair[1].split_once('=').unwrap();
+                settings = settings.with(Setting::new(kind, name, value));
             }
             report_with(&model(entry.name), &settings);
             commands += 1;
@@ -159,7 +160,7 @@ fn modes_over_a_turn(name: &str, list: &[(&str, &str)], coordinate: &str, joint:
     let mut modes = BTreeSet::new();
     for step in 0..72 {
         let settings =
-            Settings::default().position(coordinate, &format!("{} deg", 5.0 * f64::from(step) + 1.0));
+            Settings::default().position(coordinate, format!("{} deg", 5.0 * f64::from(step) + 1.0));
         let report = report_with(&model, &settings);
         modes.extend(report.solutions.iter().map(|solution| mode(solution, joint).to_owned()));
     }
@@ -183,7 +184,7 @@ fn the_pins_friction_tips_the_yoke() {
     // Somewhere in the turn the yoke lies flat with a smooth pin and tips with the rough one.
     let tipped_by_friction = (0..360).filter(|degrees| {
         let at = |mu: &str| {
-            let settings = parameters(&[("mu_pin", mu)]).position("phi", &format!("{degrees}.5 deg"));
+            let settings = parameters(&[("mu_pin", mu)]).position("phi", format!("{degrees}.5 deg"));
             let report = report_with(&model("scotch-yoke"), &settings);
             mode(only(&report), "yoke").to_owned()
         };
@@ -221,7 +222,7 @@ fn the_booms_patterns_grow_as_four_to_the_stages() {
     assert_eq!(report.patterns.unwrap().total, 4_u64.pow(3));
     assert!(only(&report).joints.iter().all(|joint| joint.mode.starts_with("tipped: ")));
     let retracting = report_with(&model("telescopic-boom"), &parameters(&[("mu", "0.4"), ("v", "-0.1 m/s")]));
-    assert_eq!(retracting.complete, "proven");
+    assert_eq!(retracting.complete, Proof::Proven);
 }
 
 #[test]

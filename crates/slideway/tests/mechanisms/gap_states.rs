@@ -13,9 +13,9 @@ use slideway::model::Model;
 use slideway::modes::Side;
 use slideway::motion::decision::{Standing, Successor, successors};
 use slideway::motion::{ContactPhase, End, JointPhase, Phase, SimulateOptions, simulate};
-use slideway::report::{CertificateKind, Report, Status};
+use slideway::report::{CertificateKind, Proof, SolveReport, Status};
 use slideway::solve::solve;
-use slideway::standstill::{HoldOptions, Verdict, hold};
+use slideway::standstill::{HoldOptions, HoldVerdict, hold};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
@@ -96,7 +96,7 @@ fn a_preload_that_differs_by_side_leaves_a_gap_where_faces_coincide() {
     assert_close(share, 0.598, 0.0, 1e-3);
     let model = Model::parse(PLATE).unwrap();
     let report = solve(&model).unwrap();
-    assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+    assert_eq!((report.status, report.complete), (Status::PreloadGap, Proof::Proven));
     let state = &report.preload_gap_states[0];
     assert_close(state.contacts[0].preload_share.unwrap(), share, 1.0, 1e-5);
     assert_close(state.contacts[1].normal_force, normal_force, 0.0, 1e-5);
@@ -106,7 +106,7 @@ fn a_preload_that_differs_by_side_leaves_a_gap_where_faces_coincide() {
 
     // At rest it begins to move in the same way.
     let held = hold(&model, &HoldOptions::default()).unwrap();
-    assert_eq!(held.verdict, Verdict::Moves);
+    assert_eq!(held.verdict, HoldVerdict::Moves);
     let [release] = &held.releases[..] else { panic!("{:?}", held.releases) };
     assert_eq!((release.joints[0].slip, release.joints[1].slip), (-1, 1));
     assert_eq!(release.patterns, ["0+"]);
@@ -121,7 +121,7 @@ fn a_preload_that_differs_by_side_leaves_a_gap_where_faces_coincide() {
 }
 
 /// A drawer with a packing at either end, pressed down by 8 N through a point above its middle.
-fn drawer(rate: f64, load: [f64; 2]) -> Report {
+fn drawer(rate: f64, load: [f64; 2]) -> SolveReport {
     report_on(&format!(
         r#"
         [points]
@@ -160,7 +160,7 @@ fn both_ends_are_not_in_their_gaps_under_a_transverse_load() {
     //     rate -1: -N_r l/2 + 14 h/2 - (1 - 2 share) 6 h/2 - 0.1 = 0:  -1.2 + 1.4 - 0.6 (1 - 2 share) - 0.1 = 0, share 5/12
     for (rate, pattern, share, acceleration_x) in [(1.0, "+0", 0.25, -19.0), (-1.0, "0+", 5.0 / 12.0, 21.0)] {
         let report = drawer(rate, [1.0, -8.0]);
-        assert_eq!((report.status, report.complete), (Status::PreloadGap, "proven"));
+        assert_eq!((report.status, report.complete), (Status::PreloadGap, Proof::Proven));
         assert!(report.undecided_modes.is_empty(), "{:?}", report.undecided_modes);
         let [state] = &report.preload_gap_states[..] else { panic!("one state") };
         assert_eq!(state.pattern, pattern);
@@ -184,7 +184,7 @@ fn a_found_state_is_the_answer_whatever_is_open_beside_it() {
 }
 
 /// A guided slider with a packing, no transverse load, a force along it, and a couple.
-fn guided(preload: &str, height: f64, couple: f64, across: &str) -> Report {
+fn guided(preload: &str, height: f64, couple: f64, across: &str) -> SolveReport {
     report_on(&format!(
         r#"
         [parameters]
@@ -292,7 +292,7 @@ fn whether_a_slider_pressed_against_its_other_face_tips_is_proven() {
     assert_close(state.contacts[0].couple.unwrap(), -0.3, 0.0, 1e-12);
     // With a torque of 1.3 N m more C = -1.6 N m; were the friction at the lower face it would be -1 N m.
     let report = guided("0", 0.2, 1.3, "10 N");
-    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     let report = guided("0", 0.2, -1.3, "10 N");
     assert_eq!((report.status, report.solutions[0].certificate), (Status::One, CertificateKind::Proven));
 }
@@ -301,7 +301,7 @@ fn whether_a_slider_pressed_against_its_other_face_tips_is_proven() {
 fn a_cart_whose_box_tips_has_no_solution() {
     let report = report_on(CART);
     // The only state that solves the equations tips the box: 2.76 N m of 2.35 N m.
-    assert_eq!((report.status, report.complete), (Status::None, "proven"));
+    assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     assert!(report.undecided_modes.is_empty());
     assert_eq!(report.rejected.len(), 1);
 }
@@ -388,7 +388,7 @@ struct Numbers {
 }
 
 /// The numbers of eq. (6) from the influence coefficients of the report.
-fn numbers(drawing: &Drawing, report: &Report) -> Numbers {
+fn numbers(drawing: &Drawing, report: &SolveReport) -> Numbers {
     let contacts = drawing.contacts();
     let speeds = velocity_signs(drawing);
     let r = contacts.len();
@@ -479,7 +479,7 @@ fn admits(mut matrix: DMatrix<f64>, right: &DVector<f64>, digits: &[usize]) -> O
 }
 
 /// All patterns with a state in the report, tipping or not.
-fn reported(report: &Report) -> BTreeSet<String> {
+fn reported(report: &SolveReport) -> BTreeSet<String> {
     let states = report.solutions.iter().chain(&report.preload_gap_states);
     let rejected = report.rejected.iter().map(|rejection| rejection.pattern.clone());
     states.flat_map(|state| state.patterns.clone()).chain(rejected).collect()

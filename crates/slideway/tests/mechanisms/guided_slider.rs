@@ -2,7 +2,8 @@
 
 use crate::answers::{acceleration, assert_close, only, report_on};
 use proptest::prelude::*;
-use slideway::report::{Report, Status};
+use slideway::Report;
+use slideway::report::{SolveReport, Status};
 
 /// One body on one slider, with a force and a torque.
 #[derive(Debug, Clone)]
@@ -19,7 +20,7 @@ struct Sledge {
 }
 
 impl Sledge {
-    fn report(&self, kind: &str) -> Report {
+    fn report(&self, kind: &str) -> SolveReport {
         let Self { slope, length, height, around, mu, rate, centre, force, moment } = self;
         let fit = if *around { "around" } else { "inside" };
         report_on(&format!(
@@ -115,7 +116,7 @@ fn a_couple_beyond_the_pressure_is_rejected_and_tips_the_block() {
     assert_close(rejection.couple, -10.0, 0.0, 1e-12);
     assert_close(rejection.limit, 3.924, 0.0, 1e-12);
     assert_close(rejection.normal_forces[0], 19.62, 0.0, 1e-12);
-    let text = slideway::report::to_text(&guided, slideway::report::Style::Plain);
+    let text = guided.text(slideway::report::Style::Plain);
     assert!(text.contains("base") && text.contains("tip"), "{text}");
 
     // N_f + N_r = m g and (N_f - N_r) L/2 = -10 N m.
@@ -171,8 +172,8 @@ proptest! {
         let block = sledge.report("block_slider");
         // The normal force of a single guided slider does not depend on friction.
         prop_assert_eq!(guided.solutions.len() + guided.rejected.len(), 1);
-        let flat = |report: &Report| report.solutions.iter().filter(|s| s.signs[0] == s.signs[1]).count();
-        let tipped = |report: &Report| report.solutions.iter().filter(|s| s.signs[0] != s.signs[1]).count();
+        let flat = |report: &SolveReport| report.solutions.iter().filter(|s| s.signs[0] == s.signs[1]).count();
+        let tipped = |report: &SolveReport| report.solutions.iter().filter(|s| s.signs[0] != s.signs[1]).count();
         let by_hand = sledge.by_hand();
         prop_assert_eq!(block.solutions.len(), by_hand.len());
         for (solution, by_hand) in block.solutions.iter().zip(&by_hand) {

@@ -10,7 +10,7 @@ use slideway::influence::Influence;
 use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
-use slideway::report::{Report, Solution, Status};
+use slideway::report::{Proof, Solution, SolveReport, Status};
 
 #[path = "../../../slideway-modes/tests/klepp_example/reference.rs"]
 mod numbers;
@@ -35,24 +35,24 @@ fn reference() -> Reference {
 fn settings(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Settings {
     let Parameters { alpha_deg, b_over_l, h_over_l, mu_2, mu_3 } = reference().parameters;
     Settings::default()
-        .parameter("alpha", &format!("{alpha_deg} deg"))
-        .parameter("b", &format!("{b_over_l}*l"))
-        .parameter("h", &format!("{h_over_l}*l"))
-        .parameter("m", &format!("{} kg", scale.mass))
-        .parameter("g", &format!("{} m/s^2", scale.gravity))
-        .parameter("l", &format!("{} m", scale.length))
-        .parameter("mu_1", &mu_1.to_string())
-        .parameter("mu_2", &mu_2.to_string())
-        .parameter("mu_3", &mu_3.to_string())
-        .parameter("F_10", &format!("{}*m*g", preload[0]))
-        .parameter("F_20", &format!("{}*m*g", preload[1]))
-        .parameter("F_30", &format!("{}*m*g", preload[2]))
-        .parameter("direction", &velocity.to_string())
+        .parameter("alpha", format!("{alpha_deg} deg"))
+        .parameter("b", format!("{b_over_l}*l"))
+        .parameter("h", format!("{h_over_l}*l"))
+        .parameter("m", format!("{} kg", scale.mass))
+        .parameter("g", format!("{} m/s^2", scale.gravity))
+        .parameter("l", format!("{} m", scale.length))
+        .parameter("mu_1", mu_1.to_string())
+        .parameter("mu_2", mu_2.to_string())
+        .parameter("mu_3", mu_3.to_string())
+        .parameter("F_10", format!("{}*m*g", preload[0]))
+        .parameter("F_20", format!("{}*m*g", preload[1]))
+        .parameter("F_30", format!("{}*m*g", preload[2]))
+        .parameter("direction", velocity.to_string())
 }
 
-fn solved(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> Report {
+fn solved(scale: Scale, mu_1: f64, preload: [f64; 3], velocity: f64) -> SolveReport {
     let report = report_with(&model("klepp-2002"), &settings(scale, mu_1, preload, velocity));
-    assert_eq!(report.complete, "proven");
+    assert_eq!(report.complete, Proof::Proven);
     assert_eq!(report.patterns.unwrap().total, 8);
     report
 }
@@ -114,10 +114,10 @@ fn the_friction_is_what_the_applied_forces_and_inertia_leave(#[values(1.0, -1.0)
     // F_1 + F_2 + F_3 = P - k q - c qd - m qdd
     let (force, stiffness, damping, position, mass) = (2.5, 40.0, 3.0, 0.1, 1.0);
     let settings = settings(EARTH, 0.2, [0.1, 0.2, 0.0], velocity)
-        .parameter("P", &format!("{force} N"))
-        .parameter("k", &format!("{stiffness} N/m"))
-        .parameter("c", &format!("{damping} N s/m"))
-        .position("q", &format!("{position} m"));
+        .parameter("P", format!("{force} N"))
+        .parameter("k", format!("{stiffness} N/m"))
+        .parameter("c", format!("{damping} N s/m"))
+        .position("q", format!("{position} m"));
     let report = report_with(&model("klepp-2002"), &settings);
     assert!(!report.solutions.is_empty());
     for solution in &report.solutions {
@@ -128,7 +128,7 @@ fn the_friction_is_what_the_applied_forces_and_inertia_leave(#[values(1.0, -1.0)
 }
 
 /// The sign patterns of the solutions, sorted.
-fn found_signs(report: &Report) -> Vec<String> {
+fn found_signs(report: &SolveReport) -> Vec<String> {
     let mut found: Vec<String> = report.solutions.iter().map(signs).collect();
     found.sort_unstable();
     found
@@ -203,11 +203,11 @@ fn the_locking_value_in_closed_form(#[case] alpha: f64, #[case] b: f64, #[case] 
     let locking = 2.0 / f64::to_radians(alpha).tan() + mu_2;
     let count = |mu_1: f64, velocity: f64| {
         let settings = settings(EARTH, mu_1, [0.0; 3], velocity)
-            .parameter("alpha", &format!("{alpha} deg"))
-            .parameter("b", &format!("{b}*l"))
-            .parameter("h", &format!("{h}*l"))
-            .parameter("mu_2", &mu_2.to_string())
-            .parameter("mu_3", &mu_2.to_string());
+            .parameter("alpha", format!("{alpha} deg"))
+            .parameter("b", format!("{b}*l"))
+            .parameter("h", format!("{h}*l"))
+            .parameter("mu_2", mu_2.to_string())
+            .parameter("mu_3", mu_2.to_string());
         report_with(&model("klepp-2002"), &settings).solutions.len()
     };
     assert_eq!(count(locking - 1e-9, -1.0), 1);
@@ -259,9 +259,9 @@ fn influence_coefficients_of_section_6() {
         let tangent = f64::to_radians(alpha).tan();
         let arm = h / (2.0 * b);
         let settings = settings(Scale { mass, ..EARTH }, 0.3, [0.0; 3], 1.0)
-            .parameter("alpha", &format!("{alpha} deg"))
-            .parameter("b", &format!("{b}*l"))
-            .parameter("h", &format!("{h}*l"));
+            .parameter("alpha", format!("{alpha} deg"))
+            .parameter("b", format!("{b}*l"))
+            .parameter("h", format!("{h}*l"));
         let model = model("klepp-2002").with(&settings).unwrap();
         let influence = report_with(&model, &Settings::default()).influence;
         for (k, found) in influence.normal_forces.iter().enumerate() {
@@ -333,7 +333,7 @@ fn the_file_as_it_stands_is_the_case_with_three_solutions() {
     assert_eq!(report, solved_as_printed());
 }
 
-fn solved_as_printed() -> Report {
+fn solved_as_printed() -> SolveReport {
     report_with(&model("klepp-2002"), &Settings::default().parameter("F_20", "m*g").parameter("mu_1", "0.5"))
 }
 
@@ -351,9 +351,9 @@ proptest! {
         prop_assume!((alpha - 90.0).abs() > 2.0);
         let velocity = if forwards { 1.0 } else { -1.0 };
         let settings = settings(EARTH, mu[0], preload, velocity)
-            .parameter("mu_2", &mu[1].to_string())
-            .parameter("mu_3", &mu[2].to_string())
-            .parameter("alpha", &format!("{alpha} deg"));
+            .parameter("mu_2", mu[1].to_string())
+            .parameter("mu_3", mu[2].to_string())
+            .parameter("alpha", format!("{alpha} deg"));
         let report = report_with(&model("klepp-2002"), &settings);
         let (sin, cos) = f64::to_radians(alpha).sin_cos();
         for solution in &report.solutions {

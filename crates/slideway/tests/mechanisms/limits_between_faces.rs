@@ -1,7 +1,7 @@
 //! Guided sliders without transverse load: their states between the faces over a range, compared with `solve`.
 
 use crate::answers::parameters;
-use slideway::limits::{Known, LimitsOptions, LimitsReport, limits};
+use slideway::limits::{Known, LimitsOptions, LimitsReport, Vary, limits};
 use slideway::model::Model;
 use slideway::solve::solve;
 
@@ -10,7 +10,7 @@ fn guided() -> Model {
 }
 
 fn of(model: &Model, vary: &str) -> LimitsReport {
-    let options = LimitsOptions { effort: 20, both_directions: true, ..LimitsOptions::of(vary) };
+    let options = LimitsOptions::new(vary.parse().expect("a range")).effort(20).both_directions(true);
     limits(model, &options).unwrap_or_else(|faults| panic!("{vary}: {faults}"))
 }
 
@@ -72,6 +72,6 @@ fn its_state_between_the_faces_ends_where_the_preload_cannot_balance_the_moment(
 /// No state counts whose normal forces exceed the greatest one; between the faces there is none.
 #[test]
 fn a_greatest_reaction_leaves_a_slider_between_its_faces() {
-    let options = LimitsOptions { max_reaction: Some(1.0), effort: 0, ..LimitsOptions::of("mu=0..1") };
+    let options = LimitsOptions::new(Vary::between("mu", 0.0, 1.0)).max_reaction(1.0).effort(0);
     assert_eq!(with_state(&limits(&guided(), &options).expect("there")), [[0.0, 1.0]]);
 }

@@ -5,8 +5,9 @@ use crate::answers::assert_close;
 use crate::drawing::{Drawing, Kind, Units};
 use crate::random_mechanisms::{cases, mechanisms};
 use proptest::prelude::*;
-use slideway::limits::{LimitsOptions, LimitsReport, ModeLimits, limits};
+use slideway::limits::{LimitsOptions, LimitsReport, ModeLimits, Vary, limits};
 use slideway::model::{Model, Settings};
+use slideway::report::ModeEndCause;
 use slideway::report::Status;
 use slideway::solve::{SolveOptions, solve, solve_with};
 use std::ops::ControlFlow;
@@ -19,7 +20,8 @@ const SCANNED: usize = 16;
 
 fn found(drawing: &Drawing, both_directions: bool) -> Result<LimitsReport, TestCaseError> {
     let model = Model::parse(&drawing.text()).expect("sound");
-    let options = LimitsOptions { both_directions, effort: 0, ..LimitsOptions::of("friction=0..3") };
+    let options =
+        LimitsOptions::new(Vary::between("friction", 0.0, 3.0)).both_directions(both_directions).effort(0);
     limits(&model, &options).map_err(|_| TestCaseError::reject("cannot be solved, or no friction"))
 }
 
@@ -43,7 +45,7 @@ fn ends(mode: &ModeLimits) -> [f64; 2] {
 /// The same intervals, each pattern's signs multiplied by a factor.
 fn same(one: &[ModeLimits], other: &[ModeLimits], factor: i8) -> Result<(), TestCaseError> {
     let list = |modes: &[ModeLimits], factor: i8| {
-        let mut list: Vec<(Vec<i8>, [f64; 2], &str)> = modes
+        let mut list: Vec<(Vec<i8>, [f64; 2], ModeEndCause)> = modes
             .iter()
             .map(|mode| (mode.signs.iter().map(|sign| factor * sign).collect(), ends(mode), mode.to_is))
             .collect();
@@ -187,7 +189,7 @@ fn solved(model: &Model, vary: &str, value: f64) -> Option<[usize; 2]> {
         _ => Settings::default().position(name, &value),
     };
     let there = model.with(&settings).expect("allowed");
-    let options = SolveOptions { margins: false, ..SolveOptions::default() };
+    let options = SolveOptions::default().margins(false);
     let report = solve_with(&there, &options, &mut |_| ControlFlow::Continue(())).expect("solvable");
     let states = || report.solutions.iter().chain(&report.preload_gap_states);
     let is_open = report.status == Status::Unknown || states().any(|state| state.on_boundary);
@@ -200,7 +202,7 @@ fn agrees(drawing: &Drawing, choice: f64, shares: &[f64], effort: u64) -> Result
         return Err(TestCaseError::reject("a zero"));
     };
     prop_assume!(!vary.starts_with("friction"));
-    let report = limits(&model, &LimitsOptions { effort, ..LimitsOptions::of(&vary) })
+    let report = limits(&model, &LimitsOptions::new(vary.parse().expect("a range")).effort(effort))
         .map_err(|_| TestCaseError::reject("cannot be solved"))?;
     let mut compared = 0;
     for count in &report.counts {

@@ -3,14 +3,14 @@
 use crate::answers::{acceleration, assert_close, only, report_on, try_report_on};
 use rstest::rstest;
 use slideway::fault::FaultKind;
-use slideway::report::Report;
+use slideway::report::SolveReport;
 
 /// Mass of the plate (kg).
 const MASS: f64 = 2.0;
 
 /// A plate that can shift along x and y (on a carriage without mass) but not turn, with a point E beside its
 /// centre; in the state it is at (0.3, -0.2) and moves with (1.5, -0.5) m/s.
-fn plate(loads: &str) -> Report {
+fn plate(loads: &str) -> SolveReport {
     report_on(&format!(
         r#"
         [parameters]
@@ -139,7 +139,7 @@ fn forces(#[case] force: &str, #[case] expected: [f64; 2]) {
 const INERTIA: f64 = 1.25;
 
 /// An arm, hinged at O, drawn along x and turned by 0.6 rad, with 2 rad/s; a wheel hinged to its tip at (1, 0).
-fn arm(loads: &str) -> Report {
+fn arm(loads: &str) -> SolveReport {
     report_on(&format!(
         r#"
         [points]

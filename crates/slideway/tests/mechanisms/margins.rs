@@ -1,11 +1,12 @@
 //! How far friction may grow, against closed forms and against solving with more friction.
 
 use crate::answers::{model, parameters, report};
+use slideway::Report;
 use slideway::model::Settings;
-use slideway::report::{Margins, Report, Style, to_text};
+use slideway::report::{Margins, ModeEndCause, SolveReport, Style};
 use slideway::solve::solve;
 
-fn margins(report: &Report) -> &Margins {
+fn margins(report: &SolveReport) -> &Margins {
     report.margins.as_ref().expect("few modes")
 }
 
@@ -17,15 +18,15 @@ fn a_drawer_has_the_textbook_s_margin() {
     assert!((margins(&report).no_solution.expect("it locks") - wanted).abs() < 1e-12);
     assert!((margins(&report).uniqueness.expect("lost") - wanted).abs() < 1e-12);
     let mode = report.solutions[0].margin.as_ref().expect("a margin");
-    assert_eq!(mode.ends_with, "locking");
+    assert_eq!(mode.ends_with, ModeEndCause::Locking);
     assert!((mode.factor.expect("finite") - wanted).abs() < 1e-12);
 }
 
 /// Klepp's bar with all these coefficients multiplied.
-fn with_friction(coefficients: [f64; 3], factor: f64, list: &[(&str, &str)]) -> Report {
+fn with_friction(coefficients: [f64; 3], factor: f64, list: &[(&str, &str)]) -> SolveReport {
     let scaled = ["mu_1", "mu_2", "mu_3"].into_iter().zip(coefficients);
     let settings = scaled
-        .fold(parameters(list), |settings, (name, mu)| settings.parameter(name, &(mu * factor).to_string()));
+        .fold(parameters(list), |settings, (name, mu)| settings.parameter(name, (mu * factor).to_string()));
     solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound")
 }
 
@@ -46,7 +47,7 @@ fn where_solutions_come_back_the_margin_says_just_beyond() {
         [1.0, jams * (1.0 - little), jams * (1.0 + little), again * (1.0 - little), again * (1.0 + little)];
     assert_eq!(around.map(moves), [true, true, false, false, true]);
     assert!((1..40).map(|step| jams + (again - jams) * f64::from(step) / 40.0).all(|factor| !moves(factor)));
-    let words = |report: &Report| to_text(report, Style::Plain);
+    let words = |report: &SolveReport| report.text(Style::Plain);
     let told = words(&now);
     assert!(told.contains("there is no solution just beyond") && told.contains(", but again from"), "{told}");
     // The drawer never moves again: B / (2 x) = 2/3 is exceeded for good.
@@ -64,7 +65,7 @@ fn the_number_of_solutions_changes_at_the_margin_and_not_before() {
         let now = with(1.0, list);
         let factor = margins(&now).another_count.expect("it changes");
         let (before, after) = (with(factor * (1.0 - 1e-6), list), with(factor * (1.0 + 1e-6), list));
-        let count = |report: &Report| (report.solutions.len(), report.preload_gap_states.len());
+        let count = |report: &SolveReport| (report.solutions.len(), report.preload_gap_states.len());
         assert_eq!(count(&before), count(&now));
         assert_ne!(count(&after), count(&now));
     }
@@ -83,7 +84,7 @@ fn the_critical_contact_is_the_one_whose_friction_matters_most() {
     let present = if parameter == "mu_1" { 0.3 } else { 0.1 };
     let solutions = |factor: f64| {
         let settings: Settings =
-            parameters(&settings).parameter(parameter, &(present * critical.factor * factor).to_string());
+            parameters(&settings).parameter(parameter, (present * critical.factor * factor).to_string());
         solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound").solutions.len()
     };
     assert_ne!(solutions(1.0 - 1e-6), solutions(1.0 + 1e-6));

@@ -8,10 +8,10 @@ use rstest::rstest;
 use slideway::configuration::{Configuration, Follower};
 use slideway::fault::{FaultKind, Faults};
 use slideway::ids::{BodyId, Frame};
-use slideway::limits::{LimitsOptions, limits};
+use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::{Model, Settings};
-use slideway::report::Status;
+use slideway::report::{ModeEndCause, Proof, Status};
 
 /// Two more solutions of its joints pass near the way from the drawing, and folds are at q0 = -0.2518 and 0.0091.
 const BRANCH: &str = include_str!("branch.toml");
@@ -19,7 +19,7 @@ const BRANCH: &str = include_str!("branch.toml");
 fn at(model: &Model, values: &[(&str, f64)]) -> Mechanism {
     let settings = values
         .iter()
-        .fold(Settings::default(), |settings, (name, value)| settings.position(name, &format!("{value:e}")));
+        .fold(Settings::default(), |settings, (name, value)| settings.position(name, format!("{value:e}")));
     Mechanism::new(&model.with(&settings).unwrap()).unwrap()
 }
 
@@ -55,9 +55,9 @@ fn the_branch_of_the_drawing_is_kept_beside_others(
             assert_close(*found, expected, 1.0, 1e-11);
         }
     }
-    let report = report_with(&model, &Settings::default().position("q0", &q0.to_string()));
+    let report = report_with(&model, &Settings::default().position("q0", q0.to_string()));
     assert_eq!(report.steps_from_drawing, Some(state.steps));
-    assert_eq!((report.status, report.complete), (Status::One, "proven"));
+    assert_eq!((report.status, report.complete), (Status::One, Proof::Proven));
 }
 
 /// The normal forces are those of an independent review program, which found the positions by another way.
@@ -309,7 +309,7 @@ fn every_report_says_that_a_state_was_followed() {
     use slideway::motion::{SimulateOptions, simulate};
     use slideway::report::{Style, followed};
     use slideway::standstill::HoldOptions;
-    use slideway::{check, limits, motion, standstill};
+    use slideway::{Report, check, limits, motion, standstill};
     let drawer = crate::answers::model("drawer");
     let moved = drawer.with(&Settings::default().position("x", "0.05")).unwrap();
     let told = |model: &Model| {
@@ -318,19 +318,19 @@ fn every_report_says_that_a_state_was_followed() {
         let options = SimulateOptions::new(0.01);
         let simulated = motion::report(&simulate(model, &options).unwrap(), &options);
         let found =
-            limits::limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of("mu=0..1") }).unwrap();
+            limits::limits(model, &LimitsOptions::new(Vary::between("mu", 0.0, 1.0)).effort(0)).unwrap();
         let along =
-            limits::limits(model, &LimitsOptions { effort: 0, ..LimitsOptions::of("x=0..0.1") }).unwrap();
+            limits::limits(model, &LimitsOptions::new(Vary::between("x", 0.0, 0.1)).effort(0)).unwrap();
         assert!(
             along.guarantee.contains("Each position was followed from the drawing"),
             "{}",
             along.guarantee
         );
         [
-            (checked.steps_from_drawing, check::to_text(&checked, Style::Plain)),
-            (held.steps_from_drawing, standstill::to_text(&held, Style::Plain)),
-            (simulated.steps_from_drawing, motion::to_text(&simulated, Style::Plain, false)),
-            (found.steps_from_drawing, limits::to_text(&found, Style::Plain)),
+            (checked.steps_from_drawing, checked.text(Style::Plain)),
+            (held.steps_from_drawing, held.text(Style::Plain)),
+            (simulated.steps_from_drawing, simulated.text(Style::Plain)),
+            (found.steps_from_drawing, found.text(Style::Plain)),
         ]
     };
     for (steps, text) in told(&moved) {
@@ -402,17 +402,17 @@ proptest! {
 #[test]
 fn modes_end_where_sliding_reverses() {
     let model = Model::parse(BRANCH).unwrap();
-    let options = LimitsOptions { effort: 0, ..LimitsOptions::of("q0=-0.103..-0.1") };
+    let options = LimitsOptions::new(Vary::between("q0", -0.103, -0.1)).effort(0);
     let modes = limits(&model, &options).unwrap().modes;
     let [ends, begins]: [_; 2] = modes.try_into().unwrap();
     assert_eq!(
         (&*ends.pattern, ends.to_is, &*begins.pattern, begins.from_is),
-        ("+-+", "reversal", "+--", "reversal")
+        ("+-+", ModeEndCause::Reversal, "+--", ModeEndCause::Reversal)
     );
     let place = ends.to.unwrap();
     assert_close(begins.from.unwrap(), place, place, 1e-7);
     let sliding = |q0: f64| {
-        let report = report_with(&model, &Settings::default().position("q0", &q0.to_string()));
+        let report = report_with(&model, &Settings::default().position("q0", q0.to_string()));
         report.solutions[0].contacts[0].sliding_velocity
     };
     assert!(sliding(place - 1e-6) > 0.0 && sliding(place + 1e-6) < 0.0);

@@ -2,7 +2,7 @@
 
 use crate::answers::{acceleration, assert_close, model, only, parameters, report, report_on, report_with};
 use slideway::model::Model;
-use slideway::report::{Report, Status};
+use slideway::report::{Proof, SolveReport, Status};
 
 const CASE: [(&str, &str); 4] = [("mu_1", "0.24"), ("F_20", "0"), ("F_30", "0.5*m*g"), ("direction", "1")];
 
@@ -10,7 +10,7 @@ const CASE: [(&str, &str); 4] = [("mu_1", "0.24"), ("F_20", "0"), ("F_30", "0.5*
 fn the_example_has_a_preload_gap() {
     let report = report("klepp-2002", &CASE);
     assert_eq!(report.status, Status::PreloadGap);
-    assert!(report.complete == "proven" && report.solutions.is_empty());
+    assert!(report.complete == Proof::Proven && report.solutions.is_empty());
     assert_eq!(report.patterns.unwrap().no_solution, 8);
     let [state] = &report.preload_gap_states[..] else { panic!("exactly one state") };
     assert_eq!(state.signs[2], 0);
@@ -96,7 +96,7 @@ fn a_gap_beside_solutions_does_not_change_the_status() {
 }
 
 /// A sledge without weight, preloaded at both ends, with a torque.
-fn preloaded_sledge(moment: f64, front: f64, rear: f64) -> Report {
+fn preloaded_sledge(moment: f64, front: f64, rear: f64) -> SolveReport {
     report_on(&format!(
         r#"
         [bodies.sledge]

@@ -12,6 +12,7 @@ use slideway::kinetics::KineticEquations;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::modes::{Limits, ModeProblem, Side, enumerate};
+use slideway::report::Proof;
 use slideway::solve::mode_problem;
 
 proptest! {
@@ -104,7 +105,7 @@ proptest! {
         let Some(solved) = Solved::new(drawing) else { return Err(TestCaseError::reject("state")) };
         prop_assume!(!solved.is_delicate());
         let Solved { report, patterns, .. } = &solved;
-        prop_assert_eq!(report.complete, "proven");
+        prop_assert_eq!(report.complete, Proof::Proven);
         prop_assert!(report.patterns.is_none_or(|counts| counts.total == patterns.len() as u64));
         let mut expected: Vec<String> = patterns.iter().filter(|p| p.is_solution()).map(Pattern::name).collect();
         let rejected = report.rejected.iter().map(|rejection| rejection.pattern.clone());

@@ -4,10 +4,10 @@ use crate::answers::{assert_close, model, parameters};
 use rstest::rstest;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
-use slideway::standstill::{ContactRange, HoldOptions, HoldReport, LoadReport, Range, Verdict, hold};
+use slideway::standstill::{ContactRange, HoldOptions, HoldReport, HoldVerdict, LoadReport, Range, hold};
 
 fn options(load: &str) -> HoldOptions {
-    HoldOptions { load: Some(load.to_owned()), ..HoldOptions::default() }
+    HoldOptions::default().load(load)
 }
 
 fn held(name: &str, settings: &[(&str, &str)], options: &HoldOptions) -> HoldReport {
@@ -63,7 +63,7 @@ fn a_bracket_holds_every_load_from_half_its_height_over_friction_on(
         let report =
             held("bracket-on-pole", &[("x", &x), ("mu_static", &mu_static), ("d", d)], &options("W"));
         assert_eq!((report.holds, load(&report).self_locking), (locks, locks), "x = {x}, d = {d}");
-        assert_eq!(report.verdict, if locks { Verdict::MayHold } else { Verdict::DoesNotHold });
+        assert_eq!(report.verdict, if locks { HoldVerdict::MayHold } else { HoldVerdict::DoesNotHold });
         let value = load(&report).threshold.value.expect("there is one");
         assert_close(value, 1.0 / factor, 1.0, 1e-12);
         let all = Range { least: None, greatest: None };
@@ -85,7 +85,7 @@ fn a_wide_bracket_wedges_at_any_distance() {
 
 #[test]
 fn a_parameter_can_be_varied_instead_of_all_coefficients() {
-    let vary = HoldOptions { vary: Some("mu_static".to_owned()), ..options("W") };
+    let vary = options("W").vary("mu_static");
     let report = held("bracket-on-pole", &[("x", "0.5 m")], &vary);
     let found = &load(&report).threshold;
     assert_eq!(found.varied, "mu_static");
@@ -124,22 +124,22 @@ slide = "plane"
 }
 
 #[rstest]
-#[case(10.0, Verdict::Holds)]
-#[case(13.0, Verdict::HoldsUntilPushed)]
-#[case(17.0, Verdict::Moves)]
-#[case(-10.0, Verdict::Holds)]
-#[case(-13.0, Verdict::HoldsUntilPushed)]
-#[case(-17.0, Verdict::Moves)]
+#[case(10.0, HoldVerdict::Holds)]
+#[case(13.0, HoldVerdict::HoldsUntilPushed)]
+#[case(17.0, HoldVerdict::Moves)]
+#[case(-10.0, HoldVerdict::Holds)]
+#[case(-13.0, HoldVerdict::HoldsUntilPushed)]
+#[case(-17.0, HoldVerdict::Moves)]
 fn a_block_on_an_incline_holds_up_to_the_angle_of_static_friction(
     #[case] angle: f64,
-    #[case] verdict: Verdict,
+    #[case] verdict: HoldVerdict,
 ) {
     let report = held_text(&incline(angle, 0.2, 0.3), &options("weight"));
     assert_eq!(report.verdict, verdict);
     assert_eq!(load(&report).self_locking, verdict.holds());
     let tangent = angle.to_radians().tan();
     assert_close(threshold(&report), tangent.abs(), 0.0, 1e-12);
-    assert_eq!(report.releases.len(), usize::from(verdict != Verdict::Holds));
+    assert_eq!(report.releases.len(), usize::from(verdict != HoldVerdict::Holds));
     for release in &report.releases {
         let found = release.coordinates[0].acceleration;
         // 20 N / 2 kg (sin - mu cos) down the slope
@@ -211,7 +211,7 @@ fn a_wedge_holds_up_to_twice_the_angle_of_friction(#[values(8.0, 20.0, 24.0, -24
     assert_close(floor, limit, 0.0, 1e-12);
     let held = limit <= 0.2;
     assert_eq!((report.holds, load(&report).self_locking), (held, held));
-    assert_eq!(report.verdict, if held { Verdict::Holds } else { Verdict::Moves });
+    assert_eq!(report.verdict, if held { HoldVerdict::Holds } else { HoldVerdict::Moves });
 }
 
 #[rstest]
@@ -239,7 +239,7 @@ fn a_drawer_jams_from_its_length_over_twice_the_offset_on(#[values("0 m", "0.1 m
     // Q / (1 + 2 mu a / L) to Q / (1 - 2 mu a / L)
     assert_range(load(&report).held[0], 20.0 / 1.45, 20.0 / 0.55, 1e-12);
     // Held at the handle the same efforts are a range.
-    let holding = HoldOptions { hold_drives: true, ..HoldOptions::default() };
+    let holding = HoldOptions::default().hold_drives(true);
     let report = held("drawer", &[("h", h)], &holding);
     let effort = report.at_rest.expect("it holds").reactions.drives[0].effort;
     assert_range(effort, 20.0 / 1.45, 20.0 / 0.55, 1e-12);
@@ -273,7 +273,7 @@ fn friction_of_the_paper_at_rest_is_indeterminate() {
     let weight = 9.81;
     let settings = [("F_20", "0 N"), ("mu_1", "0.3"), ("P", "0.05*m*g")];
     let report = held("klepp-2002", &settings, &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::Holds);
+    assert_eq!(report.verdict, HoldVerdict::Holds);
     let t = 80.0_f64.to_radians().tan();
     let least = 0.05 * 0.05 * t / (1.0 + 0.1 * t);
     let greatest = (0.15 + 0.3 * 0.025 * t) / (1.0 + 0.3 * t);
@@ -475,7 +475,7 @@ fn the_painleve_klein_apparatus_can_hold_and_slip() {
     // of the velocity begin a motion from rest.
     let settings = [("mu", "4"), ("P_1", "12 N")];
     let report = held("painleve-klein", &settings, &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::HoldsOrSlips);
+    assert_eq!(report.verdict, HoldVerdict::HoldsOrSlips);
     let mut expected = Vec::new();
     for direction in ["1", "-1"] {
         let settings = [&settings[..], &[("direction", direction)]].concat();
@@ -500,16 +500,16 @@ fn the_painleve_klein_apparatus_can_hold_and_slip() {
 fn a_guided_slider_that_would_tip_can_do_neither() {
     let text = include_str!("../../../../docs/src/examples/guided-tips.toml");
     let report = held_text(text, &HoldOptions::default());
-    assert_eq!((report.verdict, report.holds), (Verdict::Neither, false));
+    assert_eq!((report.verdict, report.holds), (HoldVerdict::Neither, false));
     let report = held_text(&text.replace("guided_slider", "block_slider"), &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::Moves);
+    assert_eq!(report.verdict, HoldVerdict::Moves);
 }
 
 #[test]
 fn a_load_comes_before_a_drive_of_the_same_name() {
     let text = slideway::gallery::find("drawer").expect("in the gallery").text;
     let text = text.replace("[drives.push]", "[drives.resistance]");
-    let holding = HoldOptions { hold_drives: true, ..options("resistance") };
+    let holding = options("resistance").hold_drives(true);
     let report = held_text(&text, &holding);
     assert_eq!((load(&report).unit, report.holds), ("", true));
     assert_eq!(report.holding_drives, ["resistance"]);
@@ -518,7 +518,7 @@ fn a_load_comes_before_a_drive_of_the_same_name() {
 #[test]
 fn sticking_and_slipping_joints_coexist() {
     let report = held("telescopic-boom", &[], &HoldOptions::default());
-    assert_eq!(report.verdict, Verdict::Moves);
+    assert_eq!(report.verdict, HoldVerdict::Moves);
     let slips: Vec<i8> = report.releases[0].joints.iter().map(|joint| joint.slip).collect();
     assert_eq!((report.releases.len(), slips), (1, vec![0, 0, 1]));
 }
@@ -526,8 +526,8 @@ fn sticking_and_slipping_joints_coexist() {
 #[rstest]
 #[case(options("Q"), "there is no load named `Q`")]
 #[case(options("spring"), "the load spring vanishes at rest, so no factor changes it")]
-#[case(HoldOptions { vary: Some("mu_9".to_owned()), ..options("P") }, "there is no parameter named `mu_9`")]
-#[case(HoldOptions { vary: Some("alpha".to_owned()), ..options("P") }, "`alpha` is not a parameter of static friction alone")]
+#[case(options("P").vary("mu_9"), "there is no parameter named `mu_9`")]
+#[case(options("P").vary("alpha"), "`alpha` is not a parameter of static friction alone")]
 fn faulty_questions_are_refused(#[case] options: HoldOptions, #[case] message: &str) {
     let model = model("klepp-2002").with(&parameters(&[("P", "1 N")])).expect("sound settings");
     let faults = hold(&model, &options).expect_err("refused");

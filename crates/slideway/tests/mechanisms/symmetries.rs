@@ -5,7 +5,7 @@ use crate::brute_force::Solved;
 use crate::drawing::{Drawing, Kind, SliderKind, Units, Vector, turned};
 use crate::random_mechanisms::{cases, mechanisms};
 use proptest::prelude::*;
-use slideway::report::{Report, Solution};
+use slideway::report::{Solution, SolveReport};
 
 /// What a name or a text becomes.
 type OfText<T> = Box<dyn Fn(&str) -> T>;
@@ -292,7 +292,7 @@ fn the_families_reach_every_kind_of_outcome() {
                 kinds.insert((format!("{:?}", slider.kind), slider.around, slider.block.is_none()));
             }
         }
-        let report: Option<Report> = Solved::new(drawing).map(|solved| solved.report);
+        let report: Option<SolveReport> = Solved::new(drawing).map(|solved| solved.report);
         rejected += usize::from(report.as_ref().is_some_and(|report| !report.rejected.is_empty()));
         *outcomes.entry(format!("{:?}", report.map(|report| report.status))).or_insert(0) += 1;
     }

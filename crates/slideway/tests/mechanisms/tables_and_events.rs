@@ -2,6 +2,7 @@
 
 use slideway::kinetics::KineticEquations;
 use slideway::model::{CrossingDirection, Model, Settings};
+use slideway::report::Proof;
 use slideway::{configuration::Configuration, mechanism::Mechanism, solve};
 
 /// A sledge of 2 kg without friction, beside tables, loads or events.
@@ -50,7 +51,7 @@ fn a_load_follows_its_table() {
     }
     // Bounds of the table hold, so that the list of solutions is proven.
     let report = solve::solve(&model.with(&Settings::default().time("0.3 s")).unwrap()).unwrap();
-    assert_eq!(report.complete, "proven");
+    assert_eq!(report.complete, Proof::Proven);
 }
 
 #[test]

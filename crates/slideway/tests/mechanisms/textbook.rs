@@ -5,7 +5,7 @@ use crate::answers::{
 };
 use rstest::rstest;
 use serde::Deserialize;
-use slideway::report::{Report, Status};
+use slideway::report::{SolveReport, Status};
 
 const REFERENCE: &str = include_str!("../../../../reference/textbook.toml");
 
@@ -64,12 +64,12 @@ fn reference() -> Reference {
 }
 
 #[track_caller]
-fn assert_one(report: &Report) {
+fn assert_one(report: &SolveReport) {
     assert_eq!((report.status, report.solutions.len()), (Status::One, 1));
 }
 
 #[track_caller]
-fn assert_none(report: &Report) {
+fn assert_none(report: &SolveReport) {
     assert_eq!((report.status, report.solutions.len()), (Status::None, 0));
     assert!(report.preload_gap_states.is_empty() && report.continua.is_empty());
 }
@@ -187,7 +187,7 @@ fn bracket_driven_down_needs_a_push_beyond_its_limit() {
 }
 
 /// The example with friction on its first contact only: a single friction-affected slider.
-fn single(mu: f64, preload: f64, direction: f64) -> Report {
+fn single(mu: f64, preload: f64, direction: f64) -> SolveReport {
     let [mu, preload, direction] = [mu, preload, direction].map(|value| value.to_string());
     let list = [("mu_1", mu.as_str()), ("mu_2", "0"), ("mu_3", "0"), ("F_20", "0"), ("F_10", &preload)];
     let settings = parameters(&list).parameter("direction", &direction);
@@ -232,7 +232,7 @@ fn single_slider_locks_at_one_over_eta() {
 }
 
 /// A sledge of mass m on an incline, its centre of mass at the height c above the middle of its base.
-fn sledge(slope: f64, mu: f64, c: f64, rate: f64) -> Report {
+fn sledge(slope: f64, mu: f64, c: f64, rate: f64) -> SolveReport {
     report_on(&format!(
         r#"
         gravity = 9.81
@@ -302,7 +302,7 @@ fn a_sledge_too_high_for_its_friction_jams() {
 }
 
 /// A follower on a wedge of slope theta, the wedge pushed by a drive at constant velocity.
-fn wedge(theta: f64, mu_face: f64, mu_floor: f64, mu_wall: f64) -> Report {
+fn wedge(theta: f64, mu_face: f64, mu_floor: f64, mu_wall: f64) -> SolveReport {
     report_on(&format!(
         r#"
         [points]

@@ -4,7 +4,7 @@ use crate::answers::{model, report, report_with};
 use slideway::fault::FaultKind;
 use slideway::gallery;
 use slideway::model::{Model, Settings};
-use slideway::report::{Persistence, Report, Uncertainty};
+use slideway::report::{Persistence, SolveReport, Uncertainty};
 use slideway::solve::solve;
 
 fn uncertainty(name: &str, list: &[(&str, &str)]) -> Uncertainty {
@@ -46,21 +46,21 @@ fn no_solution_at_any_value_is_missing() {
     ];
     for (name, ranges) in ranges {
         let as_ranges = ranges.iter().fold(Settings::default(), |settings, (parameter, from, to, unit)| {
-            settings.parameter(parameter, &format!("{from} {unit}..{to} {unit}"))
+            settings.parameter(parameter, format!("{from} {unit}..{to} {unit}"))
         });
         let whole = report_with(&model(name), &as_ranges).uncertainty.expect("ranges");
         for step in 0..40 {
             let at = |index: usize| (f64::from(step) * [0.754_877_666, 0.569_840_291][index]).fract();
             let values = ranges.iter().enumerate().fold(Settings::default(), |settings, (index, range)| {
                 let value = range.1 + (range.2 - range.1) * at(index);
-                settings.parameter(range.0, &format!("{value} {}", range.3))
+                settings.parameter(range.0, format!("{value} {}", range.3))
             });
             check_sample(&whole, &report_with(&model(name), &values));
         }
     }
 }
 
-fn check_sample(whole: &Uncertainty, sample: &Report) {
+fn check_sample(whole: &Uncertainty, sample: &SolveReport) {
     let solutions = sample.solutions.len();
     assert!(whole.least_solutions <= solutions && whole.most_solutions.is_none_or(|most| solutions <= most));
     for state in sample.solutions.iter().chain(&sample.preload_gap_states) {

@@ -10,11 +10,11 @@ mod loads;
 mod tables;
 
 use super::formula::{Allowed, Formula, Origin, Varies, expression_start};
-use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity, Written};
-use super::range::{Value, parse_value};
+use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity};
+use super::range::{Parsed, parse_value};
 use super::sections::{JointContents, Sections, sections};
 use super::structure::STAND_IN;
-use super::{Along, Gravity, Model, NamedPoint, Parameter};
+use super::{Along, Gravity, Model, NamedPoint, Parameter, Value};
 use crate::expression::{Dimension, Expression, ExpressionFault, Names, is_reserved, is_valid_name, parse};
 use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
@@ -238,17 +238,17 @@ impl<'t> Reader<'t> {
     ) -> FormulaId {
         let origin = self.origin(quantity);
         let parsed = match &quantity.written {
-            Written::Number(value) if value.is_finite() => {
+            Value::Number(value) if value.is_finite() => {
                 let written = self.text.get(quantity.span.clone()).unwrap_or_default();
                 Some((Expression::decimal(*value, written), None))
             }
-            Written::Number(_) => {
+            Value::Number(_) => {
                 self.fault(FaultKind::NotFinite { what: what.clone() }, &quantity.span);
                 None
             }
-            Written::Text(text) if self.mended && text == STAND_IN => None,
+            Value::Text(text) if self.mended && text == STAND_IN => None,
             // Only parameters have any dimension and no motion; they may have a range.
-            Written::Text(text) => match self.parse(text, dimension.is_none() && varies == Varies::Never) {
+            Value::Text(text) => match self.parse(text, dimension.is_none() && varies == Varies::Never) {
                 Ok(value) => Some(value),
                 Err(faults) => {
                     self.faults.extend(faults.into_iter().map(|fault| origin.fault(fault)));
@@ -262,7 +262,7 @@ impl<'t> Reader<'t> {
         self.push(Formula { expression, range, wanted: dimension, allowed, varies, broken, what, origin })
     }
 
-    fn parse(&self, text: &str, may_be_range: bool) -> Result<Value, Vec<ExpressionFault>> {
+    fn parse(&self, text: &str, may_be_range: bool) -> Result<Parsed, Vec<ExpressionFault>> {
         if may_be_range { parse_value(text, &self.names) } else { Ok((parse(text, &self.names)?, None)) }
     }
 

@@ -1,7 +1,8 @@
 //! Tables: functions given by values.
 
+use super::super::Value;
 use super::super::file::{BeyondName, Entry, TableTable};
-use super::super::quantity::{Quantity, Written};
+use super::super::quantity::Quantity;
 use super::super::sections::Sections;
 use super::{Origin, Reader, STAND_IN, Source, expression_start};
 use crate::expression::{
@@ -80,16 +81,16 @@ impl Reader<'_> {
 
     fn table_entry(&mut self, table: &str, key: &str, quantity: &Quantity) -> Option<(TableEntry, Inferred)> {
         let expression = match &quantity.written {
-            Written::Number(value) if value.is_finite() => {
+            Value::Number(value) if value.is_finite() => {
                 Expression::decimal(*value, self.text.get(quantity.span.clone()).unwrap_or_default())
             }
-            Written::Number(_) => {
+            Value::Number(_) => {
                 let what = format!("a value of tables.{table}.{key}");
                 self.fault(FaultKind::NotFinite { what }, &quantity.span);
                 return None;
             }
-            Written::Text(text) if self.mended && text == STAND_IN => return None,
-            Written::Text(text) => return self.constant_entry(text, quantity),
+            Value::Text(text) if self.mended && text == STAND_IN => return None,
+            Value::Text(text) => return self.constant_entry(text, quantity),
         };
         self.entry_of(&expression, quantity)
     }

@@ -4,6 +4,7 @@ use super::watch::Watched;
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
 use crate::modes::Side;
+use serde::Serialize;
 
 /// Why a phase ends, or what is told.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +68,45 @@ pub enum Cause {
     },
 }
 
+/// What an event tells of, in reports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum CauseKind {
+    /// The motion begins.
+    Start,
+    /// A normal force vanishes.
+    NormalForceZero,
+    /// A preload gap closes.
+    PreloadGapEnds,
+    /// A joint stops sliding.
+    Stops,
+    /// Sticking joints begin to slip.
+    Slips,
+    /// The mode locks.
+    Locks,
+    /// A normal force reaches its limit.
+    ReactionLimit,
+    /// A guided slider tips.
+    Tips,
+    /// A block leaves its guide.
+    OverlapVanishes,
+    /// A joint reaches a limit of its travel.
+    TravelLimit,
+    /// A joint hits its stop.
+    Hits,
+    /// A joint meets the pad of its stop.
+    MeetsPad,
+    /// A joint leaves the pad of its stop.
+    LeavesPad,
+    /// A load or drive jumps.
+    LoadJumps,
+    /// A function that is watched vanishes.
+    User,
+    /// It jams, and an impulse acts.
+    Jams,
+}
+
 impl Cause {
     /// The cause that a watched function is; none for relations, of which only jumps are told, and where it takes a decision to name it.
     pub(in crate::motion) fn of(
@@ -93,24 +133,24 @@ impl Cause {
     }
 
     /// Its name in reports.
-    pub fn kind(&self) -> &'static str {
+    pub fn kind(&self) -> CauseKind {
         match self {
-            Self::Start => "start",
-            Self::NormalForceZero(_) => "normal_force_zero",
-            Self::PreloadGapEnds(..) => "preload_gap_ends",
-            Self::Stops(_) => "stops",
-            Self::Slips => "slips",
-            Self::Locks => "locks",
-            Self::ReactionLimit(_) => "reaction_limit",
-            Self::Tips(_) => "tips",
-            Self::OverlapVanishes(_) => "overlap_vanishes",
-            Self::TravelLimit { .. } => "travel_limit",
-            Self::Hits { .. } => "hits",
-            Self::MeetsPad { .. } => "meets_pad",
-            Self::LeavesPad { .. } => "leaves_pad",
-            Self::LoadJumps(_) => "load_jumps",
-            Self::User(..) => "user",
-            Self::Jams { .. } => "jams",
+            Self::Start => CauseKind::Start,
+            Self::NormalForceZero(_) => CauseKind::NormalForceZero,
+            Self::PreloadGapEnds(..) => CauseKind::PreloadGapEnds,
+            Self::Stops(_) => CauseKind::Stops,
+            Self::Slips => CauseKind::Slips,
+            Self::Locks => CauseKind::Locks,
+            Self::ReactionLimit(_) => CauseKind::ReactionLimit,
+            Self::Tips(_) => CauseKind::Tips,
+            Self::OverlapVanishes(_) => CauseKind::OverlapVanishes,
+            Self::TravelLimit { .. } => CauseKind::TravelLimit,
+            Self::Hits { .. } => CauseKind::Hits,
+            Self::MeetsPad { .. } => CauseKind::MeetsPad,
+            Self::LeavesPad { .. } => CauseKind::LeavesPad,
+            Self::LoadJumps(_) => CauseKind::LoadJumps,
+            Self::User(..) => CauseKind::User,
+            Self::Jams { .. } => CauseKind::Jams,
         }
     }
 

@@ -101,8 +101,8 @@ fn all_gallery_models_at_random_states() {
                     if coordinate.kind.is_angle() { ("rad", 1.0) } else { ("m", mechanism.size) };
                 let value = coordinate.value + 0.05 * scale * numbers.next();
                 let rate = (coordinate.rate.abs() + 0.1 * scale) * numbers.next();
-                settings = settings.position(&coordinate.name, &format!("{value} {unit}"));
-                settings = settings.rate(&coordinate.name, &format!("{rate} {unit}/s"));
+                settings = settings.position(&coordinate.name, format!("{value} {unit}"));
+                settings = settings.rate(&coordinate.name, format!("{rate} {unit}/s"));
             }
             if let Ok(model) = model.with(&settings) {
                 compared += compare(gallery_model.name, &model);

@@ -160,7 +160,7 @@ fn both_say_when_nothing_follows() {
     ];
     for (name, coefficient, direction, around) in cases {
         let compare = |covered: &mut Covered, mu: f64| {
-            let settings = Settings::default().parameter(coefficient, &mu.to_string());
+            let settings = Settings::default().parameter(coefficient, mu.to_string());
             let settings = settings.parameter("direction", direction);
             let settings = if name == "klepp-2002" { settings.parameter("F_20", "0") } else { settings };
             let mechanism = Mechanism::new(&model_of(name).with(&settings).unwrap()).unwrap();

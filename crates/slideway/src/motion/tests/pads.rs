@@ -124,7 +124,7 @@ fn a_block_rests_inside_a_preloaded_pad() {
     // `hold` knows the pad: between 9.6 and 10.4 mm friction holds, beyond it moves.
     for (depth, holds) in [(0.0097, true), (0.0103, true), (0.0095, false), (0.0105, false)] {
         let model = Model::parse(&text).unwrap();
-        let settings = Settings::default().position("x", &format!("{} m", 1.0 + depth));
+        let settings = Settings::default().position("x", format!("{} m", 1.0 + depth));
         let report = hold(&model.with(&settings).unwrap(), &HoldOptions::default()).unwrap();
         assert_eq!(report.holds, holds, "{depth}");
     }
@@ -336,7 +336,7 @@ fn limits_know_where_a_pad_tips_a_block() {
             .replace("points = [\"C\"]", "points = [\"C\", \"W\"]")
     };
     let changes = |model: &Model, vary: &str| {
-        let options = LimitsOptions { effort: 0, ..LimitsOptions::of(vary) };
+        let options = LimitsOptions::new(vary.parse().unwrap()).effort(0);
         let report = limits(model, &options).unwrap();
         let counts: Vec<usize> = report.counts.iter().map(|count| count.solutions).collect();
         assert_eq!(counts, [1], "{vary}");

@@ -2,7 +2,7 @@
 
 use super::models::{self, block};
 use super::{both, model_of, run};
-use crate::limits::{LimitsOptions, limits};
+use crate::limits::{LimitsOptions, Vary, limits};
 use crate::model::{Model, Settings};
 use crate::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
 
@@ -182,7 +182,7 @@ at = \"block.C\"
 components = [\"4 N/s * t - 3 N\", 0]
 ";
     for longest in [0.3, 0.31, 0.33, 0.35, 0.37] {
-        let options = SimulateOptions { longest_step: Some(longest), ..SimulateOptions::new(3.0) };
+        let options = SimulateOptions::new(3.0).longest_step(longest);
         let history = run(&block("0.05", "rate = 0.9996", force), &options);
         assert_eq!(joints(&history), [[SLIDES], [STICKS], [SLIDES]], "{longest}");
         for (event, time) in history.events[1..].iter().zip([0.98, 1.0]) {
@@ -199,7 +199,7 @@ fn changes_of_mode_are_where_the_limits_are() {
     let text = crate::gallery::find("klepp-2002").unwrap().text;
     let text = text.replacen("at = \"bar.S\"\ncomponents", "at = \"bar.A\"\ncomponents", 1);
     let still = Model::parse(&text).unwrap().with(&settings).unwrap();
-    let report = limits(&still, &LimitsOptions { effort: 0, ..LimitsOptions::of("P=0 N..40 N") }).unwrap();
+    let report = limits(&still, &LimitsOptions::new(Vary::between("P", "0 N", "40 N")).effort(0)).unwrap();
     let mut ends: Vec<f64> =
         report.modes.iter().filter_map(|mode| mode.to).filter(|end| *end < 40.0).collect();
     ends.sort_by(f64::total_cmp);

@@ -3,14 +3,14 @@
 use super::series::Series;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
-use crate::motion::moving::cause::Cause;
+use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, NOTHING};
 use crate::motion::record::history::{End, Energy, History, PhaseInterval};
 use crate::pattern::phase::JointPhase;
 use crate::report::number::number;
-use crate::report::{CoordinateState, ModelSummary, Verdict, indented_json};
+use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
 
 /// Version of the layout of a [`SimulateReport`]; changes whenever a field is renamed or removed.
@@ -88,9 +88,8 @@ pub struct EventReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CauseReport {
-    /// `start`, `normal_force_zero`, `preload_gap_ends`, `stops`, `slips`, `locks`, `reaction_limit`, `tips`,
-    /// `overlap_vanishes`, `travel_limit`, `hits`, `meets_pad`, `leaves_pad`, `load_jumps`, `user`, `jams`.
-    pub kind: &'static str,
+    /// What it was.
+    pub kind: CauseKind,
     /// The joint, contact or function.
     pub of: Option<String>,
 }
@@ -125,13 +124,49 @@ pub struct PhaseReport {
     pub sliding: Vec<i8>,
 }
 
+/// Why a motion ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum EndKind {
+    /// The time is over.
+    Finished,
+    /// A joint reaches a limit of its travel.
+    TravelLimit,
+    /// A block leaves its guide.
+    OverlapVanished,
+    /// A normal force has reached its limit.
+    ReactionLimit,
+    /// An event that stops it.
+    UserEvent,
+    /// The branch that was wanted does not exist.
+    NoSuchBranch,
+    /// A guided slider tips.
+    Tips,
+    /// At rest neither sticking nor sliding is possible.
+    NoContinuation,
+    /// It jams, and no impulse leads to a state in which it can go on.
+    Jammed,
+    /// Events come closer and closer together.
+    Accumulation,
+    /// As many steps as were permitted.
+    StepLimit,
+    /// As many events as were permitted.
+    EventLimit,
+    /// A load or drive has no value.
+    NoValue,
+    /// What follows cannot be decided.
+    Undecided,
+    /// It was interrupted.
+    Interrupted,
+}
+
 /// How a motion ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EndReport {
-    /// `finished`, `travel_limit`, `overlap_vanished`, `reaction_limit`, `user_event`, `no_such_branch`, `tips`, `no_continuation`, `jammed`,
-    /// `accumulation`, `step_limit`, `event_limit`, `no_value`, `undecided`, `interrupted`.
-    pub kind: &'static str,
+    /// Why it ends.
+    pub kind: EndKind,
     /// In words.
     pub words: String,
     /// Whether the mechanism cannot move on: friction locks it.
@@ -196,11 +231,6 @@ pub struct SampledReport {
     pub time: f64,
     /// The longest of the steps (s).
     pub longest_step: f64,
-}
-
-/// The report as indented JSON, ending in a line end; its version is in `schema`.
-pub fn to_json(report: &SimulateReport) -> String {
-    indented_json(report)
 }
 
 /// What is told of a motion that was simulated with these options.
@@ -358,74 +388,75 @@ fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
 }
 
 /// The name of the end in reports, and a sentence.
-fn end_in_words(history: &History, options: &SimulateOptions) -> (&'static str, String) {
+fn end_in_words(history: &History, options: &SimulateOptions) -> (EndKind, String) {
     let mechanism = &history.mechanism;
     let time = number(history.stop());
     let joint = |joint: &crate::ids::JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
-        End::Finished => ("finished", finished(history, &time)),
+        End::Finished => (EndKind::Finished, finished(history, &time)),
         End::TravelLimit(id) => (
-            "travel_limit",
+            EndKind::TravelLimit,
             format!("It ends at {time} s, where {} reaches a limit of its travel.", joint(id)),
         ),
         End::OverlapVanished(id) => {
-            ("overlap_vanished", format!("It ends at {time} s, where {} leaves its guide.", joint(id)))
+            (EndKind::OverlapVanished, format!("It ends at {time} s, where {} leaves its guide.", joint(id)))
         }
         End::ReactionLimit(id) => {
             let contact = &mechanism.contacts[id.index()].name;
             let words = format!(
                 "It ends at {time} s: the normal force of {contact} has reached its limit, so the mechanism counts as locked."
             );
-            ("reaction_limit", words)
+            (EndKind::ReactionLimit, words)
         }
         End::UserEvent(_) => (
-            "user_event",
+            EndKind::UserEvent,
             format!("It ends at {time} s, at an event that stops it: {}.", last_words(history)),
         ),
         End::NoSuchBranch { branching } => (
-            "no_such_branch",
+            EndKind::NoSuchBranch,
             format!(
                 "It ends at {time} s: the branch requested at decision {branching} does not exist there."
             ),
         ),
         End::Tips(id) => (
-            "tips",
+            EndKind::Tips,
             format!(
                 "It ends at {time} s: {} tips in its guide, which a guided slider cannot represent.",
                 joint(id)
             ),
         ),
         End::NoContinuation => (
-            "no_continuation",
+            EndKind::NoContinuation,
             format!("It ends at {time} s: at rest neither sticking nor sliding is possible."),
         ),
         End::Jammed => {
             let words = format!(
                 "It ends at {time} s: it jams, and no impulse leads to a state in which it can continue."
             );
-            ("jammed", words)
+            (EndKind::Jammed, words)
         }
         End::Accumulation => {
             let words = format!("It ends at {time} s, where events come closer and closer together.");
-            ("accumulation", words)
+            (EndKind::Accumulation, words)
         }
         End::StepLimit => {
             let words = format!(
                 "It ends at {time} s, after the {} steps that were permitted: the equations are stiff there, or the tolerance is small.",
                 options.most_steps
             );
-            ("step_limit", words)
+            (EndKind::StepLimit, words)
         }
         End::EventLimit => {
             let words =
                 format!("It ends at {time} s, after the {} events that were permitted.", options.most_events);
-            ("event_limit", words)
+            (EndKind::EventLimit, words)
         }
-        End::NoValue(faults) => ("no_value", format!("It ends at {time} s: {}.", first(faults))),
-        End::Undecided(faults) => {
-            ("undecided", format!("It ends at {time} s: what follows cannot be decided: {}.", first(faults)))
-        }
-        End::Interrupted => ("interrupted", format!("It was interrupted at {time} s.")),
+        End::NoValue(faults) => (EndKind::NoValue, format!("It ends at {time} s: {}.", first(faults))),
+        End::Undecided(faults) => (
+            EndKind::Undecided,
+            format!("It ends at {time} s: what follows cannot be decided: {}.", first(faults)),
+        ),
+        End::Interrupted => (EndKind::Interrupted, format!("It was interrupted at {time} s.")),
     }
 }
 

@@ -5,7 +5,7 @@ use super::tree::TreeReport;
 use crate::report::number::{against, number, precise};
 use crate::report::page::Page;
 use crate::report::table::table;
-use crate::report::{Style, Verdict, count, followed, spaced};
+use crate::report::{Report, Style, Verdict, count, followed, spaced};
 
 /// Energies below this part of the greatest are rounding.
 const LITTLE: f64 = 1e-13;
@@ -14,10 +14,18 @@ const FIRST: usize = 40;
 /// ... and so many from the end.
 const LAST: usize = 10;
 
-/// The report as text: the start, the events, the end, the energies. Of a long log the beginning and the end are told,
-/// or everything with `all_events`.
-pub fn to_text(report: &SimulateReport, style: Style, all_events: bool) -> String {
-    page(report, style, all_events).text()
+/// The start, the events, the end, the energies. Of a long log the beginning and the end are told.
+impl Report for SimulateReport {
+    fn text(&self, style: Style) -> String {
+        page(self, style, false).text()
+    }
+}
+
+impl SimulateReport {
+    /// As text for people, with all events of a long log.
+    pub fn text_with_all_events(&self, style: Style) -> String {
+        page(self, style, true).text()
+    }
 }
 
 fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, SimulateReport> {
@@ -33,8 +41,21 @@ fn page(report: &SimulateReport, style: Style, all_events: bool) -> Page<'_, Sim
     text
 }
 
-/// All motions as text: how each of them ends, then their logs.
-pub fn tree_to_text(report: &TreeReport, style: Style, all_events: bool) -> String {
+/// How each of the motions ends, then their logs.
+impl Report for TreeReport {
+    fn text(&self, style: Style) -> String {
+        all_motions(self, style, false)
+    }
+}
+
+impl TreeReport {
+    /// As text for people, with all events of long logs.
+    pub fn text_with_all_events(&self, style: Style) -> String {
+        all_motions(self, style, true)
+    }
+}
+
+fn all_motions(report: &TreeReport, style: Style, all_events: bool) -> String {
     let mut text = Page::new(report, style);
     let number = count(report.histories.len(), "motion", "motions");
     let completeness = if report.complete { "these are all" } else { "there are more" };

@@ -11,7 +11,6 @@ use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::Event;
 use crate::motion::record::history::History;
 use crate::progress::{Callback, Progress};
-use crate::report::indented_json;
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -38,6 +37,7 @@ pub struct Branching {
 
 /// All motions, told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TreeReport {
     /// Version of this layout.
     pub schema: &'static str,
@@ -49,6 +49,7 @@ pub struct TreeReport {
 
 /// A motion, told.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BranchingReport {
     /// At each event with several possible phases the number of the one that is taken, counted from 1.
     pub branches: Vec<usize>,
@@ -118,9 +119,4 @@ pub fn tree_report(tree: &Tree, options: &SimulateOptions) -> TreeReport {
         complete: tree.complete,
         histories: tree.histories.iter().map(one).collect(),
     }
-}
-
-/// The report as indented JSON, ending in a line end; its version is in `schema`.
-pub fn tree_to_json(report: &TreeReport) -> String {
-    indented_json(report)
 }

@@ -1,0 +1,17 @@
+//! The texts of a run beside what is wrong with them.
+
+use slideway::fault::Faults;
+use slideway::model::Settings;
+
+/// Texts in which faults have their places, and the faults.
+#[derive(Debug)]
+pub(crate) struct FaultyInput {
+    /// Name of the model file, for messages.
+    pub(crate) name: String,
+    /// The text of the model.
+    pub(crate) text: String,
+    /// What the command line changes in it.
+    pub(crate) settings: Settings,
+    /// What is wrong.
+    pub(crate) faults: Faults,
+}

@@ -1,0 +1,68 @@
+//! What is varied, over which range, and what is found there.
+
+use super::answer::{self, Naming};
+use super::find::find;
+use super::found::ModesFound;
+use super::options::LimitsOptions;
+use super::report::LimitsReport;
+use super::varied::{ShownIn, Varied};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::model::Model;
+use crate::progress::Work;
+
+/// Without a range the factor of all coefficients of friction is varied from 0 to this.
+const USUAL_FACTOR: f64 = 10.0;
+/// Without a range a coefficient of friction is varied from 0 to twice its value, but at least to this.
+const USUAL_FRICTION: f64 = 1.0;
+
+/// What is varied, over which range, and the modes of both directions.
+pub(super) struct Analysis {
+    pub(super) varied: Varied,
+    pub(super) range: [f64; 2],
+    pub(super) shown_in: ShownIn,
+    pub(super) found: ModesFound,
+    pub(super) reversed: Option<(Varied, ModesFound)>,
+}
+
+impl Analysis {
+    pub(super) fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
+        let vary = &options.vary;
+        let varied = Varied::new(model, &vary.name)?;
+        let shown_in = vary.shown_in(&varied);
+        let range = vary.ends(&varied, || usual_range(model, &varied))?;
+        let directions = 1 + usize::from(options.both_directions);
+        let find = |varied: &Varied, part: usize| {
+            let work = work.part(part, directions);
+            find(varied, range, options.max_reaction, options.effort, work)
+        };
+        let found = find(&varied, 0)?;
+        let reversed = if options.both_directions {
+            let varied = Varied::new(&model.reversed(), &vary.name)?;
+            let found = find(&varied, 1)?;
+            Some((varied, found))
+        } else {
+            None
+        };
+        Ok(Self { varied, range, shown_in, found, reversed })
+    }
+
+    pub(super) fn report(&self, naming: &Naming) -> LimitsReport {
+        let reversed = self.reversed.as_ref().map(|(_, found)| found);
+        answer::report(naming, &self.varied, self.range, (&self.found, reversed))
+    }
+}
+
+/// The range of a coefficient of friction, or of their factor; whatever else is varied needs one.
+fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
+    if varied.is_friction_factor() {
+        Ok([0.0, USUAL_FACTOR])
+    } else if model.is_friction_coefficient(&varied.name) {
+        Ok([0.0, (2.0 * varied.present()?).max(USUAL_FRICTION)])
+    } else {
+        Err(fault(FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() }))
+    }
+}
+
+fn fault(kind: FaultKind) -> Faults {
+    Fault::general(kind).into()
+}

@@ -1,0 +1,192 @@
+//! From what was found to what is told.
+
+use super::conclusion::conclusion;
+use super::found::{Elsewhere, Knowledge, Method, ModesFound};
+use super::guarantee::guarantee;
+use super::report::{
+    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
+    SCHEMA, VariedQuantity,
+};
+use super::varied::Varied;
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::JointId;
+use crate::mechanism::{JointKind, Mechanism, Slider};
+use crate::model::Model;
+use crate::modes::ContactState;
+use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
+use crate::report::{JointMode, locked};
+use crate::solve::{mode_in_words, pattern, signs};
+
+impl VariedQuantity {
+    pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
+        Self { name: varied.name.clone(), unit: varied.unit(), from, to, value }
+    }
+}
+
+impl RangeWithoutProblem {
+    pub(crate) fn of(found: &ModesFound) -> Vec<Self> {
+        let range = |gap: &super::found::Gap| Self { from: gap.from, to: gap.to, reason: gap.reason() };
+        found.gaps.iter().map(range).collect()
+    }
+}
+
+/// The names of a mechanism's parts, and how its guides lie.
+pub(crate) struct Naming {
+    pub(super) mechanism: Mechanism,
+    configuration: Configuration,
+}
+
+impl Naming {
+    /// # Errors
+    /// A model that cannot be assembled in its state.
+    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
+        let mechanism = Mechanism::new(model)?;
+        let configuration = Configuration::new(&mechanism)?;
+        Ok(Self { mechanism, configuration })
+    }
+
+    fn joint_modes(&self, signs: &[i8]) -> Vec<JointMode> {
+        let one = |(_, name, slider): (JointId, &str, &Slider)| {
+            let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
+            let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
+            JointMode { name: name.to_owned(), mode: mode_in_words(slider, tangent, &signs) }
+        };
+        self.sliders().map(one).collect()
+    }
+
+    /// The contact modes of all joints in a pattern, in words.
+    pub(crate) fn in_words(&self, pattern: &str) -> String {
+        let sign = |sign: char| match sign {
+            '+' => 1,
+            '-' => -1,
+            _ => 0,
+        };
+        let signs: Vec<i8> = pattern.chars().map(sign).collect();
+        let words =
+            self.joint_modes(&signs).into_iter().map(|joint| format!("{} {}", joint.name, joint.mode));
+        words.collect::<Vec<_>>().join("; ")
+    }
+
+    fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
+        self.mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
+            JointKind::Slider(slider) => Some((JointId(index), &*joint.name, slider)),
+            JointKind::Hinge(_) => None,
+        })
+    }
+
+    fn contacts(&self, contacts: &[usize]) -> Vec<String> {
+        contacts.iter().map(|&k| self.mechanism.contacts[k].name.to_string()).collect()
+    }
+
+    /// The guided sliders with these bounds, which are numbered in the order of the joints.
+    fn guided(&self, bounds: &[usize]) -> Vec<String> {
+        let guided = self.sliders().filter(|(_, _, slider)| slider.kind == crate::model::SliderKind::Guided);
+        let names: Vec<&str> = guided.map(|(_, name, _)| name).collect();
+        bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
+    }
+
+    fn mode(&self, mode: &ModeInterval) -> ModeLimits {
+        let signs = signs(&mode.pattern);
+        let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
+            let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
+            EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }
+        };
+        ModeLimits {
+            pattern: pattern(&mode.pattern),
+            preload_gap: mode.pattern.contains(&ContactState::Gap),
+            joints: self.joint_modes(&signs),
+            signs,
+            from: finite(mode.from.at),
+            to: finite(mode.to.at),
+            from_is: (&mode.from.cause).into(),
+            to_is: (&mode.to.cause).into(),
+            from_at: self.ends_at(&mode.from.cause),
+            to_at: self.ends_at(&mode.to.cause),
+            reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
+        }
+    }
+
+    /// The contacts or guided sliders at which a mode ends.
+    fn ends_at(&self, cause: &EndCause) -> Vec<String> {
+        match cause {
+            EndCause::SideChange(contacts)
+            | EndCause::GapCloses(contacts)
+            | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
+            EndCause::OutputBound(bounds) => self.guided(bounds),
+            EndCause::Range | EndCause::Locking | EndCause::Reversal | EndCause::NoProblem => Vec::new(),
+        }
+    }
+
+    fn direction(&self, found: &ModesFound) -> Direction {
+        let count = |(interval, known): (&CountInterval, &Knowledge)| CountLimits {
+            from: interval.from,
+            to: interval.to,
+            solutions: interval.solutions,
+            preload_gap_states: interval.gap_states,
+            known: match known.elsewhere {
+                Elsewhere::Nothing => Known::Proven,
+                Elsewhere::ClosedForm => Known::ClosedForm,
+                Elsewhere::Sampled(_) => Known::Sampled,
+                Elsewhere::Contradicted => Known::Undecided,
+            },
+            proven: known.proven.clone(),
+            spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
+        };
+        Direction {
+            modes: found.existence.modes.iter().map(|mode| self.mode(mode)).collect(),
+            counts: found.counts.iter().zip(&found.known).map(count).collect(),
+            without_mode_problem: RangeWithoutProblem::of(found),
+            between_faces_at: found.between_faces.values().to_vec(),
+        }
+    }
+}
+
+/// The report on both directions, of which the opposite one may be absent.
+pub(super) fn report(
+    naming: &Naming,
+    varied: &Varied,
+    range: [f64; 2],
+    (found, reversed): (&ModesFound, Option<&ModesFound>),
+) -> LimitsReport {
+    let forwards = naming.direction(found);
+    let reversed = reversed.map(|found| naming.direction(found));
+    let locked = locked(varied.model().has_guided_sliders());
+    let conclusion = conclusion((&varied.name, found.method), locked, &forwards, reversed.as_ref());
+    let value = varied.present().unwrap_or_default();
+    let mut guarantee = guarantee(found);
+    if varied.is_coordinate() {
+        guarantee += " Each position was followed from the drawing by steps that are proven to stay on its assembly branch.";
+    }
+    LimitsReport {
+        schema: SCHEMA,
+        title: naming.mechanism.title.clone(),
+        vary: VariedQuantity::new(varied, range, value),
+        steps_from_drawing: naming.configuration.steps_from_drawing().filter(|_| !varied.is_coordinate()),
+        method: match found.method {
+            Method::ClosedForm => LimitsMethod::ClosedForm,
+            Method::Same { .. } => LimitsMethod::Independent,
+            Method::Bracketing => LimitsMethod::Bracketing,
+        },
+        guarantee,
+        modes: forwards.modes,
+        counts: forwards.counts,
+        without_mode_problem: forwards.without_mode_problem,
+        between_faces_at: forwards.between_faces_at,
+        reversed,
+        conclusion,
+    }
+}
+
+fn limit(end: &ModeEnd, contact: usize) -> (Option<f64>, i8) {
+    match end.normal_force.as_ref().and_then(|force| force.get(contact)) {
+        // Adding zero turns -0 into 0.
+        Some(Limit::Finite(value)) => (finite(value + 0.0), 0),
+        Some(Limit::Infinite(sign)) => (None, if *sign > 0.0 { 1 } else { -1 }),
+        None => (None, 0),
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}

@@ -1,0 +1,61 @@
+//! What ends a mode.
+
+use serde::Serialize;
+use slideway_modes::existence::EndCause;
+
+/// What ends a mode where something is varied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum ModeEndCause {
+    /// Nothing: it lasts however much friction grows.
+    Nothing,
+    /// The range that was looked at.
+    Range,
+    /// Its determinant vanishes: normal forces grow without bound.
+    Locking,
+    /// A normal force vanishes: a contact changes side.
+    SideChange,
+    /// A preload gap closes.
+    GapCloses,
+    /// A guided slider tips.
+    Tipping,
+    /// A normal force reaches the greatest one that is allowed.
+    GreatestReaction,
+    /// Sliding reverses.
+    Reversal,
+    /// Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the model is not allowed.
+    NoModeProblem,
+}
+
+impl ModeEndCause {
+    /// Its name in words, as "side change".
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Range => "range",
+            Self::Locking => "locking",
+            Self::SideChange => "side change",
+            Self::GapCloses => "gap closes",
+            Self::Tipping => "tipping",
+            Self::GreatestReaction => "greatest reaction",
+            Self::Reversal => "reversal",
+            Self::NoModeProblem => "no mode problem",
+        }
+    }
+}
+
+impl From<&EndCause> for ModeEndCause {
+    fn from(cause: &EndCause) -> Self {
+        match cause {
+            EndCause::Range => Self::Range,
+            EndCause::Locking => Self::Locking,
+            EndCause::SideChange(_) => Self::SideChange,
+            EndCause::GapCloses(_) => Self::GapCloses,
+            EndCause::OutputBound(_) => Self::Tipping,
+            EndCause::GreatestNormalForce(_) => Self::GreatestReaction,
+            EndCause::Reversal => Self::Reversal,
+            EndCause::NoProblem => Self::NoModeProblem,
+        }
+    }
+}
