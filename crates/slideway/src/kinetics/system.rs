@@ -88,10 +88,16 @@ impl Factorization {
                 .for_each(|(side, known)| *known = *side);
         }
         let first = self.solve_once(&known, count);
+        let mut sums = vec![0.0; size * count];
         let entries = self.matrix.as_slice().chunks_exact(size.max(1));
-        for (entries, unknown) in entries.zip(first.chunks_exact(count.max(1))) {
-            subtract_rows(entries, unknown, &mut known);
+        for (entries, unknowns) in entries.zip(first.chunks_exact(count.max(1))) {
+            for (entry, sums) in entries.iter().zip(sums.chunks_exact_mut(count.max(1))) {
+                if *entry != 0.0 {
+                    sums.iter_mut().zip(unknowns).for_each(|(sum, unknown)| *sum += entry * unknown);
+                }
+            }
         }
+        known.iter_mut().zip(&sums).for_each(|(known, sum)| *known -= sum);
         let more = self.solve_once(&known, count);
         let solution = |place: usize| {
             DVector::from_fn(size, |row, _| first[row * count + place] + more[row * count + place])

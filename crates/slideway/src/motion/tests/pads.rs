@@ -364,7 +364,7 @@ fn limits_know_where_a_pad_tips_a_block() {
 fn hold_knows_by_which_factor_a_pad_is_held() {
     let text = with_stop(&block("0.1", "", ""), "{ greatest = { stiffness = 5000, damping = 10 } }");
     for (depth, factor) in [(5e-4, 0.8), (2e-4, 2.0)] {
-        let settings = Settings::default().position("x", &format!("{} m", 1.0 + depth));
+        let settings = Settings::default().position("x", format!("{} m", 1.0 + depth));
         let model = Model::parse(&text).unwrap().with(&settings).unwrap();
         let options = HoldOptions { load: Some("guide.greatest_pad".to_owned()), ..HoldOptions::default() };
         let report = hold(&model, &options).unwrap();
