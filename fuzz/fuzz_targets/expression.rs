@@ -1,4 +1,5 @@
-//! Any text as an expression: no panic in reading, in its dimension and in its value; places of faults lie in the text.
+//! Any text as an expression: no panic in reading, in its dimension and in its value; places of faults lie in
+//! the text.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

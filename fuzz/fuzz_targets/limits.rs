@@ -1,4 +1,5 @@
-//! Any text as what is varied and its range, in a model of the gallery: no panic, and no number that is not finite.
+//! Any text as what is varied and its range, in a model of the gallery: no panic, and no number that is not
+//! finite.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

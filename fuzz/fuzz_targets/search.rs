@@ -1,4 +1,5 @@
-//! Small mode problems: no panic, and what the search calls proven is what exact decisions of every pattern say.
+//! Small mode problems: no panic, and what the search calls proven is what exact decisions of every pattern
+//! say.
 #![no_main]
 
 use std::ops::ControlFlow;

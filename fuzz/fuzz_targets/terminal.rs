@@ -1,4 +1,5 @@
-//! Any text as a title, a model or a raw problem: what is told of it acts neither on a terminal nor in a picture or a page.
+//! Any text as a title, a model or a raw problem: what is told of it acts neither on a terminal nor in a
+//! picture or a page.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

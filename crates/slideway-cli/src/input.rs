@@ -72,7 +72,8 @@ impl Input {
         Failure::Input(Box::new(FaultyInput { name: self.name.clone(), text: self.text(), settings, faults }))
     }
 
-    /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in place.
+    /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in
+    /// place.
     pub(crate) fn text(&self) -> String {
         String::from_utf8_lossy(&self.bytes).into_owned()
     }

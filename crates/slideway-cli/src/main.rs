@@ -58,8 +58,8 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
 
 /// Says what is wrong with the arguments, or the help or version that they ask for, and ends the program.
 ///
-/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so that
-/// whatever is still in it comes from the arguments.
+/// A complaint quotes arguments as they are. If one of them is not printable, it is told without colours, so
+/// that whatever is still in it comes from the arguments.
 fn explain(error: &clap::Error) -> ! {
     let is_printable =
         |word: std::ffi::OsString| matches!(printable::line(&word.to_string_lossy()), Cow::Borrowed(_));

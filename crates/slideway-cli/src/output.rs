@@ -1,4 +1,5 @@
-//! Where answers and complaints go: standard output, a file that is written whole or not at all, standard error.
+//! Where answers and complaints go: standard output, a file that is written whole or not at all, standard
+//! error.
 
 use crate::arguments::{CheckFormat, Destination};
 use crate::failure::Failure;
@@ -31,8 +32,8 @@ impl Output {
     /// Where the arguments want it, which is not where `input` is read from.
     ///
     /// # Errors
-    /// If it would take the place of the input, or the file exists and must not be overwritten: better said before the work than
-    /// after it.
+    /// If it would take the place of the input, or the file exists and must not be overwritten: better said
+    /// before the work than after it.
     pub(crate) fn to(&self, destination: &Destination, input: Option<&Path>) -> Result<Self, Failure> {
         if let (Some(input), Some(file)) = (input, destination.file())
             && takes_the_place_of(&file, input)
@@ -58,7 +59,8 @@ impl Output {
         self.file.as_ref().map(|file| followed(&file.path))
     }
 
-    /// From now on it goes beside the file, to `FILE.partial`, unless it goes to a device or a pipe; gives that path.
+    /// From now on it goes beside the file, to `FILE.partial`, unless it goes to a device or a pipe; gives
+    /// that path.
     pub(crate) fn be_partial(&mut self) -> Option<PathBuf> {
         let file = self.file.as_mut().filter(|file| !file.path.exists() || is_regular(&file.path))?;
         *file = OutputFile { path: beside(&followed(&file.path), PARTIAL), overwrite: true };
@@ -148,7 +150,8 @@ impl Output {
 }
 
 impl OutputFile {
-    /// Through a temporary file in the same directory that is renamed; devices and pipes are written directly.
+    /// Through a temporary file in the same directory that is renamed; devices and pipes are written
+    /// directly.
     fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         let failure = |error| Failure::CannotWrite { path: self.path.clone(), error };
         if self.path.exists() && !is_regular(&self.path) {

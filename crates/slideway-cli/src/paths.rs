@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The file that is meant by a path, whether it exists or not: the same one however the path is spelt. Links are followed, also
-/// those to what does not exist yet.
+/// The file that is meant by a path, whether it exists or not: the same one however the path is spelt. Links
+/// are followed, also those to what does not exist yet.
 pub(crate) fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     // As many links as systems follow at most; those in a circle are left to the system to complain about.

@@ -58,7 +58,8 @@ impl Picture {
         self.write_scaled(svg, SHARPNESS, output)
     }
 
-    /// Writes a picture that was made as SVG, with so many pixels for each of its units if it is to have pixels.
+    /// Writes a picture that was made as SVG, with so many pixels for each of its units if it is to have
+    /// pixels.
     ///
     /// # Errors
     /// As [`Picture::write`].
@@ -76,7 +77,8 @@ impl Picture {
     }
 }
 
-/// The format and the file of a plot beside an answer, if there is to be one; the file is in order before the work begins.
+/// The format and the file of a plot beside an answer, if there is to be one; the file is in order before the
+/// work begins.
 ///
 /// # Errors
 /// If the file exists, is the model, is that of the answer, or has an ending that names no format.

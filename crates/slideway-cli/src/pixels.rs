@@ -35,7 +35,8 @@ mod with_pixels {
         raster::png(svg, scale).map_err(|fault| Failure::Picture { reason: fault.to_string() })
     }
 
-    /// A moving picture as GIF. What was simulated until the time was up is shown whole, unless someone interrupts.
+    /// A moving picture as GIF. What was simulated until the time was up is shown whole, unless someone
+    /// interrupts.
     ///
     /// # Errors
     /// If it was interrupted, or would stand for too long.

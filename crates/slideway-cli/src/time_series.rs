@@ -51,7 +51,8 @@ impl SeriesFormat {
     }
 }
 
-/// A line of names with units, then a line for each time; what is not defined is left empty. The mode is the last column.
+/// A line of names with units, then a line for each time; what is not defined is left empty. The mode is the
+/// last column.
 pub(crate) fn to_csv(series: &Series) -> String {
     let mut text = String::new();
     for column in &series.columns {
@@ -97,8 +98,8 @@ pub(crate) fn to_parquet(series: &Series, metadata: &Metadata) -> io::Result<Vec
     Ok(bytes)
 }
 
-/// One array for each column, NaN where a quantity is not defined; `mode`, `units` in the order of the columns, and what the
-/// archive tells of itself.
+/// One array for each column, NaN where a quantity is not defined; `mode`, `units` in the order of the
+/// columns, and what the archive tells of itself.
 pub(crate) fn to_npz(series: &Series, metadata: &Metadata) -> Vec<u8> {
     let numbers = series.columns.iter().map(|column| {
         let values = column.values.iter().map(|value| value.unwrap_or(f64::NAN));

@@ -10,14 +10,15 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Commands whose examples need nothing but the models: those of `modes` read problems of the user's, those of `completions` write
-/// to the home directory.
+/// Commands whose examples need nothing but the models: those of `modes` read problems of the user's, those
+/// of `completions` write to the home directory.
 const COMMANDS: [&str; 12] = [
     "check", "draw", "drive", "hold", "limits", "map", "models", "report", "simulate", "size", "solve",
     "sweep",
 ];
 
-/// The examples of a help: lines behind the title, with what is broken off joined and without the words behind them.
+/// The examples of a help: lines behind the title, with what is broken off joined and without the words
+/// behind them.
 fn examples(help: &str) -> Vec<String> {
     let mut examples: Vec<String> = Vec::new();
     for line in

@@ -150,7 +150,8 @@ fn a_drive_and_a_load_of_the_same_name() {
                 (&report["load"]["unit"], &report["load"]["factor"]),
                 (&Value::from(""), &Value::from(1.0))
             ),
-            // Without the drive nothing but the resistance acts at rest, through the middle: no friction holds it.
+            // Without the drive nothing but the resistance acts at rest, through the middle: no friction
+            // holds it.
             "size" => assert_eq!((run.code, report["met"].as_array().unwrap().len()), (1, 0)),
             _ => assert_eq!(report[field][0]["name"], "push"),
         }

@@ -106,7 +106,8 @@ fn a_gif_ends_between_frames_and_is_not_written() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
-/// Forty unknowns that are nearly independent of each other: w_k = 1 - z_k + little, so that there are 2^40 solutions.
+/// Forty unknowns that are nearly independent of each other: w_k = 1 - z_k + little, so that there are 2^40
+/// solutions.
 fn hard_problem() -> String {
     let n = 40;
     let entry = |row: usize, column: usize| match (row, column) {
@@ -144,8 +145,8 @@ fn an_interrupted_stream_of_rows_says_how_far_it_came() {
     assert!(said.starts_with("error: interrupted after ") && said.contains(" of 3000001 points"), "{said}");
 }
 
-/// Starts or goes on with a sweep of 24 contacts, a tenth of a second for each point, for two seconds; how many points are kept,
-/// and the lines of the table so far.
+/// Starts or goes on with a sweep of 24 contacts, a tenth of a second for each point, for two seconds; how
+/// many points are kept, and the lines of the table so far.
 fn swept_for_two_seconds(model: &str, output: &Path, more: &str) -> (u64, Vec<String>) {
     let words =
         ["sweep", model, "--vary", "friction=0.5..0.9:100001", "--no-breakpoints", "--time-limit", "2s"];

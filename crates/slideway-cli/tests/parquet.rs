@@ -1,5 +1,5 @@
-//! Parquet files: the same bytes whatever the threads, read by the library that wrote them. `reference/parquet/check.py` reads
-//! them with other programs; `sweep.rs` interrupts them.
+//! Parquet files: the same bytes whatever the threads, read by the library that wrote them.
+//! `reference/parquet/check.py` reads them with other programs; `sweep.rs` interrupts them.
 
 #![allow(clippy::unwrap_used)]
 
@@ -45,7 +45,8 @@ fn threads_do_not_change_the_bytes() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-/// The drawer jams at mu >= L / (2 a) = 2/3 (book, chapter Limits): a point beyond has a row whose state is null.
+/// The drawer jams at mu >= L / (2 a) = 2/3 (book, chapter Limits): a point beyond has a row whose state is
+/// null.
 #[test]
 fn what_does_not_exist_is_null() {
     let folder = tempfile::tempdir().unwrap();

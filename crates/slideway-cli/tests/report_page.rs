@@ -1,7 +1,8 @@
 //! The page of `slideway report`, also as a browser sees it.
 //!
-//! The browser is Chromium: the program that `CHROMIUM` names, or the first of the usual names on the path. Without one the
-//! test in the browser says so and is skipped, unless `SLIDEWAY_REQUIRE_BROWSER` is set, as it should be in automatic checks.
+//! The browser is Chromium: the program that `CHROMIUM` names, or the first of the usual names on the path.
+//! Without one the test in the browser says so and is skipped, unless `SLIDEWAY_REQUIRE_BROWSER` is set, as
+//! it should be in automatic checks.
 
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 
@@ -117,8 +118,8 @@ fn browse(browser: &Path, profile: &Path, arguments: &[&str], page: &Path) -> Ou
         .unwrap()
 }
 
-/// The page forbids every request to the network by its own policy; a browser says on its console if anything is asked for
-/// all the same, or if anything in the page is wrong.
+/// The page forbids every request to the network by its own policy; a browser says on its console if anything
+/// is asked for all the same, or if anything in the page is wrong.
 #[test]
 fn a_browser_shows_and_prints_the_page_without_complaint() {
     let Some(browser) = browser() else { return };

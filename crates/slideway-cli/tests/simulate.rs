@@ -111,7 +111,8 @@ fn files_that_do_not_fit_are_not_written() {
         (&["--slow-motion", "0.2", "--animate"], "moving.gif"),
     ] {
         let path = folder.path().join(name);
-        // The system refuses to write more than 1024 bytes, as on a full disk; without the trap its signal would end the program.
+        // The system refuses to write more than 1024 bytes, as on a full disk; without the trap its signal
+        // would end the program.
         let run = std::process::Command::new("sh")
             .args(["-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_slideway")])
             .args(["simulate", OSCILLATOR, "--until", "1s"])
@@ -201,7 +202,8 @@ fn the_time_limit_is_told_with_the_state_and_keeps_what_was_computed() {
     assert!(std::fs::read_to_string(&file).unwrap().lines().count() > 1);
 }
 
-/// An interruption leaves nothing under the names of files that it would have written, and keeps the table beside.
+/// An interruption leaves nothing under the names of files that it would have written, and keeps the table
+/// beside.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_motion_keeps_its_table_beside() {

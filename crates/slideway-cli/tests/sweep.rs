@@ -226,7 +226,8 @@ fn signal(child: &std::process::Child, signal: &str) {
     assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
 }
 
-/// A second writer is refused while the first one works, with and without --force; the first one's table is whole.
+/// A second writer is refused while the first one works, with and without --force; the first one's table is
+/// whole.
 #[cfg(unix)]
 #[test]
 fn two_writers_of_one_table_do_not_meet() {
@@ -351,7 +352,8 @@ fn a_full_disk_is_told() {
     assert!(run.stderr.contains("cannot be written: no space left on device"), "{}", run.stderr);
 }
 
-/// A run in a shell that lets no file grow beyond so many bytes: the system refuses to write more, as on a full disk.
+/// A run in a shell that lets no file grow beyond so many bytes: the system refuses to write more, as on a
+/// full disk.
 #[cfg(unix)]
 fn limited(bytes: u64, arguments: &[&str]) -> Output {
     // POSIX: the unit of the limit is 512 bytes; without the trap the signal would end the program.
@@ -370,8 +372,9 @@ fn names(folder: &tempfile::TempDir) -> Vec<String> {
     names
 }
 
-/// The file fails at its last byte, long before the first two seconds are over: CSV tables while rows are written, NumPy archives and
-/// Parquet files while they are completed. The model and the command are most of so small a table, so that records alone fit.
+/// The file fails at its last byte, long before the first two seconds are over: CSV tables while rows are
+/// written, NumPy archives and Parquet files while they are completed. The model and the command are most of
+/// so small a table, so that records alone fit.
 #[cfg(unix)]
 #[test]
 fn a_table_that_does_not_fit_is_kept_and_goes_on() {
@@ -467,8 +470,8 @@ fn attribute(element: &str, name: &str) -> f64 {
     element[start..].split('"').next().unwrap().parse().unwrap()
 }
 
-/// Klepp (2002), section 7: one solution up to the locking value mu_1 = 0.45265396 (theory, section 9), two beyond it, of
-/// which the second is not attainable (theory, section 7) and thus dashed.
+/// Klepp (2002), section 7: one solution up to the locking value mu_1 = 0.45265396 (theory, section 9), two
+/// beyond it, of which the second is not attainable (theory, section 7) and thus dashed.
 #[test]
 fn a_plot_shows_branches_and_locking_values() {
     let folder = tempfile::tempdir().unwrap();
@@ -489,7 +492,8 @@ fn a_plot_shows_branches_and_locking_values() {
     assert!(of_class(&svg, "zone").is_empty());
 }
 
-/// The drawer jams from mu = L / (2 a) = 2/3 on (book, chapter Limits): there the plot is hatched, up to its edge.
+/// The drawer jams from mu = L / (2 a) = 2/3 on (book, chapter Limits): there the plot is hatched, up to its
+/// edge.
 #[test]
 fn a_plot_hatches_where_it_jams() {
     let folder = tempfile::tempdir().unwrap();
@@ -531,7 +535,8 @@ fn bad_arguments_are_told() {
     assert!(run.code == 2 && run.stderr.contains("unknown name `abc`"), "{}", run.stderr);
 }
 
-/// Whatever is written, and however its path is spelt: not over what is read, nor where an unfinished table would be over it.
+/// Whatever is written, and however its path is spelt: not over what is read, nor where an unfinished table
+/// would be over it.
 #[test]
 fn no_command_writes_over_its_input() {
     let folder = tempfile::tempdir().unwrap();

@@ -12,8 +12,8 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Sets the title of a terminal, rings, makes a link, clears it (as C1), colours as the program does, hides, reverses the
-/// order of letters, goes back on the line, and begins a line of its own.
+/// Sets the title of a terminal, rings, makes a link, clears it (as C1), colours as the program does, hides,
+/// reverses the order of letters, goes back on the line, and begins a line of its own.
 const HOSTILE: &str = "A\u{1b}]0;owned\u{7}\u{1b}]8;;http://example.org\u{1b}\\B\u{1b}]8;;\u{1b}\\\u{9b}2J\u{90}q\u{9c}\
                        \u{1b}[32mC\u{1b}[0m\u{200b}\u{feff}\u{202e}D\u{2066}\u{200f}\u{61c}\u{7f}\u{8}\rE\nOne solution.\u{2028}F\u{e0041}";
 
@@ -43,7 +43,8 @@ fn on_terminal(command: &mut Command) -> (String, i32) {
     (String::from_utf8(bytes).unwrap().replace("\r\n", "\n"), code)
 }
 
-/// The text without the styles that the program uses (ECMA-48, SGR: bold and colours of letters), and whether it had any.
+/// The text without the styles that the program uses (ECMA-48, SGR: bold and colours of letters), and whether
+/// it had any.
 fn without_styles(text: &str) -> (String, bool) {
     let mut parts = text.split("\u{1b}[");
     let mut out = parts.next().unwrap_or_default().to_owned();

@@ -84,8 +84,8 @@ fn bench_friction(
     });
 }
 
-/// What `reference/comparison/sweep_numpy.py` computes: the solutions of the paper's sweep, mu_1 from 0 to 0.8, with point,
-/// pattern and normal forces.
+/// What `reference/comparison/sweep_numpy.py` computes: the solutions of the paper's sweep, mu_1 from 0 to
+/// 0.8, with point, pattern and normal forces.
 #[divan::bench]
 #[expect(clippy::cast_possible_truncation, reason = "a million points, eight patterns")]
 fn paper_normal_forces(bencher: Bencher<'_, '_>) {

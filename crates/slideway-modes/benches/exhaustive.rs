@@ -1,4 +1,5 @@
-//! Every pattern of random linear complementarity problems: time for each pattern, beside the simple enumerator.
+//! Every pattern of random linear complementarity problems: time for each pattern, beside the simple
+//! enumerator.
 //!
 //! `cargo bench -p slideway-modes --bench exhaustive`
 #![allow(missing_docs, reason = "a benchmark")]

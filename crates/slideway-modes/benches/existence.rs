@@ -1,4 +1,5 @@
-//! Time of the exact intervals in which modes exist, in one coefficient and on a ray of all. Divan's items are patterns.
+//! Time of the exact intervals in which modes exist, in one coefficient and on a ray of all. Divan's items
+//! are patterns.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

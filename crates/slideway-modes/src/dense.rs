@@ -1,14 +1,14 @@
 //! Dense linear algebra that can be ended: with some thousand unknowns it takes seconds.
 //!
-//! Results are those of nalgebra to the last bit, the operations being the same in the same order. Each function has a
-//! `proceed` that is asked now and then, and nothing comes of it once that is false.
+//! Results are those of nalgebra to the last bit, the operations being the same in the same order. Each
+//! function has a `proceed` that is asked now and then, and nothing comes of it once that is false.
 
 use nalgebra::{DMatrix, DVector, Dyn, PermutationSequence};
 
 /// `proceed` is asked once for so many multiplications: some milliseconds.
 const BETWEEN: usize = 1 << 23;
-/// Products are computed so many columns at a time: with fewer of them nalgebra would spend much time on copies of the
-/// other factor.
+/// Products are computed so many columns at a time: with fewer of them nalgebra would spend much time on
+/// copies of the other factor.
 const PANEL: usize = 128;
 
 /// Asks whether to go on, not too often.
@@ -92,8 +92,8 @@ pub(crate) fn has_cholesky_factor(mut matrix: DMatrix<f64>, proceed: &mut dyn Fn
     true
 }
 
-/// The shortest `v` with `C^T v = products`, from an orthonormal basis `Q` of the columns of `C` (Gram-Schmidt, each
-/// column twice).
+/// The shortest `v` with `C^T v = products`, from an orthonormal basis `Q` of the columns of `C`
+/// (Gram-Schmidt, each column twice).
 pub(crate) fn shortest_with_products(
     mut columns: DMatrix<f64>,
     products: &DVector<f64>,

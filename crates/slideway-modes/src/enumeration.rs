@@ -148,7 +148,8 @@ impl<'a> PatternTree<'a> {
             for (index, &state) in problem.states(contact).iter().enumerate() {
                 let column = problem.column(contact, state);
                 smallest_pivots[contact][index] = SUSPECT_PIVOT * column.amax();
-                // The tree carries d_k^+ - d_k^-; the sign of a gap's column is put in by `Level::orientation`.
+                // The tree carries d_k^+ - d_k^-; the sign of a gap's column is put in by
+                // `Level::orientation`.
                 let sign = state_orientation(state);
                 write_column(&mut levels[0].rows, width, starts[contact] + index, &(column * sign));
             }

@@ -15,8 +15,8 @@ pub(crate) fn ordered_sum_remainder(one: f64, other: f64, sum: f64) -> f64 {
     other - (sum - one)
 }
 
-/// `one other - product` without rounding, `product` being the rounded product: with a fused operation, or without
-/// (Dekker).
+/// `one other - product` without rounding, `product` being the rounded product: with a fused operation, or
+/// without (Dekker).
 #[inline(always)]
 pub(crate) fn product_remainder<const FUSED: bool>(one: f64, other: f64, product: f64) -> f64 {
     if FUSED {

@@ -105,8 +105,8 @@ pub(crate) fn upper_sum(parts: &[&DVector<f64>]) -> DVector<f64> {
     DVector::from_fn(parts[0].len(), |row, _| parts.iter().map(|part| part[row]).sum::<f64>() * factor)
 }
 
-/// The product of a plain matrix and an interval matrix; entries that overflow are not finite. None once `proceed` is
-/// false.
+/// The product of a plain matrix and an interval matrix; entries that overflow are not finite. None once
+/// `proceed` is false.
 ///
 /// `|fl(A B) - A B| <= gamma_n |A| |B|`, and a radius of `B` adds `|A| rad(B)`.
 pub(crate) fn product(

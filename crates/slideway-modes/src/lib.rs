@@ -1,5 +1,5 @@
-//! All solutions of absolute value equations, linear complementarity problems and contacts with dry friction, with a proof that
-//! the list is complete.
+//! All solutions of absolute value equations, linear complementarity problems and contacts with dry friction,
+//! with a proof that the list is complete.
 //!
 //! ```
 //! use nalgebra::{dmatrix, dvector};
@@ -18,7 +18,8 @@
 //! # Ok::<(), slideway_modes::ModeProblemError>(())
 //! ```
 //!
-//! [`raw_problem`] takes these problems as they are written, [`search`] the mode problem to which all of them come.
+//! [`raw_problem`] takes these problems as they are written, [`search`] the mode problem to which all of them
+//! come.
 //!
 //! # Features
 //! Both are on by default; without them the crate reads no files.
@@ -68,19 +69,22 @@
 //! # Files
 //! From the ground up; a module knows only those before it.
 //!
-//! - `error_free.rs` (what rounding takes), `dense.rs` (factorizations and products that can be ended), `interval/`,
-//!   `interval_matrix.rs`: numbers.
-//! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances are plain numbers.
+//! - `error_free.rs` (what rounding takes), `dense.rs` (factorizations and products that can be ended),
+//!   `interval/`, `interval_matrix.rs`: numbers.
+//! - `problem/`: the problem, exact or within bounds, the states of contacts, and units in which tolerances
+//!   are plain numbers.
 //! - `certificate/`: one pattern decided by proof; proofs that sets of patterns are empty.
 //! - `solutions/`: what is told of a problem; `support.rs` decides which set of solutions is part of which.
 //! - `findings/`: what patterns admit, gathered and counted; patterns decided within tolerances.
-//! - All patterns: `search/` finds all solutions of exact problems and of problems within bounds, and proves them (groups of
-//!   contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank coupling, else branch and bound
-//!   with interval propagation and a linear relaxation). `exhaustive/` screens every pattern with a rigorous error bound.
-//!   `enumeration.rs` is the tree within tolerances, which maps use and tests compare with. `uniqueness/` decides whether there
-//!   is one solution for every load.
-//! - Very many points: `batch/` (one structure, friction varies), `screen.rs` (small problems one after another).
-//! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without scanning.
+//! - All patterns: `search/` finds all solutions of exact problems and of problems within bounds, and proves
+//!   them (groups of contacts, every pattern of small groups, cheap proofs of uniqueness, cells of a low-rank
+//!   coupling, else branch and bound with interval propagation and a linear relaxation). `exhaustive/`
+//!   screens every pattern with a rigorous error bound. `enumeration.rs` is the tree within tolerances, which
+//!   maps use and tests compare with. `uniqueness/` decides whether there is one solution for every load.
+//! - Very many points: `batch/` (one structure, friction varies), `screen.rs` (small problems one after
+//!   another).
+//! - A line of problems: `existence/` finds the intervals of a parameter in which modes exist, without
+//!   scanning.
 //! - `raw_problem/`: problems as they are written.
 
 pub mod batch;

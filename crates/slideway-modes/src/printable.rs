@@ -1,18 +1,20 @@
 //! Text from elsewhere, made fit to be shown.
 //!
-//! A title or a name may hold characters that are not seen but do something: escape sequences that move the cursor of a
-//! terminal or change its title, marks that reverse the order of what follows, letters without width. Wherever text from a
-//! model, a file name or an argument is told to a person it goes through [`line()`] or [`lines`].
+//! A title or a name may hold characters that are not seen but do something: escape sequences that move the
+//! cursor of a terminal or change its title, marks that reverse the order of what follows, letters without
+//! width. Wherever text from a model, a file name or an argument is told to a person it goes through
+//! [`line()`] or [`lines`].
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// A text on one line in which every character is seen: what is not seen stands as its number, in the notation of TOML, and
-/// ends of lines as `\n` and `\r`.
+/// A text on one line in which every character is seen: what is not seen stands as its number, in the
+/// notation of TOML, and ends of lines as `\n` and `\r`.
 ///
-/// What is not seen are the control characters but the tabulator (Unicode's category Cc), the separators of lines and
-/// paragraphs, the characters that Unicode calls ignorable by default (among them all marks of direction), and those that are
-/// none. Joiners and variation selectors stay behind a character beyond ASCII, which they shape.
+/// What is not seen are the control characters but the tabulator (Unicode's category Cc), the separators of
+/// lines and paragraphs, the characters that Unicode calls ignorable by default (among them all marks of
+/// direction), and those that are none. Joiners and variation selectors stay behind a character beyond ASCII,
+/// which they shape.
 ///
 /// ```
 /// use slideway_modes::printable::line;
@@ -39,7 +41,8 @@ pub fn lines(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// JSON without characters that are not seen: they are written as JSON's own escapes, so that what is read stays the same.
+/// JSON without characters that are not seen: they are written as JSON's own escapes, so that what is read
+/// stays the same.
 pub fn json(text: &str) -> Cow<'_, str> {
     shown(text, |character| match character {
         '\n' | '\r' => None,
@@ -54,8 +57,8 @@ pub fn json(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// The text with what `instead` puts in the place of characters; joiners and variation selectors that shape the character
-/// before them are left alone.
+/// The text with what `instead` puts in the place of characters; joiners and variation selectors that shape
+/// the character before them are left alone.
 fn shown(text: &str, instead: impl Fn(char) -> Option<String>) -> Cow<'_, str> {
     let mut out: Option<String> = None;
     let mut before = ' ';
@@ -84,8 +87,8 @@ fn is_shaping(character: char) -> bool {
     matches!(character, '\u{200c}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}')
 }
 
-/// Whether a character is not seen where it stands, or changes how others are seen. (Unicode 17: general category Cc, Zl and Zp,
-/// the property `Default_Ignorable_Code_Point`, annotation marks, and noncharacters.)
+/// Whether a character is not seen where it stands, or changes how others are seen. (Unicode 17: general
+/// category Cc, Zl and Zp, the property `Default_Ignorable_Code_Point`, annotation marks, and noncharacters.)
 fn is_hidden(character: char) -> bool {
     match character {
         '\t' => false,

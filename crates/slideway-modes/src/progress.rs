@@ -1,9 +1,10 @@
 //! What a long computation tells whoever waits for it, and how it is told to end.
 //!
-//! Every computation that can take more than a moment has a form with a [`Callback`]: it is called before each piece of
-//! the work, and where it breaks the work ends. What has been found until then is returned where it means something
-//! by itself (the solutions of a search, the motion until then), and marked as incomplete; elsewhere nothing is. The
-//! library keeps no clock: time limits and interruptions are the caller's.
+//! Every computation that can take more than a moment has a form with a [`Callback`]: it is called before
+//! each piece of the work, and where it breaks the work ends. What has been found until then is returned
+//! where it means something by itself (the solutions of a search, the motion until then), and marked as
+//! incomplete; elsewhere nothing is. The library keeps no clock: time limits and interruptions are the
+//! caller's.
 //!
 //! ```
 //! use slideway_modes::{Completeness, ModeProblem, SearchOptions, StopReason, search};
@@ -27,8 +28,8 @@ pub struct Progress {
     pub counted: &'static str,
     /// How many of these are done.
     pub done: u64,
-    /// The part of the work that is done, from 0 to 1, if it is known how much there is. It may grow with leaps, not
-    /// evenly in time.
+    /// The part of the work that is done, from 0 to 1, if it is known how much there is. It may grow with
+    /// leaps, not evenly in time.
     pub fraction: Option<f64>,
     /// Solutions and other states found so far, if that is what is sought.
     pub found: Option<u64>,
@@ -51,8 +52,8 @@ pub fn undisturbed<T>(compute: impl FnOnce(Work<'_>) -> T) -> T {
 
 /// The result of work that a callback may end; nothing if it has.
 ///
-/// Once it has broken it is not called again and every piece is refused, so that whatever is made of pieces ends soon. What
-/// that comes to, an error perhaps, means nothing.
+/// Once it has broken it is not called again and every piece is refused, so that whatever is made of pieces
+/// ends soon. What that comes to, an error perhaps, means nothing.
 ///
 /// # Errors
 /// Those of the work.

@@ -1,8 +1,9 @@
 //! Small problems one after another in reused memory: the tree of [`crate::enumerate`] without its findings.
 //!
-//! A sweep asks for the solutions of very many problems of the same few contacts. Nearly all of them are far from any
-//! boundary, where elimination alone decides every pattern. This tree allocates nothing, and gives up the whole problem as
-//! soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a problem needs the careful search.
+//! A sweep asks for the solutions of very many problems of the same few contacts. Nearly all of them are far
+//! from any boundary, where elimination alone decides every pattern. This tree allocates nothing, and gives
+//! up the whole problem as soon as a pattern is within [`SLACK`] of a boundary or of `D = 0`: such a problem
+//! needs the careful search.
 
 use crate::enumeration::{self, SUSPECT_PIVOT};
 use crate::problem::{ContactState, Side};
@@ -16,7 +17,8 @@ const WIDTH: usize = 1 + 3 * MOST_CONTACTS;
 
 type Square = [[f64; MOST_CONTACTS]; MOST_CONTACTS];
 
-/// The numbers of a mode problem, to be written anew for every problem. The first index is that of the contact.
+/// The numbers of a mode problem, to be written anew for every problem. The first index is that of the
+/// contact.
 #[derive(Debug, Clone)]
 pub struct SmallProblem {
     contacts: usize,
@@ -88,8 +90,9 @@ impl SmallProblem {
     }
 }
 
-/// The equations that remain at one level. A row holds the right-hand side first and then the columns of the undecided
-/// contacts, the last contact first, so that the row of the next level is the beginning of the row of this one.
+/// The equations that remain at one level. A row holds the right-hand side first and then the columns of the
+/// undecided contacts, the last contact first, so that the row of the next level is the beginning of the row
+/// of this one.
 #[derive(Debug, Clone)]
 struct Level {
     rows: [[f64; WIDTH]; MOST_CONTACTS],
@@ -138,8 +141,8 @@ impl Screen {
         }
     }
 
-    /// All solutions and gap states in the order of enumeration, if each pattern is far from any boundary. `accuracy` is
-    /// that of the problem's numbers, relative to their size.
+    /// All solutions and gap states in the order of enumeration, if each pattern is far from any boundary.
+    /// `accuracy` is that of the problem's numbers, relative to their size.
     ///
     /// # Errors
     /// [`InDoubt`] if some pattern is not.

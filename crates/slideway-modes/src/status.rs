@@ -15,8 +15,8 @@ pub enum Status {
     Several,
     /// Infinitely many: a mode with a vanishing determinant admits a continuum.
     Continuum,
-    /// No solution in a sign pattern was found, but a state with the preload between the faces; what may be open besides is
-    /// told by `partial` and `undecided_modes`.
+    /// No solution in a sign pattern was found, but a state with the preload between the faces; what may be
+    /// open besides is told by `partial` and `undecided_modes`.
     PreloadGap,
     /// Nothing was found, but not every pattern could be decided.
     Unknown,

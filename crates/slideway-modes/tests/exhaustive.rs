@@ -1,5 +1,5 @@
-//! The exhaustive screening against the simple enumerator and against the decision of every single pattern: it may
-//! keep too much, but never drops a solution.
+//! The exhaustive screening against the simple enumerator and against the decision of every single pattern:
+//! it may keep too much, but never drops a solution.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use std::ops::ControlFlow;
@@ -41,8 +41,8 @@ fn all_patterns(jumps: &[bool]) -> Vec<Pattern> {
     patterns
 }
 
-/// Proves that the tree leaves every pattern that is not decided to have no solution; returns how many it leaves
-/// besides.
+/// Proves that the tree leaves every pattern that is not decided to have no solution; returns how many it
+/// leaves besides.
 fn check_against_decisions<'a>(
     problem: impl Into<ProblemView<'a>> + Copy,
     contacts: usize,
@@ -94,7 +94,8 @@ fn random_problem(n: usize, seed: u64) -> ModeProblem {
     ModeProblem::from_linear_complementarity(&entries, rhs).unwrap()
 }
 
-/// Both columns of every contact are their own; contacts with a set bit jump, the others have a constant `d_k`.
+/// Both columns of every contact are their own; contacts with a set bit jump, the others have a constant
+/// `d_k`.
 fn random_jumps(n: usize, jumping: u64, seed: u64) -> (ModeProblem, Vec<bool>) {
     let mut random = random_numbers(seed);
     let mut matrix = || DMatrix::from_fn(n, n, |_, _| random());
@@ -192,7 +193,8 @@ proptest! {
     }
 }
 
-/// Integers, so that the planted solution is exact. The columns that the kernel decides are large and nearly parallel.
+/// Integers, so that the planted solution is exact. The columns that the kernel decides are large and nearly
+/// parallel.
 fn planted(n: usize, exponent: i32, seed: u64) -> (ModeProblem, Pattern) {
     let mut random = random_numbers(seed);
     let mut integer = |size: f64| (random() * (size + 0.5)).round();

@@ -274,7 +274,8 @@ fn an_output_bound_ends_a_mode() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn a_load_that_vanishes_or_a_pattern_that_is_always_singular() -> Result<(), Box<dyn Error>> {
-    // Load t - 1: the side changes at t = 1. The second contact's negative column repeats the first's positive one.
+    // Load t - 1: the side changes at t = 1. The second contact's negative column repeats the first's
+    // positive one.
     let none = DMatrix::zeros(2, 2);
     let at = |t: f64| {
         ModeProblem::new(

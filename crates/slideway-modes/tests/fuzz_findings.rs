@@ -9,8 +9,8 @@ use slideway_modes::{
     Arguments, Completeness, ContactState, ModeProblem, SearchOptions, StateKind, exhaustive, search,
 };
 
-/// With `z_1` and `w_2, w_3` the equations are regular and solved by 0. The pivot of the last column is the least of its
-/// scaled row by far.
+/// With `z_1` and `w_2, w_3` the equations are regular and solved by 0. The pivot of the last column is the
+/// least of its scaled row by far.
 #[test]
 fn proof_of_all_patterns_keeps_a_boundary_behind_a_tiny_pivot() {
     for large in [1e10, 1e20, 1e300] {
@@ -27,8 +27,8 @@ fn proof_of_all_patterns_keeps_a_boundary_behind_a_tiny_pivot() {
     }
 }
 
-/// `2^53 y = 3` or `2^-1022 y = 3`: both have a finite solution. The ratio of the two columns is below the range of
-/// floating point.
+/// `2^53 y = 3` or `2^-1022 y = 3`: both have a finite solution. The ratio of the two columns is below the
+/// range of floating point.
 #[test]
 fn search_does_not_lose_a_column_to_underflow() {
     let none = DMatrix::zeros(1, 1);

@@ -76,7 +76,8 @@ proptest! {
         numbers in prop::collection::vec(-2..=2_i32, 2 * 16),
         shift in 0..4_usize,
     ) {
-        // A third of these matrices is singular in some pattern; factors of 0.1 keep eliminations from being exact.
+        // A third of these matrices is singular in some pattern; factors of 0.1 keep eliminations from being
+        // exact.
         let square = contacts * contacts;
         let part = |at: usize| {
             DMatrix::from_fn(contacts, contacts, |row, column| {
@@ -228,8 +229,8 @@ fn limits_are_kept() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// `D` is 2^53 and 2^-1022 or its opposite; the ratio of the two columns is below the range of floating point. `p` of
-/// the negative side is `-D`.
+/// `D` is 2^53 and 2^-1022 or its opposite; the ratio of the two columns is below the range of floating
+/// point. `p` of the negative side is `-D`.
 #[test]
 fn a_column_that_scaling_loses_is_decided_exactly() {
     let (one, none) = (dmatrix![9_007_199_254_740_992.0], DMatrix::zeros(1, 1));

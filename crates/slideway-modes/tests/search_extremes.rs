@@ -1,5 +1,5 @@
-//! The search on numbers from all over the range of floating point: what it calls proven, exact decisions of every
-//! pattern confirm.
+//! The search on numbers from all over the range of floating point: what it calls proven, exact decisions of
+//! every pattern confirm.
 
 use std::ops::ControlFlow;
 

@@ -306,10 +306,10 @@ fn many_contacts_of_few_freedoms_within_bounds() {
     }
 }
 
-/// Row 2: `N_2 = -1 + lambda_2 + lambda_3`; `N_3 = 0`; and the first contact, whose column on its positive side is zero, has
-/// any force. With both others in their gaps it is `lambda_2 + lambda_3 = 1`. One end of that, `lambda = (1, 0)`, is what the
-/// others admit on a positive and a negative side: the same forces, but a smaller set. With the second contact in its gap and
-/// the third on its negative side it is the same end.
+/// Row 2: `N_2 = -1 + lambda_2 + lambda_3`; `N_3 = 0`; and the first contact, whose column on its positive
+/// side is zero, has any force. With both others in their gaps it is `lambda_2 + lambda_3 = 1`. One end of
+/// that, `lambda = (1, 0)`, is what the others admit on a positive and a negative side: the same forces, but
+/// a smaller set. With the second contact in its gap and the third on its negative side it is the same end.
 #[test]
 fn sets_with_the_same_forces_and_other_shares_are_two() {
     let columns = [dmatrix![0.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 1.0], -DMatrix::identity(3, 3)];

@@ -1,5 +1,5 @@
-//! The examples printed in the help texts of VERSOFT (`reference/versoft.toml`): the number of solutions, and the
-//! printed enclosures of each.
+//! The examples printed in the help texts of VERSOFT (`reference/versoft.toml`): the number of solutions, and
+//! the printed enclosures of each.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use std::ops::ControlFlow;
@@ -92,7 +92,8 @@ fn as_many_solutions_as_printed() {
             solve(&raw, &SearchOptions::default(), 2000, &mut |_| ControlFlow::Continue(())).unwrap();
         assert_eq!(report.complete, Proof::Proven, "{}, {}", example.function, example.name);
         assert_eq!(report.count, example.solutions.to_string(), "{}, {}", example.function, example.name);
-        // The numbers of the example were rounded when they were printed: its solutions are near those of the print.
+        // The numbers of the example were rounded when they were printed: its solutions are near those of the
+        // print.
         let told: Vec<Vec<f64>> = report
             .solutions
             .iter()
@@ -111,8 +112,8 @@ fn as_many_solutions_as_printed() {
     }
 }
 
-/// What is proven for all numbers that are printed so holds for those of the example: there are as many solutions, and
-/// every printed enclosure meets one of the enclosures found.
+/// What is proven for all numbers that are printed so holds for those of the example: there are as many
+/// solutions, and every printed enclosure meets one of the enclosures found.
 #[test]
 fn printed_enclosures_meet_those_of_all_numbers_that_are_printed_so() {
     for example in examples().into_iter().filter(|example| !example.enclosures.is_empty()) {

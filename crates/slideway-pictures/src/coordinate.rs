@@ -3,8 +3,8 @@
 use crate::escaped;
 use thiserror::Error;
 
-/// What stands where a number has no text. Neither XML nor [`crate::escaped`] lets such a character through, so that nothing
-/// else in a picture looks like it.
+/// What stands where a number has no text. Neither XML nor [`crate::escaped`] lets such a character through,
+/// so that nothing else in a picture looks like it.
 const NONE: &str = "\u{ffff}";
 
 /// A picture with a place or a size that is infinite or undefined.

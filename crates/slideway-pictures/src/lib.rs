@@ -1,7 +1,8 @@
 //! Pictures of slideway's results.
 //!
-//! The library [`slideway`] computes and knows no pictures; this crate turns its values into SVG, HTML, PNG and GIF, without
-//! computing anything of mechanics. Like the library it reads no file and no clock, and prints nothing.
+//! The library [`slideway`] computes and knows no pictures; this crate turns its values into SVG, HTML, PNG
+//! and GIF, without computing anything of mechanics. Like the library it reads no file and no clock, and
+//! prints nothing.
 //!
 //! # Features
 //! - `png` (on unless told otherwise): pictures of pixels, `raster` and [`motion::Animation::to_gif`].
@@ -19,8 +20,8 @@ pub mod typeface;
 
 pub use coordinate::NotFinite;
 
-/// Text as it stands in XML and HTML, in elements and attributes: characters that are not seen, some of which XML does not
-/// allow, stand as their numbers ([`slideway::printable`]). Ends of lines are blanks.
+/// Text as it stands in XML and HTML, in elements and attributes: characters that are not seen, some of which
+/// XML does not allow, stand as their numbers ([`slideway::printable`]). Ends of lines are blanks.
 pub(crate) fn escaped(text: &str) -> String {
     let blank = text.replace(['\n', '\r'], " ");
     let mut out = String::with_capacity(text.len());

@@ -1,8 +1,9 @@
 //! Pictures of pixels: SVG in, PNG out.
 //!
-//! Text is set with the typeface that is built in ([`crate::typeface`]), so that a picture looks the same on every
-//! machine, also on one without typefaces. `text` and `tspan` elements are read as this crate writes them: `x`, `y`, `dx`,
-//! `dy`, `font-size`, `text-anchor` and `dominant-baseline` as attributes, the first two also those of their ancestors.
+//! Text is set with the typeface that is built in ([`crate::typeface`]), so that a picture looks the same on
+//! every machine, also on one without typefaces. `text` and `tspan` elements are read as this crate writes
+//! them: `x`, `y`, `dx`, `dy`, `font-size`, `text-anchor` and `dominant-baseline` as attributes, the first
+//! two also those of their ancestors.
 
 use crate::typeface;
 use resvg::tiny_skia::{Pixmap, Transform};

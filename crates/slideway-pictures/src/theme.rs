@@ -23,8 +23,8 @@ pub struct Theme {
 pub const DASHES: [&str; 4] = ["", "7 3", "2 3", "9 3 2 3"];
 
 /// On white. The series are colours of Okabe and Ito, which colour-blind people can tell apart (K. Ichihara,
-/// M. Okabe, K. Iga, Y. Tanaka, K. Musha and K. Ito, Color universal design, 2008); its yellow is left to the end,
-/// as it is faint on white.
+/// M. Okabe, K. Iga, Y. Tanaka, K. Musha and K. Ito, Color universal design, 2008); its yellow is left to the
+/// end, as it is faint on white.
 pub const LIGHT: Theme = Theme {
     background: "#ffffff",
     ink: "#1b1f24",

@@ -1,7 +1,7 @@
 //! The typeface of pictures: widths for the layout, and outlines for pictures of pixels.
 //!
-//! Pictures of vectors name the typefaces of the reader's machine ([`STACK`]). Widths are those of the typeface that is
-//! built in, a wide one, so that what is laid out with it has room in the others.
+//! Pictures of vectors name the typefaces of the reader's machine ([`STACK`]). Widths are those of the
+//! typeface that is built in, a wide one, so that what is laid out with it has room in the others.
 
 use std::collections::HashMap;
 #[cfg(feature = "png")]

@@ -50,8 +50,9 @@ fn points(path: &str) -> Vec<Vec<[f64; 2]>> {
     path.split('M').skip(1).map(|part| part.split('L').map(point).collect()).collect()
 }
 
-/// Klepp (2002), figures 4 and 5: one solution on both sides of the locking value 2 cot(alpha) + 0.1 with positive
-/// velocity and a second beyond it; with negative velocity a change of sides at cot(alpha) and none beyond locking.
+/// Klepp (2002), figures 4 and 5: one solution on both sides of the locking value 2 cot(alpha) + 0.1 with
+/// positive velocity and a second beyond it; with negative velocity a change of sides at cot(alpha) and none
+/// beyond locking.
 #[test]
 fn the_paper_s_figures() {
     let klepp = model("klepp-2002", &[("F_20", "0")]);
@@ -184,8 +185,8 @@ impl TextBox {
     }
 }
 
-/// The boxes of all texts, those turned upright included; capitals are 0.73 of their size high in `DejaVu Sans`, and tails
-/// reach 0.21 below the line (its tables hhea and OS/2 round to these).
+/// The boxes of all texts, those turned upright included; capitals are 0.73 of their size high in
+/// `DejaVu Sans`, and tails reach 0.21 below the line (its tables hhea and OS/2 round to these).
 fn texts(svg: &str) -> Vec<TextBox> {
     let mut inherited = 0.0;
     let mut boxes = Vec::new();
@@ -282,7 +283,8 @@ fn all_text_is_within_the_picture_and_none_over_another() {
     }
 }
 
-/// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as the rest.
+/// A phase portrait does not touch its frame, and pieces of curves that merely cross others are as thin as
+/// the rest.
 #[test]
 fn curves_of_motions_keep_clear_of_frames_and_have_one_width() {
     let oscillator =

@@ -7,8 +7,8 @@
 //! N_j = N_j(0) + sum_k eta_jk^side F_k       and likewise the accelerations, couples, hinge forces and efforts
 //! ```
 //!
-//! and come from the one factorization of the kinetic equations. Since the side of contact `k` decides at which
-//! face its friction acts, column `k` has two versions; they are equal where the height is zero.
+//! and come from the one factorization of the kinetic equations. Since the side of contact `k` decides at
+//! which face its friction acts, column `k` has two versions; they are equal where the height is zero.
 
 use crate::ids::ContactId;
 use crate::kinetics::{Influences, KineticEquations, Layout, Reaction};
@@ -20,8 +20,8 @@ pub struct Influence {
     layout: Layout,
     /// All unknowns without friction.
     pub frictionless: DVector<f64>,
-    /// For each contact: what a unit friction force adds, at the face where the normal force is positive and at
-    /// the one where it is negative.
+    /// For each contact: what a unit friction force adds, at the face where the normal force is positive and
+    /// at the one where it is negative.
     pub columns: Vec<[DVector<f64>; 2]>,
     /// Index of each contact's normal force among the unknowns.
     normal: Vec<usize>,
@@ -75,8 +75,9 @@ impl Influence {
         self.normal_part(&self.frictionless)
     }
 
-    /// eta_jk: what a unit friction force of contact k adds to the normal force of contact j, for friction at the
-    /// faces of positive normal force (`side` 0) or of negative (`side` 1). Square, dimensionless, eq. (4).
+    /// eta_jk: what a unit friction force of contact k adds to the normal force of contact j, for friction at
+    /// the faces of positive normal force (`side` 0) or of negative (`side` 1). Square, dimensionless, eq.
+    /// (4).
     pub fn eta(&self, side: usize) -> DMatrix<f64> {
         let contacts = self.columns.len();
         DMatrix::from_fn(contacts, contacts, |j, k| self.columns[k][side][self.normal[j]])
@@ -92,8 +93,8 @@ impl Influence {
         &self.frictionless + self.of_friction(friction)
     }
 
-    /// What given friction forces add to all unknowns; for friction impulses the jumps of the velocities and the impulses
-    /// of the reactions.
+    /// What given friction forces add to all unknowns; for friction impulses the jumps of the velocities and
+    /// the impulses of the reactions.
     pub fn of_friction(&self, friction: &[ContactFriction]) -> DVector<f64> {
         let mut unknowns = DVector::zeros(self.frictionless.len());
         for (column, friction) in self.columns.iter().zip(friction) {

@@ -1,9 +1,10 @@
 //! All solutions of planar mechanisms with dry friction in sliding joints.
 //!
-//! In a mechanism with dry friction in its sliding joints the equations of motion can have no solution (it jams),
-//! one, or several. This library finds all of them: the side on which each slider touches its guide, its contact
-//! mode, is tried for every sign pattern, and each leaves a linear system (H. J. Klepp, Modes of contact and
-//! uniqueness of solutions for systems with friction-affected sliders, Journal of Sound and Vibration 254, 2002).
+//! In a mechanism with dry friction in its sliding joints the equations of motion can have no solution (it
+//! jams), one, or several. This library finds all of them: the side on which each slider touches its guide,
+//! its contact mode, is tried for every sign pattern, and each leaves a linear system (H. J. Klepp, Modes of
+//! contact and uniqueness of solutions for systems with friction-affected sliders, Journal of Sound and
+//! Vibration 254, 2002).
 //!
 //! ```
 //! use slideway::{Drawing, GROUND, solve};
@@ -20,7 +21,8 @@
 //! # Ok::<(), slideway::Faults>(())
 //! ```
 //!
-//! A mechanism comes from code ([`drawing`]) or from a model file ([`Model::parse`]); [`Settings`] change its numbers.
+//! A mechanism comes from code ([`drawing`]) or from a model file ([`Model::parse`]); [`Settings`] change its
+//! numbers.
 //!
 //! [`solve::solve`] does everything; the data flows through the modules in this order, each arrow one pure
 //! function:
@@ -29,18 +31,22 @@
 //! model file -> Model -> Mechanism -> Configuration -> KineticEquations -> Influence -> ModeProblem -> Solutions -> SolveReport
 //! ```
 //!
-//! [`check::check`] stands beside it and says what a model consists of and what would keep it from being solved.
+//! [`check::check`] stands beside it and says what a model consists of and what would keep it from being
+//! solved.
 //!
-//! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to move.
+//! [`standstill::hold`] tells whether a mechanism stays at rest, under which loads, and how it begins to
+//! move.
 //!
-//! [`limits::limits`] finds the values of a parameter at which modes begin and end, [`size::size`] those at which a wanted
-//! margin against locking is just met, and [`drive::drive`] the efforts that drives need against friction.
+//! [`limits::limits`] finds the values of a parameter at which modes begin and end, [`size::size`] those at
+//! which a wanted margin against locking is just met, and [`drive::drive`] the efforts that drives need
+//! against friction.
 //!
 //! [`motion::simulate`] follows a mechanism in time.
 //!
 //! [`sweep::Sweep`] and [`map::map`] have the solutions over many points.
 //!
-//! Every question has options with a constructor and setters, and its answer is a [`Report`]: plain data, told as text and JSON.
+//! Every question has options with a constructor and setters, and its answer is a [`Report`]: plain data,
+//! told as text and JSON.
 //!
 //! What takes long tells its [`progress`], and can be told to end.
 //!

@@ -1,7 +1,7 @@
 //! The tests of the library from outside, but for those that have a folder.
 //!
-//! One program, so that the library is linked once for all of them. A file of this folder is a module here, a folder with a
-//! `main.rs` is a program of its own; `architecture.rs` sees to it that none is forgotten.
+//! One program, so that the library is linked once for all of them. A file of this folder is a module here, a
+//! folder with a `main.rs` is a program of its own; `architecture.rs` sees to it that none is forgotten.
 
 mod architecture;
 mod book;

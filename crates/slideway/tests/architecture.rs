@@ -91,7 +91,8 @@ fn a_stage_imports_only_stages_to_its_left() {
     }
 }
 
-/// The floors of `motion`: what moves, what decides, what is remembered, what follows the motion, what is told.
+/// The floors of `motion`: what moves, what decides, what is remembered, what follows the motion, what is
+/// told.
 const FLOORS_OF_MOTION: &[&str] = &["options", "moving", "decision", "record", "following", "told"];
 
 #[test]

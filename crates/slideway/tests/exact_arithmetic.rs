@@ -1,5 +1,5 @@
-//! Raw problems against brute force in rational numbers: near-equal jumps, numbers from all over the range of floating
-//! point, sums that round, small whole numbers. The oracle shares no code with the library.
+//! Raw problems against brute force in rational numbers: near-equal jumps, numbers from all over the range of
+//! floating point, sums that round, small whole numbers. The oracle shares no code with the library.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 #[path = "exact_arithmetic/compare.rs"]
@@ -63,8 +63,8 @@ fn random_numbers() {
     assert!(tally.solutions > 100 && tally.none > 10, "{tally:?}");
 }
 
-/// `cargo test --release -p slideway --test exact_arithmetic -- --ignored --nocapture`: minutes, not seconds. The variables
-/// `FROM` and `COUNT` choose the instances of each family.
+/// `cargo test --release -p slideway --test exact_arithmetic -- --ignored --nocapture`: minutes, not seconds.
+/// The variables `FROM` and `COUNT` choose the instances of each family.
 #[test]
 #[ignore = "a long campaign"]
 #[expect(clippy::print_stdout, reason = "it tells what it met")]

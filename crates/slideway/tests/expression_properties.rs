@@ -160,7 +160,8 @@ impl Tree {
         value.is_finite().then_some(value)
     }
 
-    /// The text with no parentheses but the necessary ones; `least` is the loosest binding allowed without them.
+    /// The text with no parentheses but the necessary ones; `least` is the loosest binding allowed without
+    /// them.
     fn text(&self, least: u8) -> String {
         let (binding, text) = match self {
             Self::Number(eighths) => (5, (f64::from(*eighths) / 8.0).to_string()),

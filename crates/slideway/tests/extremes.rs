@@ -1,5 +1,5 @@
-//! Inputs at the edge: nothing presses, nothing acts, numbers far too large or small. Each gets an answer that
-//! names the case; none a wrong status, a panic or a long wait.
+//! Inputs at the edge: nothing presses, nothing acts, numbers far too large or small. Each gets an answer
+//! that names the case; none a wrong status, a panic or a long wait.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use slideway::check::check;
@@ -140,9 +140,9 @@ fn enormous_friction_is_decided_by_proof() {
     assert!(matches!(only(&load), FaultKind::Overflow { .. }), "{load}");
 }
 
-/// The Painleve-Klein apparatus at its critical friction without loads: a ray of solutions N = t (-1, 1), t >= 0.
-/// With the hinge of the upper slider at the distance `offset` from its middle, the couple is C = offset N, and the
-/// slider can take up N L/2 with L = 60 mm.
+/// The Painleve-Klein apparatus at its critical friction without loads: a ray of solutions N = t (-1, 1),
+/// t >= 0. With the hinge of the upper slider at the distance `offset` from its middle, the couple is C =
+/// offset N, and the slider can take up N L/2 with L = 60 mm.
 fn unloaded_at_critical_friction(offset: &str) -> SolveReport {
     let text = find("painleve-klein").unwrap().text.replace(
         "[joints.upper]\ntype = \"guided_slider\"\nblock = \"upper_slider\"\nat = \"B\"",
@@ -166,7 +166,8 @@ fn a_continuum_is_cut_to_where_no_guided_slider_tips() {
 
 #[test]
 fn forces_that_may_be_zero_are_told_as_zero() {
-    // Nothing loads it, and its rod does not turn; that the rod does not is known to 1e-307 rad/s, in bounds that hold zero.
+    // Nothing loads it, and its rod does not turn; that the rod does not is known to 1e-307 rad/s, in bounds
+    // that hold zero.
     let settings = Settings::default().parameter("P_2", "0 N").parameter("l", "10 m");
     let model = Model::parse(find("painleve-klein").unwrap().text).unwrap().with(&settings).unwrap();
     let report = solve(&model).unwrap();

@@ -1,4 +1,5 @@
-//! Quantities along the modes of limits: against the paper's numbers and against the solutions of single states.
+//! Quantities along the modes of limits: against the paper's numbers and against the solutions of single
+//! states.
 
 use slideway::gallery;
 use slideway::limits::{Curve, LimitsOptions, ModeLimits, Quantity, Vary, limits_with_curves};
@@ -13,7 +14,8 @@ fn model(name: &str, settings: &[(&str, &str)]) -> Model {
         .expect("a sound model")
 }
 
-/// Klepp (2002), section 7: both sets of solutions at mu_1 = 0.6, in units of m g; N_3 is counted positive downwards there.
+/// Klepp (2002), section 7: both sets of solutions at mu_1 = 0.6, in units of m g; N_3 is counted positive
+/// downwards there.
 #[test]
 fn the_paper_s_reactions() {
     let klepp = model("klepp-2002", &[("F_20", "0")]);

@@ -30,8 +30,8 @@ fn middle(range: [f64; 2], pixel: usize, pixels: usize) -> f64 {
     range[0] + (pixel as f64 + 0.5) / pixels as f64 * (range[1] - range[0])
 }
 
-/// With the preload, margins over mu_1 and mu_2 have a sliver narrower than a pixel, of whose pixels some touch at corners
-/// only.
+/// With the preload, margins over mu_1 and mu_2 have a sliver narrower than a pixel, of whose pixels some
+/// touch at corners only.
 #[test]
 fn refined_maps_are_those_of_dense_grids() {
     let klepp = model("klepp-2002", &[]);
@@ -76,8 +76,8 @@ fn classes_are_the_numbers_of_certified_solutions() {
     }
 }
 
-/// Klepp (2002), section 7: without preload and moving to the right there are two solutions beyond mu_1 = 0.45265396,
-/// numerically 2 cot(alpha) + 0.1, for mu_2 = mu_3 = 0.1.
+/// Klepp (2002), section 7: without preload and moving to the right there are two solutions beyond mu_1 =
+/// 0.45265396, numerically 2 cot(alpha) + 0.1, for mu_2 = mu_3 = 0.1.
 #[test]
 fn the_boundary_is_the_locking_value_to_the_pixel() {
     let klepp = model("klepp-2002", &[("F_20", "0")]);
@@ -94,8 +94,8 @@ fn the_boundary_is_the_locking_value_to_the_pixel() {
     }
 }
 
-/// docs/src/limits.md: N (L - 2 mu a) = Q a, so that the drawer locks at mu = L / (2 a). If all friction grows by a
-/// factor it does so at L / (2 a mu).
+/// docs/src/limits.md: N (L - 2 mu a) = Q a, so that the drawer locks at mu = L / (2 a). If all friction
+/// grows by a factor it does so at L / (2 a mu).
 #[test]
 fn a_drawer_locks_where_its_guide_is_too_short() {
     let drawer = model("drawer", &[]);
@@ -125,8 +125,8 @@ fn a_drawer_locks_where_its_guide_is_too_short() {
     }
 }
 
-/// The rod of the slider-crank (crank 50 mm) reaches the line of the piston where r sin(phi) < l. Up to 90 degrees the way
-/// from the drawing at 60 degrees, along which the mechanism is led, is then open, too.
+/// The rod of the slider-crank (crank 50 mm) reaches the line of the piston where r sin(phi) < l. Up to 90
+/// degrees the way from the drawing at 60 degrees, along which the mechanism is led, is then open, too.
 #[test]
 fn points_that_cannot_be_assembled_have_a_class() {
     let crank = model("slider-crank", &[]);
@@ -185,8 +185,8 @@ fn nonsense_is_refused() {
     assert_eq!(faults("mu_9=0..1", "mu_2=1..0").sorted().len(), 2);
 }
 
-/// A column of pixels of one class: once all are solved, rows are looked through for boundaries and then told, and before
-/// each of them the callback is asked.
+/// A column of pixels of one class: once all are solved, rows are looked through for boundaries and then
+/// told, and before each of them the callback is asked.
 #[test]
 fn rows_that_are_told_can_be_the_last() {
     let drawer = model("drawer", &[]);
@@ -209,8 +209,9 @@ fn rows_that_are_told_can_be_the_last() {
     assert!(matches!(ended, Ok(None)), "{ended:?}");
 }
 
-/// Nothing presses this guided slider, so that N = 0. Its preload rubs on both faces, and C = M + F h/2 (2 lambda - 1) = 0 has a
-/// share from 0 to 1 where |M| < F h/2: there it is between its faces, whichever way it moves, and elsewhere it tips.
+/// Nothing presses this guided slider, so that N = 0. Its preload rubs on both faces, and C = M + F h/2 (2
+/// lambda - 1) = 0 has a share from 0 to 1 where |M| < F h/2: there it is between its faces, whichever way it
+/// moves, and elsewhere it tips.
 #[test]
 fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() {
     let guided = Model::parse(include_str!("findings/guided_gap.toml")).expect("sound");
@@ -255,8 +256,8 @@ fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() 
     }
 }
 
-/// Two blocks in guided sliders along x, one on the other, with packings; `V` presses the lower one down, `M` turns the upper one,
-/// which only `W` presses: `N_2 = W`.
+/// Two blocks in guided sliders along x, one on the other, with packings; `V` presses the lower one down, `M`
+/// turns the upper one, which only `W` presses: `N_2 = W`.
 const PACKED: &str = r#"
     [parameters]
     V = "40 N"
@@ -312,8 +313,9 @@ const PACKED: &str = r#"
     y = { slide = "two", rate = 1 }
 "#;
 
-/// The lower slider has N_1 = V and, as no couple comes from the upper one but M, C_1 = M plus the moment of its own friction; it
-/// stands where |C_1| <= V L/2. Without friction of its own the upper one is between its faces where |M| < F 0.2 m/2 besides.
+/// The lower slider has N_1 = V and, as no couple comes from the upper one but M, C_1 = M plus the moment of
+/// its own friction; it stands where |C_1| <= V L/2. Without friction of its own the upper one is between its
+/// faces where |M| < F 0.2 m/2 besides.
 #[test]
 fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
     let packed = Model::parse(PACKED).expect("sound");

@@ -1,4 +1,5 @@
-//! Motions of random mechanisms against `reference/motion`: a simulator of rigid bodies with equations of its own, and closed forms.
+//! Motions of random mechanisms against `reference/motion`: a simulator of rigid bodies with equations of its
+//! own, and closed forms.
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
@@ -10,8 +11,9 @@ use std::path::Path;
 /// Relative error of each step; the reference has 1e-12.
 const TOLERANCE: f64 = 1e-10;
 
-/// Greatest difference of times (s), places (m) and rates (m/s) from the reference, which errs by 1e-11: with steps of a 250th of the time
-/// (four times the usual ones, so that the test is short) a rate of one of the chains differs by 1.2e-8.
+/// Greatest difference of times (s), places (m) and rates (m/s) from the reference, which errs by 1e-11: with
+/// steps of a 250th of the time (four times the usual ones, so that the test is short) a rate of one of the
+/// chains differs by 1.2e-8.
 const AGREEMENT: f64 = 1e-7;
 
 /// A family of the reference: a model, and the numbers and the motion of each of its members.
@@ -87,7 +89,8 @@ impl Family {
     }
 }
 
-/// When each joint begins to do something else, and what: it sticks, or slides with its contacts on these sides.
+/// When each joint begins to do something else, and what: it sticks, or slides with its contacts on these
+/// sides.
 fn changes(history: &History) -> Vec<Vec<(f64, String)>> {
     let joints = history.phases[0].phase.joints.len();
     let mut found = vec![Vec::<(f64, String)>::new(); joints];
@@ -162,7 +165,8 @@ fn square_waves() {
     dozen("square");
 }
 
-/// Closed form: `limit`. Friction holds a load that just reaches it, also where the limit of an inclined guide is rounded.
+/// Closed form: `limit`. Friction holds a load that just reaches it, also where the limit of an inclined
+/// guide is rounded.
 #[test]
 fn loads_exactly_at_the_limit() {
     dozen("limit");
@@ -174,10 +178,11 @@ fn drawers_under_loads_that_grow_from_zero() {
     all("drawer");
 }
 
-/// `reference/motion/elastic.py`: a cart stops while a block on it rests, and both can stick, or the cart turns back at once. With a damping of
-/// sqrt(K m) across the guides the normal forces swing so far after the stop that the cart is let go, within a time of order
-/// 1/sqrt(K): elastic guides come to the phase of `prefers_sliding`, with order 1/2 in 1/K. With six times that damping they come to the one of the rule; at these
-/// stiffnesses with no order that would be theirs.
+/// `reference/motion/elastic.py`: a cart stops while a block on it rests, and both can stick, or the cart
+/// turns back at once. With a damping of sqrt(K m) across the guides the normal forces swing so far after the
+/// stop that the cart is let go, within a time of order 1/sqrt(K): elastic guides come to the phase of
+/// `prefers_sliding`, with order 1/2 in 1/K. With six times that damping they come to the one of the rule; at
+/// these stiffnesses with no order that would be theirs.
 #[test]
 fn elastic_guides_take_either_phase() {
     let (data, model) = read("elastic");

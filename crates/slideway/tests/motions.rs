@@ -24,8 +24,9 @@ fn words(history: &History) -> Vec<String> {
     history.events.iter().map(|event| format!("{} {}", event.time, event.words)).collect()
 }
 
-/// With w^2 = k/m the block is at u = x - mu g/w^2. It sticks from u = -d to u = d, d = (mu_static - mu) g/w^2, at the speed v
-/// of the belt: 2 d/v. Then u'' = -w^2 u from (d, v) until u' = v again, at u = -d: (2/w) (pi - atan(w d/v)).
+/// With w^2 = k/m the block is at u = x - mu g/w^2. It sticks from u = -d to u = d, d = (mu_static - mu)
+/// g/w^2, at the speed v of the belt: 2 d/v. Then u'' = -w^2 u from (d, v) until u' = v again, at u = -d:
+/// (2/w) (pi - atan(w d/v)).
 #[test]
 fn stick_slip_has_its_period() {
     let history = history("stick-slip", &[], &SimulateOptions::new(10.0));
@@ -43,9 +44,9 @@ fn stick_slip_has_its_period() {
     }
 }
 
-/// With w^2 = k/m and f = mu m g/k: sliding in the direction s it swings about -s f. From x = 0 with v_0 it reaches
-/// x_1 = -f + sqrt(f^2 + v_0^2/w^2) after atan2(v_0/w, f)/w; each further half cycle lasts pi/w and ends 2 f nearer. It stays at the first
-/// turning point within mu_static m g/k.
+/// With w^2 = k/m and f = mu m g/k: sliding in the direction s it swings about -s f. From x = 0 with v_0 it
+/// reaches x_1 = -f + sqrt(f^2 + v_0^2/w^2) after atan2(v_0/w, f)/w; each further half cycle lasts pi/w and
+/// ends 2 f nearer. It stays at the first turning point within mu_static m g/k.
 #[test]
 fn a_frictional_oscillator_comes_to_rest() {
     let history = history("frictional-oscillator", &[], &SimulateOptions::new(4.0));
@@ -74,7 +75,8 @@ fn a_frictional_oscillator_comes_to_rest() {
     assert!(reader.configuration(4.0).unwrap().rates[0].abs() < 1e-12);
 }
 
-/// reference/slider_crank_motion.py: one coordinate, equations of its own, SciPy's DOP853 at a relative tolerance of 1e-13.
+/// reference/slider_crank_motion.py: one coordinate, equations of its own, SciPy's DOP853 at a relative
+/// tolerance of 1e-13.
 #[test]
 fn the_slider_crank_agrees_with_an_independent_integration() {
     let text = std::fs::read_to_string(concat!(
@@ -113,8 +115,8 @@ fn the_slider_crank_agrees_with_an_independent_integration() {
     }
 }
 
-/// reference/stribeck_belt.py: the block on the belt with friction that falls with the sliding speed, by SciPy's DOP853 at a
-/// relative tolerance of 1e-13.
+/// reference/stribeck_belt.py: the block on the belt with friction that falls with the sliding speed, by
+/// SciPy's DOP853 at a relative tolerance of 1e-13.
 #[test]
 fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/stribeck-belt.toml");
@@ -145,7 +147,8 @@ fn stick_slip_on_a_falling_friction_curve_agrees_with_an_independent_integration
     }
 }
 
-/// At a dead centre the piston stands while the crank turns on, however loose the tolerance: nothing may be taken from it.
+/// At a dead centre the piston stands while the crank turns on, however loose the tolerance: nothing may be
+/// taken from it.
 #[test]
 fn a_dead_centre_takes_no_energy_at_any_tolerance() {
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9] {
@@ -169,11 +172,11 @@ fn slides_to_the_left(history: &History) -> bool {
 
 const SLIDING: fn(f64) -> SimulateOptions = |duration| SimulateOptions::new(duration).prefers_sliding(true);
 
-/// To the right with F_30 at the lower end alone the preload is between both faces (theory, section 3). A vertical force V on the
-/// bar, growing or falling with time, ends that. With T = tan(alpha), a = T mu_1/2, N = V (1/2, 1/4, 1/4) + sum eta_k F_k and
-/// the lever 1/4 of the block's friction (Klepp, 2002, section 6):
-/// - `+ - 0`: the preload is at the negative face alone when N_3 = 0 with N_2 = -(F_2 + F_30)/2, F_2 = -mu_2 N_2, so that
-///   V = (F_2 + F_30) (T - 1 - a)/(1 + 2 a), F_2 = F_30 mu_2/(2 - mu_2);
+/// To the right with F_30 at the lower end alone the preload is between both faces (theory, section 3). A
+/// vertical force V on the bar, growing or falling with time, ends that. With T = tan(alpha), a = T mu_1/2,
+/// N = V (1/2, 1/4, 1/4) + sum eta_k F_k and the lever 1/4 of the block's friction (Klepp, 2002, section 6):
+/// - `+ - 0`: the preload is at the negative face alone when N_3 = 0 with N_2 = -(F_2 + F_30)/2, F_2 = -mu_2
+///   N_2, so that V = (F_2 + F_30) (T - 1 - a)/(1 + 2 a), F_2 = F_30 mu_2/(2 - mu_2);
 /// - contact 2 changes side in the gap of contact 3 when N_2 = N_3 = 0: V = T F_30/(1 + 2 a).
 #[test]
 fn a_preload_gap_is_followed_until_it_closes() {
@@ -201,9 +204,10 @@ fn a_preload_gap_is_followed_until_it_closes() {
     }
 }
 
-/// Klepp (2002), section 7, without preload: moving to the left the example has a solution up to mu_1* = 2 cot(80 deg) + 0.1 =
-/// 0.45265396. Below it moves to and fro if the force is great enough, and as long as sliding is preferred to wedging. (Friction
-/// to the left grows with 1/(mu_1* - mu_1), whatever the force: 114 N at 0.44, 15 kN at mu_1* - 0.0001.)
+/// Klepp (2002), section 7, without preload: moving to the left the example has a solution up to mu_1* = 2
+/// cot(80 deg) + 0.1 = 0.45265396. Below it moves to and fro if the force is great enough, and as long as
+/// sliding is preferred to wedging. (Friction to the left grows with 1/(mu_1* - mu_1), whatever the force:
+/// 114 N at 0.44, 15 kN at mu_1* - 0.0001.)
 #[test]
 fn the_example_moves_to_and_fro_below_its_locking_value() {
     let below =
@@ -216,7 +220,8 @@ fn the_example_moves_to_and_fro_below_its_locking_value() {
     }
 }
 
-/// Above mu_1* it stops regularly, and no force brings it back to the left, not even one that does 0.0002 below.
+/// Above mu_1* it stops regularly, and no force brings it back to the left, not even one that does 0.0002
+/// below.
 #[test]
 fn the_example_cannot_start_its_return_stroke_above_its_locking_value() {
     for (mu, force) in [("0.45275396", "20 kN"), ("0.5", "400 N"), ("0.6", "400 N")] {
@@ -311,11 +316,11 @@ fn rigid(settings: &[(&str, &str)], rate: &str, options: SimulateOptions) -> His
     simulate(&model.with(&all.rate("q", rate)).unwrap(), &options.tolerance(1e-11)).unwrap()
 }
 
-/// At a reversal the normal forces jump and change side. On elastic guides that takes a time in proportion to 1/sqrt(stiffness),
-/// in which the normal impulse is the rigid one up to 1/stiffness, as the velocities across the guides are; but friction has the
-/// integral of |N|, which is another one while N changes its sign. So motions agree to order 1 in 1/stiffness up to the first
-/// reversal and to order 1/2 behind it. Normal forces hang on position and velocity hardly at all: of order 1 once the
-/// transient is over.
+/// At a reversal the normal forces jump and change side. On elastic guides that takes a time in proportion to
+/// 1/sqrt(stiffness), in which the normal impulse is the rigid one up to 1/stiffness, as the velocities
+/// across the guides are; but friction has the integral of |N|, which is another one while N changes its
+/// sign. So motions agree to order 1 in 1/stiffness up to the first reversal and to order 1/2 behind it.
+/// Normal forces hang on position and velocity hardly at all: of order 1 once the transient is over.
 #[test]
 fn elastic_guides_converge_over_reversals() {
     let motions = elastic("to and fro");
@@ -351,9 +356,10 @@ fn elastic_guides_converge_over_reversals() {
     }
 }
 
-/// With the force at the lower end contacts change side while they slide on: all of it smooth, so of order 1. (At 1e5 N/m the motion
-/// is not yet near the rigid one. At the first change the guides still swing from the start, at the third, 10 ms behind the second, from
-/// that one: their times come nearer, but with no order that would be theirs. Normal forces at 0.05 s and 0.09 s are not near a change.)
+/// With the force at the lower end contacts change side while they slide on: all of it smooth, so of order 1.
+/// (At 1e5 N/m the motion is not yet near the rigid one. At the first change the guides still swing from the
+/// start, at the third, 10 ms behind the second, from that one: their times come nearer, but with no order
+/// that would be theirs. Normal forces at 0.05 s and 0.09 s are not near a change.)
 #[test]
 fn elastic_guides_converge_over_changes_of_side() {
     let motions = elastic("force below");
@@ -386,9 +392,10 @@ fn elastic_guides_converge_over_changes_of_side() {
     }
 }
 
-/// Stops, sticking and starting again. The force to the left is greater than what the normal forces of the stop let friction hold,
-/// but less than what friction can hold: the elastic guides creep until the normal forces have grown, by a way in proportion to
-/// 1/stiffness. (That of 1e5 N/m is as long as the way on which the bar slides.)
+/// Stops, sticking and starting again. The force to the left is greater than what the normal forces of the
+/// stop let friction hold, but less than what friction can hold: the elastic guides creep until the normal
+/// forces have grown, by a way in proportion to 1/stiffness. (That of 1e5 N/m is as long as the way on which
+/// the bar slides.)
 #[test]
 fn elastic_guides_converge_over_sticking() {
     let motions = elastic("stick and slip");
@@ -406,8 +413,8 @@ fn elastic_guides_converge_over_sticking() {
     }
 }
 
-/// mu_1 = 0.5: two solutions to the right, of which the elastic guides keep the attainable one until the bar stops. As long as the
-/// force then pushes it to the left, up to 0.2 s, they wedge it.
+/// mu_1 = 0.5: two solutions to the right, of which the elastic guides keep the attainable one until the bar
+/// stops. As long as the force then pushes it to the left, up to 0.2 s, they wedge it.
 #[test]
 fn elastic_guides_keep_the_attainable_solution() {
     let motions = elastic("several solutions");
@@ -439,9 +446,9 @@ fn elastic_guides_keep_the_attainable_solution() {
     }
 }
 
-/// When the force turns back to the right, slideway's bar stays: some distribution of the normal forces can hold it. That of the
-/// elastic guides has been relieved by then, and they let it slide to the right, the stiffer ones too. This is what the book says of
-/// joints that stick.
+/// When the force turns back to the right, slideway's bar stays: some distribution of the normal forces can
+/// hold it. That of the elastic guides has been relieved by then, and they let it slide to the right, the
+/// stiffer ones too. This is what the book says of joints that stick.
 #[test]
 fn elastic_guides_let_go_where_static_friction_could_hold() {
     let motions = elastic("several solutions");
@@ -452,8 +459,9 @@ fn elastic_guides_let_go_where_static_friction_could_hold() {
     assert!(moved[1..].iter().all(|moved| *moved > 0.015), "{moved:?}");
 }
 
-/// Started with a fifth of the way from the unattainable solution to the attainable one, stiff guides settle on the latter; started
-/// as far on the other side they stop the bar as if it were stuck, the sooner the stiffer they are.
+/// Started with a fifth of the way from the unattainable solution to the attainable one, stiff guides settle
+/// on the latter; started as far on the other side they stop the bar as if it were stuck, the sooner the
+/// stiffer they are.
 #[test]
 fn the_unattainable_solution_is_the_threshold_of_jamming() {
     let history = rigid(&[("mu_1", "0.5"), ("P", "0 N")], "1 m/s", SimulateOptions::new(0.05));
@@ -472,8 +480,8 @@ fn the_unattainable_solution_is_the_threshold_of_jamming() {
     assert_orders("time of the jam", &stops, 0.1, 0.5);
 }
 
-/// Sent to the left with mu_1 = 0.5 there is no solution: the elastic guides stop the bar from 1 m/s within a time that falls with
-/// the stiffness, where slideway has an impulse.
+/// Sent to the left with mu_1 = 0.5 there is no solution: the elastic guides stop the bar from 1 m/s within a
+/// time that falls with the stiffness, where slideway has an impulse.
 #[test]
 fn elastic_guides_jam_dynamically() {
     let motions = elastic("sent to the left");
@@ -487,8 +495,8 @@ fn elastic_guides_jam_dynamically() {
     assert!(stops[3] < 3e-3, "{stops:?}");
 }
 
-/// mu_1 = 0.35: when the bar stops it can wedge itself or slide back. Elastic guides, which come from sliding with the forces of
-/// sliding, slide back, as `--prefer sliding` does.
+/// mu_1 = 0.35: when the bar stops it can wedge itself or slide back. Elastic guides, which come from sliding
+/// with the forces of sliding, slide back, as `--prefer sliding` does.
 #[test]
 fn elastic_guides_slide_back_where_the_bar_could_wedge_itself() {
     let motions = elastic("wedge or slide");
@@ -510,7 +518,8 @@ fn elastic_guides_slide_back_where_the_bar_could_wedge_itself() {
     }
 }
 
-/// A brake written as a load, against none, and against one that follows the time or the place: only the first is friction.
+/// A brake written as a load, against none, and against one that follows the time or the place: only the
+/// first is friction.
 #[test]
 fn a_load_that_jumps_with_a_rate_gets_a_hint() {
     let hints = |force: &str| {
@@ -528,9 +537,10 @@ fn a_load_that_jumps_with_a_rate_gets_a_hint() {
     }
 }
 
-/// A block of 1 kg, 0.2 m long, that 1 N does not move. Flat on its guide, with friction at the face h/2 below the line of the pull,
-/// which turns it forwards: N = W/2 +- F h/(2 L). Held by a weight beyond its end it is tipped; there the friction is shared between a
-/// lower and an upper face, and with a height the normal forces hang on how.
+/// A block of 1 kg, 0.2 m long, that 1 N does not move. Flat on its guide, with friction at the face h/2
+/// below the line of the pull, which turns it forwards: N = W/2 +- F h/(2 L). Held by a weight beyond its end
+/// it is tipped; there the friction is shared between a lower and an upper face, and with a height the normal
+/// forces hang on how.
 #[test]
 fn what_statics_leaves_open_is_empty_in_tables() {
     let forces = |height: &str, arm: &str, weight: &str| {
@@ -571,7 +581,8 @@ slide = "guide"
     };
     let [front, rear] = forces("0.1 m", "0 m", "10 N").map(Option::unwrap);
     assert!((front - 5.25).abs() < 1e-12 && (rear - 4.75).abs() < 1e-12, "{front} {rear}");
-    // With the weight 0.3 m before the middle: N_front (0.1 m) - N_rear (0.1 m) = 0.3 m W, N_front + N_rear = W.
+    // With the weight 0.3 m before the middle: N_front (0.1 m) - N_rear (0.1 m) = 0.3 m W, N_front + N_rear =
+    // W.
     let [front, rear] = forces("0 m", "0.3 m", "30 N").map(Option::unwrap);
     assert!((front - 60.0).abs() < 1e-10 && (rear + 30.0).abs() < 1e-10, "{front} {rear}");
     assert_eq!(forces("0.1 m", "0.3 m", "30 N"), [None; 2]);

@@ -142,7 +142,8 @@ proptest! {
                 prop_assert!((&m * DVector::from_column_slice(z) - DVector::from_column_slice(w)).amax() <= 1e-12);
             }
         }
-        // What is left out is part of what is listed, and nothing else is: told from the signs that patterns allow.
+        // What is left out is part of what is listed, and nothing else is: told from the signs that patterns
+        // allow.
         let all = with_all_faces(&problem);
         let sets: Vec<(&str, Vec<Vec<f64>>)> =
             all.continua.iter().map(|one| (one.pattern.as_str(), generators(one))).collect();
@@ -222,8 +223,8 @@ fn solution_of(json: &str) -> RawReport {
     solved(&RawProblem::from_json(json.as_bytes()).unwrap())
 }
 
-/// With both unknowns in their gaps 5 = 4 lambda_1 + 2 lambda_2 in both equations: from lambda = (3/4, 1) to (1, 1/2). The ends
-/// belong to patterns with one unknown in its gap, and are no states besides.
+/// With both unknowns in their gaps 5 = 4 lambda_1 + 2 lambda_2 in both equations: from lambda = (3/4, 1) to
+/// (1, 1/2). The ends belong to patterns with one unknown in its gap, and are no states besides.
 #[test]
 fn shares_that_may_be_exchanged_are_one_gap_state() {
     let report = solution_of(
@@ -244,8 +245,8 @@ fn shares_that_may_be_exchanged_are_one_gap_state() {
     assert!(report.json().contains("\"shares_vary\": true"));
 }
 
-/// A pattern whose determinant is 1e-12 of its terms. Elimination in fractions (Python's) gives, for these very numbers,
-/// `N_1 = -573611896603267211751828659652045 / 1151026745007804056679198866014208`,
+/// A pattern whose determinant is 1e-12 of its terms. Elimination in fractions (Python's) gives, for these
+/// very numbers, `N_1 = -573611896603267211751828659652045 / 1151026745007804056679198866014208`,
 /// `N_2 = -6755399441061368 / 1022317115413610417` and the share `2024368032505066551 / 8178536923308883336`.
 #[test]
 fn values_of_nearly_singular_patterns_are_as_accurate_as_others() {
@@ -393,8 +394,8 @@ fn a_cube_of_many_corners_lists_those_that_were_asked_for() {
     assert!(report.text(Style::Plain).contains("There are 5 ends and directions more"));
 }
 
-/// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and no
-/// part of it.
+/// `N_1 = -1e-10, N_2 = 1, N_3 = -1e-10` is close to the end of the ray `N_1 >= 0, N_2 = 1, N_3 = 1e-10`, and
+/// no part of it.
 #[test]
 fn a_solution_close_to_a_continuum_is_no_end_of_it() {
     let json = br#"{"type": "modes", "columns_positive": [[0, 0, 2], [0, 1, 0], [0, 0, 1]],
@@ -406,8 +407,8 @@ fn a_solution_close_to_a_continuum_is_no_end_of_it() {
 }
 
 /// `z_k` is 0 or 1, and the last two rows ask for `sum a_k z_k = b`: with even `a_k` and odd `b` there is no
-/// solution, and a group of the last unknowns finds that out for each of 2^40 combinations. A search that is ended
-/// does not go through all of them.
+/// solution, and a group of the last unknowns finds that out for each of 2^40 combinations. A search that is
+/// ended does not go through all of them.
 #[test]
 fn a_search_among_very_many_combinations_ends_when_it_is_told_to() {
     let n = 40;
@@ -436,8 +437,8 @@ fn a_limit_of_solutions_is_told() {
     assert!(report.open[0].starts_with("the limit of 2 solutions of a group"), "{:?}", report.open);
 }
 
-/// A pile without friction: `M = J J^T` of rank 2 for four contacts, and `q = -M z` for `z = (2, 3, 3, 0)`, so that
-/// this `z` with `w = 0` is a solution. Rounding of `M` and `q` takes all solutions away.
+/// A pile without friction: `M = J J^T` of rank 2 for four contacts, and `q = -M z` for `z = (2, 3, 3, 0)`,
+/// so that this `z` with `w = 0` is a solution. Rounding of `M` and `q` takes all solutions away.
 #[test]
 fn a_pile_without_friction_has_a_solution_within_rounding() {
     let j = [[-0.8, 0.2], [0.9, -0.9], [-0.2, 0.7], [0.1, 0.6]];

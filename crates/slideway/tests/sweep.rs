@@ -68,8 +68,8 @@ fn settings_of(sweep: &Sweep, varied: usize, values: &[f64], model: &Model) -> S
     })
 }
 
-/// Where the search decides less than each mode by itself, rows tell of corners of continua and of what is undecided: behind
-/// the states, with what `solve` says of them.
+/// Where the search decides less than each mode by itself, rows tell of corners of continua and of what is
+/// undecided: behind the states, with what `solve` says of them.
 fn check_without_state(rows: &Rows, found: &[usize], report: &SolveReport) {
     let corners = report.continua.iter().flat_map(|continuum| {
         let corners: Vec<Option<&[f64]>> = match &continuum.vertices[..] {
@@ -186,8 +186,8 @@ fn rows_are_what_solve_says(#[case] name: &str, #[case] vary: &[&str]) {
     assert!(solved > 60, "{solved}");
 }
 
-/// A grid goes from point to point; each position is what the way from the drawing gives. A rod shorter than the crank cannot
-/// pass 90 degrees on that way, though it can come there from a longer one.
+/// A grid goes from point to point; each position is what the way from the drawing gives. A rod shorter than
+/// the crank cannot pass 90 degrees on that way, though it can come there from a longer one.
 #[rstest]
 #[case("slider-crank", &["phi=-80 deg..80 deg:161"])]
 #[case("scotch-yoke", &["phi=-170 deg..170 deg:171"])]
@@ -261,8 +261,8 @@ fn a_sweep_can_be_continued_anywhere() {
     }
 }
 
-/// Klepp (2002), section 7, moving to the right without preload: one solution up to the locking value 0.45265396, two
-/// beyond. Each of them is one branch throughout.
+/// Klepp (2002), section 7, moving to the right without preload: one solution up to the locking value
+/// 0.45265396, two beyond. Each of them is one branch throughout.
 #[test]
 fn the_branches_of_the_paper() {
     let sweep = Sweep::new(&with("klepp-2002", &[("F_20", "0")]), &grid(&["mu_1=0..0.8:801"])).unwrap();
@@ -296,8 +296,8 @@ fn the_branches_of_the_paper() {
     );
 }
 
-/// With the preload F_20 = m g the first branch passes from (+,-,+) to (+,-,-) at mu_1 = 0.45252578 (theory, section 9,
-/// with the side of contact 3 counted the other way round), and is still the same branch.
+/// With the preload F_20 = m g the first branch passes from (+,-,+) to (+,-,-) at mu_1 = 0.45252578 (theory,
+/// section 9, with the side of contact 3 counted the other way round), and is still the same branch.
 #[test]
 fn a_branch_goes_on_where_a_contact_changes_side() {
     let sweep = Sweep::new(&model("klepp-2002"), &grid(&["mu_1=0.45..0.455:51"])).unwrap();
@@ -317,8 +317,9 @@ fn a_branch_goes_on_where_a_contact_changes_side() {
     assert_eq!(points, 51);
 }
 
-/// The drawer jams from mu = L / (2 a) = 2/3 on (book, chapter Limits). With normal mu that has the probability
-/// 1 - Phi((2/3 - 0.6) / 0.05) = 1 - Phi(4/3) = 0.0912112197 (from tables: Phi(1.33) = 0.90824, Phi(1.34) = 0.90988).
+/// The drawer jams from mu = L / (2 a) = 2/3 on (book, chapter Limits). With normal mu that has the
+/// probability 1 - Phi((2/3 - 0.6) / 0.05) = 1 - Phi(4/3) = 0.0912112197 (from tables: Phi(1.33) = 0.90824,
+/// Phi(1.34) = 0.90988).
 #[test]
 fn the_probability_that_a_drawer_jams() {
     let exact = 0.091_211_219_725_868;
@@ -332,7 +333,8 @@ fn the_probability_that_a_drawer_jams() {
     }
 }
 
-/// The piston of a slider-crank with a rod shorter than its crank cannot follow everywhere: |sin phi| <= l / r.
+/// The piston of a slider-crank with a rod shorter than its crank cannot follow everywhere: |sin phi| <= l /
+/// r.
 #[test]
 fn points_without_a_position_are_marked() {
     let model = with("slider-crank", &[("r", "90 mm"), ("l", "60 mm"), ("phi_drawn", "20 deg")]);
@@ -356,7 +358,8 @@ fn points_without_a_position_are_marked() {
     assert!(sweep.tally().refusals.contains_key(&PointStatus::NoPosition));
 }
 
-/// Theory, section 7: with mu_1 = 0.6 the solution with N_1 = 0.2625 m g is attainable, that with -1.8754 m g is not.
+/// Theory, section 7: with mu_1 = 0.6 the solution with N_1 = 0.2625 m g is attainable, that with -1.8754 m g
+/// is not.
 #[test]
 fn attainability_is_that_of_the_theory() {
     let model = with("klepp-2002", &[("F_20", "0")]);
@@ -373,7 +376,8 @@ fn attainability_is_that_of_the_theory() {
     }
 }
 
-/// Values from which a negative coefficient is computed refuse their points, not the sweep; all others are computed.
+/// Values from which a negative coefficient is computed refuse their points, not the sweep; all others are
+/// computed.
 #[test]
 fn negative_friction_is_refused_point_by_point() {
     let text =
@@ -436,8 +440,8 @@ fn logarithmic_axes() {
     assert!((values[1] - 0.1).abs() < 1e-15);
 }
 
-/// Ten contacts are left to the search of `solve`, which is asked, too, whether it goes on: a point within which it does not
-/// is left out, whatever the search has found of it by then.
+/// Ten contacts are left to the search of `solve`, which is asked, too, whether it goes on: a point within
+/// which it does not is left out, whatever the search has found of it by then.
 #[test]
 fn what_is_ended_within_a_point_keeps_the_points_before_it() {
     let boom = Model::parse(&gallery::telescopic_boom(5).unwrap()).unwrap();

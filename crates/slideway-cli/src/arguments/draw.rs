@@ -25,7 +25,8 @@ pub(crate) struct DrawArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// Which solutions: a number, `all` beside the mechanism, or `none` for the mechanism alone. Default: all.
+    /// Which solutions: a number, `all` beside the mechanism, or `none` for the mechanism alone. Default:
+    /// all.
     #[arg(long, value_name = "N|all|none", value_parser = which)]
     pub(crate) solution: Option<Which>,
 

@@ -28,7 +28,8 @@ pub(crate) struct DriveArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// Tabulate the efforts over a parameter, a coordinate, or `friction`, a factor on all coefficients of friction.
+    /// Tabulate the efforts over a parameter, a coordinate, or `friction`, a factor on all coefficients of
+    /// friction.
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: Option<String>,
 

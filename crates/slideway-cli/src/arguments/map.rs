@@ -24,7 +24,8 @@ pub(crate) struct MapArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// From left to right: a parameter, a coordinate, or `friction` for a factor on all coefficients of friction.
+    /// From left to right: a parameter, a coordinate, or `friction` for a factor on all coefficients of
+    /// friction.
     #[arg(long, value_name = "NAME=FROM..TO")]
     pub(crate) x: String,
 

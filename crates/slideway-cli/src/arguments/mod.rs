@@ -45,8 +45,8 @@ use clap_complete::Shell;
 
 /// All solutions of planar mechanisms with dry friction in sliding joints.
 ///
-/// Friction can lock a sliding mechanism or leave it several ways to move. slideway tries every contact mode and
-/// lists all solutions: forces, accelerations, and on which side each slider touches its guide.
+/// Friction can lock a sliding mechanism or leave it several ways to move. slideway tries every contact mode
+/// and lists all solutions: forces, accelerations, and on which side each slider touches its guide.
 #[derive(Debug, Parser)]
 #[command(name = "slideway", version, max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Arguments {

@@ -34,15 +34,18 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) until: String,
 
-    /// The initial contact mode: + or - (sign of the normal force), 0 (preload gap) or = (sticks) for each contact.
+    /// The initial contact mode: + or - (sign of the normal force), 0 (preload gap) or = (sticks) for each
+    /// contact.
     #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
     pub(crate) mode: Option<String>,
 
-    /// Which of several possible modes to take at each decision, counted from 1; after the last, the preferred one.
+    /// Which of several possible modes to take at each decision, counted from 1; after the last, the
+    /// preferred one.
     #[arg(long, value_name = "N,M,...", value_delimiter = ',', value_parser = branch)]
     pub(crate) branch: Vec<usize>,
 
-    /// Which of several possible modes to prefer: by the rule of the book, or the one in which the fewest joints stick.
+    /// Which of several possible modes to prefer: by the rule of the book, or the one in which the fewest
+    /// joints stick.
     #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
     pub(crate) prefer: Preference,
 
@@ -69,7 +72,8 @@ pub(crate) struct SimulateArguments {
     #[arg(long, requires = "plot")]
     pub(crate) phase_portrait: bool,
 
-    /// Animate the mechanism, with exaggerated contact modes: FILE.html, FILE.svg, or FILE.gif for mail and slides. At most 25 frames per second and 400 in all; a GIF has at most 1000 pixels on each side.
+    /// Animate the mechanism, with exaggerated contact modes: FILE.html, FILE.svg, or FILE.gif for mail and
+    /// slides. At most 25 frames per second and 400 in all; a GIF has at most 1000 pixels on each side.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
 

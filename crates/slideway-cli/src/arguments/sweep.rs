@@ -88,7 +88,8 @@ pub(crate) struct SweepArguments {
 /// Columns that are left out unless they are asked for.
 #[derive(Debug, Args)]
 struct MoreColumns {
-    /// Report for each solution whether a mechanism with slightly elastic guides settles on it; --plot implies this.
+    /// Report for each solution whether a mechanism with slightly elastic guides settles on it; --plot
+    /// implies this.
     #[arg(long)]
     attainability: bool,
 

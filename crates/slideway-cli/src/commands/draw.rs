@@ -48,8 +48,8 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     Ok(outcome(halt, if has_found || halt.is_none() { Outcome::Done } else { Outcome::Unknown }))
 }
 
-/// All solutions, if they are wanted. Where only the kinetic problem makes no sense (a mechanism at rest, a motion
-/// without inertia) the mechanism can be drawn all the same, unless solutions are asked for.
+/// All solutions, if they are wanted. Where only the kinetic problem makes no sense (a mechanism at rest, a
+/// motion without inertia) the mechanism can be drawn all the same, unless solutions are asked for.
 fn solutions(model: &Model, which: Option<Which>, watch: &mut Watch) -> Result<Option<SolveReport>, Faults> {
     let mut solve = || solve_with(model, &SolveOptions::default(), &mut |progress| watch.look(progress));
     match which {

@@ -74,8 +74,8 @@ fn reasons(faults: &Faults) -> Vec<String> {
     faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
 }
 
-/// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if the model
-/// has any; nothing if the work was ended.
+/// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if
+/// the model has any; nothing if the work was ended.
 fn varied(
     model: &Model,
     wanted: &[String],

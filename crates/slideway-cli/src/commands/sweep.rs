@@ -104,8 +104,8 @@ impl Plotting {
         Ok(Self { extractor: plot.extractor(), plot, title, theme, picture, file })
     }
 
-    /// Computes again what an interrupted run has done: the table does not hold all that a plot needs. Where the time is up
-    /// before, it is up for the table, too.
+    /// Computes again what an interrupted run has done: the table does not hold all that a plot needs. Where
+    /// the time is up before, it is up for the table, too.
     fn repeat(&mut self, sweep: &Sweep, done: u64, watch: &mut Watch) {
         if done == 0 {
             return;

@@ -45,7 +45,8 @@ fn command(arguments: impl Iterator<Item = OsString>) -> String {
     kept.fold("slideway".to_owned(), |command, word| format!("{command} {}", quoted(&word)))
 }
 
-/// A word as a shell takes it: plain, in quotes, or, if it is not printable or no UTF-8, byte by byte where it has to be.
+/// A word as a shell takes it: plain, in quotes, or, if it is not printable or no UTF-8, byte by byte where
+/// it has to be.
 fn quoted(word: &OsStr) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=:,+%@".contains(c);
     match word.to_str() {

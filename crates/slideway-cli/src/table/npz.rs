@@ -1,7 +1,7 @@
 //! Tables as NumPy archives: a ZIP file, not compressed, whose member `rows.npy` is an array of records.
 //!
-//! Records are appended as they come; sizes and checksums at the beginning are filled in at the end. (The formats: PKWARE,
-//! APPNOTE.TXT 6.3.10, sections 4.3 and 4.5.3; NumPy, `numpy.lib.format`.)
+//! Records are appended as they come; sizes and checksums at the beginning are filled in at the end. (The
+//! formats: PKWARE, APPNOTE.TXT 6.3.10, sections 4.3 and 4.5.3; NumPy, `numpy.lib.format`.)
 
 use super::record::{FieldKind, fields, size};
 use super::{Layout, Metadata};
@@ -31,7 +31,8 @@ pub(super) fn head(layout: &Layout) -> Vec<u8> {
     head
 }
 
-/// Fills in the head, and appends what follows the records: metadata and directory. `data` is the checksum of the records.
+/// Fills in the head, and appends what follows the records: metadata and directory. `data` is the checksum of
+/// the records.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -199,8 +200,8 @@ fn text_literal(name: &str) -> String {
     format!("'{}'", name.replace('\\', "\\\\").replace('\'', "\\'"))
 }
 
-/// Magic number and header, filled with blanks to a multiple of 64 bytes. Version 2 is for long headers, 3 for names that
-/// are not ASCII.
+/// Magic number and header, filled with blanks to a multiple of 64 bytes. Version 2 is for long headers, 3
+/// for names that are not ASCII.
 fn npy_header(header: &str, room: usize) -> Vec<u8> {
     let whole = (12 + room + 1).next_multiple_of(64);
     let version = if header.is_ascii() { 2 } else { 3 };

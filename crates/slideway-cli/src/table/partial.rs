@@ -1,7 +1,7 @@
 //! A table on its way: `FILE.partial` holds what is done, `FILE.partial.state` what is needed to go on.
 //!
-//! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone. Checksums tell
-//! whether both files are still what was written.
+//! Who writes a table has locked `FILE.partial`, and all names that begin with it are the writer's alone.
+//! Checksums tell whether both files are still what was written.
 
 use super::{Encoder, npz};
 use crate::arguments::TableFormat;
@@ -62,7 +62,8 @@ impl PartialFile {
     /// Begins a table at the state `start`, or goes on with it.
     ///
     /// # Errors
-    /// If an unfinished one is in the way or missing, belongs to another command, or cannot be read or written.
+    /// If an unfinished one is in the way or missing, belongs to another command, or cannot be read or
+    /// written.
     pub(crate) fn open(
         target: &Path,
         encoder: Encoder,
@@ -121,7 +122,8 @@ impl PartialFile {
         if !same {
             return Err(Failure::AnotherSweep { path, command: kept.command });
         }
-        // The beginning is written again: completing an archive may have been interrupted in the middle of it.
+        // The beginning is written again: completing an archive may have been interrupted in the middle of
+        // it.
         let head = encoder.head();
         let bytes = kept.bytes.checked_sub(head.len() as u64).ok_or_else(|| damaged(&path))?;
         file.write_all(&head).map_err(|error| cannot_write(&path, error))?;
@@ -187,7 +189,8 @@ impl PartialFile {
         written
     }
 
-    /// Completes the table and gives it its name. `go_on` is told which part is done, and breaks to leave it unfinished.
+    /// Completes the table and gives it its name. `go_on` is told which part is done, and breaks to leave it
+    /// unfinished.
     ///
     /// # Errors
     /// If it cannot be written, or a file of that name has appeared meanwhile.
@@ -232,7 +235,8 @@ impl PartialFile {
         Ok(ControlFlow::Continue(self.path()))
     }
 
-    /// Makes a Parquet file of the records: its end tells of all that comes before, so that rows cannot be added to it.
+    /// Makes a Parquet file of the records: its end tells of all that comes before, so that rows cannot be
+    /// added to it.
     #[cfg(feature = "parquet")]
     fn convert(&self, go_on: &mut dyn FnMut(f64) -> ControlFlow<()>) -> io::Result<ControlFlow<(), PathBuf>> {
         let path = beside(&self.target, CONVERTED);
@@ -257,7 +261,8 @@ impl PartialFile {
     }
 }
 
-/// Opens an unfinished table for this program alone, and says whether it is new; without `create` it has to be there.
+/// Opens an unfinished table for this program alone, and says whether it is new; without `create` it has to
+/// be there.
 fn locked(path: &Path, create: bool) -> Result<(File, bool), Failure> {
     let mut attempts = 100;
     loop {

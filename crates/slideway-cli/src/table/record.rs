@@ -1,5 +1,5 @@
-//! Rows as records of a fixed size, little-endian: the elements of a NumPy array with named fields, and what a Parquet file is
-//! made from.
+//! Rows as records of a fixed size, little-endian: the elements of a NumPy array with named fields, and what
+//! a Parquet file is made from.
 
 use super::Layout;
 use slideway::report::defined;
@@ -15,7 +15,8 @@ pub(super) struct Field {
     pub(super) kind: FieldKind,
 }
 
-/// What a field holds. No word, no branch and no number stand in it as an empty word, as 0 and as not a number.
+/// What a field holds. No word, no branch and no number stand in it as an empty word, as 0 and as not a
+/// number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FieldKind {
     /// The number of a point: 8 bytes.

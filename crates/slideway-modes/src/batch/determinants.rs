@@ -102,9 +102,9 @@ pub(super) fn numerator_index(contacts: usize, both_sides: bool, contact: usize,
 
 /// Factor on the unit roundoff in the bound of the errors of a determinant.
 ///
-/// Expansion by columns makes `j` roundings at column `j`; the right-hand side is a sum of `r + 1` vectors, and
-/// columns and their combinations are rounded a few times: `r (r + 1) / 2 + 6 r` at most. The bound has twice as
-/// much.
+/// Expansion by columns makes `j` roundings at column `j`; the right-hand side is a sum of `r + 1` vectors,
+/// and columns and their combinations are rounded a few times: `r (r + 1) / 2 + 6 r` at most. The bound has
+/// twice as much.
 pub(super) fn rounding(contacts: usize) -> f64 {
     ((contacts * (contacts + 1)) / 2 + 6 * contacts) as f64 * f64::EPSILON
 }
@@ -264,8 +264,8 @@ impl Scaled {
     }
 }
 
-/// The largest power of two that is not above `size`, within the range where its reciprocal is finite; 1 for zero
-/// and for infinity.
+/// The largest power of two that is not above `size`, within the range where its reciprocal is finite; 1 for
+/// zero and for infinity.
 fn power_of_two_below(size: f64) -> f64 {
     if size == 0.0 || !size.is_finite() { 1.0 } else { size.log2().floor().clamp(-1000.0, 1000.0).exp2() }
 }

@@ -61,16 +61,17 @@ impl FrictionBatch {
         Ok(Self { influence, determinants })
     }
 
-    /// The same for a structure whose numbers are known to `accuracy` as a part of the 1-norm of their column: then more
-    /// points are in doubt. A determinant of `r` columns changes by `r` such parts of the product of their norms for each of
-    /// the `r` numbers of a column.
+    /// The same for a structure whose numbers are known to `accuracy` as a part of the 1-norm of their
+    /// column: then more points are in doubt. A determinant of `r` columns changes by `r` such parts of the
+    /// product of their norms for each of the `r` numbers of a column.
     #[must_use]
     pub fn known_to(mut self, accuracy: f64) -> Self {
         self.determinants.known_to(accuracy);
         self
     }
 
-    /// Whether the friction of preload depends on the side at some contact: then there may be gap states, too.
+    /// Whether the friction of preload depends on the side at some contact: then there may be gap states,
+    /// too.
     pub fn has_jump(&self) -> bool {
         self.determinants.both_sides
     }

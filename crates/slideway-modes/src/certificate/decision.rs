@@ -144,7 +144,8 @@ pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState])
     verdict
 }
 
-/// [`decide`], none once `proceed` is false, which is asked now and then: large matrices and rational numbers may take long.
+/// [`decide`], none once `proceed` is false, which is asked now and then: large matrices and rational numbers
+/// may take long.
 pub(crate) fn decide_while(
     problem: ProblemView<'_>,
     pattern: &[ContactState],
@@ -212,7 +213,8 @@ impl<'a> Approximation<'a> {
 }
 
 impl Approximation<'_> {
-    /// The same solution within narrower bounds: residuals with twice the digits are taken as long as that halves a bound.
+    /// The same solution within narrower bounds: residuals with twice the digits are taken as long as that
+    /// halves a bound.
     fn sharpened(&mut self, solution: Decision) -> Decision {
         let Decision::Solution { mut unknowns, determinant } = solution else { return solution };
         let mut is_first = true;

@@ -183,7 +183,8 @@ pub fn enclose_solution(
         let right = right_hand_side.centre().column(column).into_owned();
         let spread = right_hand_side.radius().column(column).into_owned();
         if right.amax() == 0.0 && spread.amax() == 0.0 {
-            // A X = 0 has the solution 0 alone, which needs no bound of rounding; that A is regular is seen below.
+            // A X = 0 has the solution 0 alone, which needs no bound of rounding; that A is regular is seen
+            // below.
             continue;
         }
         let guess = inverse.apply(&right);
@@ -249,7 +250,8 @@ fn eliminate(matrix: &mut DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Op
     Some((rows, odd))
 }
 
-/// The approximate inverse of the unit lower triangle, itself exactly unit lower triangular; none once `proceed` is false.
+/// The approximate inverse of the unit lower triangle, itself exactly unit lower triangular; none once
+/// `proceed` is false.
 fn invert_unit_lower(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
     let mut pace = Pace::new(proceed);
     let size = factors.nrows();
@@ -268,7 +270,8 @@ fn invert_unit_lower(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) 
     Some(inverse)
 }
 
-/// The approximate inverse of the upper triangle, itself exactly upper triangular; none once `proceed` is false.
+/// The approximate inverse of the upper triangle, itself exactly upper triangular; none once `proceed` is
+/// false.
 fn invert_upper(factors: &DMatrix<f64>, proceed: &mut dyn FnMut() -> bool) -> Option<DMatrix<f64>> {
     let mut pace = Pace::new(proceed);
     let size = factors.nrows();

@@ -56,8 +56,8 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64
 
 /// Solves the equations of one pattern for some contacts, with those of whatever acts on them and no others.
 ///
-/// Returns these contacts in increasing order, and the outcome in that order; none if they are more than `most`.
-/// See [`solve_exactly`].
+/// Returns these contacts in increasing order, and the outcome in that order; none if they are more than
+/// `most`. See [`solve_exactly`].
 ///
 /// # Panics
 /// If the pattern does not have one state per contact.
@@ -137,8 +137,8 @@ impl ExactSolution {
 }
 
 impl Interval {
-    /// The middle; the least number on the interval's side of zero if that would be zero by underflow. So the sign
-    /// is that of what the interval encloses, and a number too large for `f64` is infinite.
+    /// The middle; the least number on the interval's side of zero if that would be zero by underflow. So the
+    /// sign is that of what the interval encloses, and a number too large for `f64` is infinite.
     pub(crate) fn nonzero_middle(self) -> f64 {
         match self.middle() {
             0.0 if self.lower() == 0.0 => self.upper(),

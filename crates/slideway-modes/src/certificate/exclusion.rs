@@ -128,8 +128,9 @@ fn missing_fraction(
     Some(most)
 }
 
-/// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of its size, or negative; also those
-/// that have nothing in the equations that count, which weights that are moved would not leave at zero.
+/// The columns other than zero for which `w . c_k^{sigma}` is at most a `fraction` of its size, or negative;
+/// also those that have nothing in the equations that count, which weights that are moved would not leave at
+/// zero.
 fn nearly_zero_columns<'a>(
     problem: ProblemView<'a>,
     partial: &[Option<ContactState>],
@@ -145,8 +146,8 @@ fn nearly_zero_columns<'a>(
     usable_columns(problem, partial).filter(is_nearly_zero).collect()
 }
 
-/// The size of the terms of `w . c`: `|w| . |c|`, but far more than the bounds of the data can do where nothing else is in
-/// the equations that count.
+/// The size of the terms of `w . c`: `|w| . |c|`, but far more than the bounds of the data can do where
+/// nothing else is in the equations that count.
 fn product_size(weights: &[f64], column: Column<'_>) -> f64 {
     let of = |values: &[f64]| weights.iter().zip(values).map(|(w, value)| (w * value).abs()).sum::<f64>();
     of(column.centre).max(column.radius.map_or(0.0, of) * ABOVE_SPREAD)
@@ -157,8 +158,8 @@ fn exact_where_possible(weights: &[f64], column: Column<'_>) -> Interval {
     (0..weights.len()).map(|row| Interval::point(weights[row]) * column.entry(row)).sum()
 }
 
-/// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns, of that of all their entries where these
-/// terms are all zero; none if they depend on each other, or once `proceed` is false.
+/// The shortest `v` with `v . c_k` of the size of `w . c_k` for the given columns, of that of all their
+/// entries where these terms are all zero; none if they depend on each other, or once `proceed` is false.
 fn direction_inwards(
     columns: &[Column<'_>],
     weights: &[f64],

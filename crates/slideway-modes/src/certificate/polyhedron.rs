@@ -96,8 +96,8 @@ impl ExactSet {
         }
     }
 
-    /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once `proceed`
-    /// is false.
+    /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once
+    /// `proceed` is false.
     pub(super) fn new(
         echelon: &Echelon,
         pattern: &[ContactState],
@@ -161,7 +161,8 @@ impl WorkLimits {
         Self { parameters: free.len(), unknowns, rows }
     }
 
-    /// Vertices and extreme directions; none if that takes more than `bases` trials, or once `proceed` is false.
+    /// Vertices and extreme directions; none if that takes more than `bases` trials, or once `proceed` is
+    /// false.
     fn corners(&self, bases: u64, proceed: &mut dyn FnMut() -> bool) -> Option<Corners> {
         let (rows, parameters) = (self.rows.len(), self.parameters);
         let work = binomial(rows, parameters).saturating_add(binomial(rows, parameters - 1));

@@ -1,5 +1,5 @@
-//! The lower part of the tree: the last levels in `f64`, for several sibling nodes at once, with the instructions
-//! of the processor at hand.
+//! The lower part of the tree: the last levels in `f64`, for several sibling nodes at once, with the
+//! instructions of the processor at hand.
 
 use std::hint::black_box;
 
@@ -105,7 +105,8 @@ impl Kernel {
         self.used = 0;
     }
 
-    /// Visits all patterns of the kernel's places. From one to the next, only the lowest places are decided anew.
+    /// Visits all patterns of the kernel's places. From one to the next, only the lowest places are decided
+    /// anew.
     #[inline(always)]
     fn descend<const FUSED: bool>(&mut self) {
         for index in (0..1_usize << (self.places - CRAMER)).step_by(1 << self.padded) {
@@ -304,8 +305,8 @@ impl Kernel {
         }
     }
 
-    /// Back-substitution of one lane from the places of the leaf, whose errors are given: whether some unknown is
-    /// certainly outside of its range.
+    /// Back-substitution of one lane from the places of the leaf, whose errors are given: whether some
+    /// unknown is certainly outside of its range.
     fn is_excluded(&self, lane: usize, error: f64) -> bool {
         let mut unknowns = Vec::with_capacity(self.places + self.origins[lane].above.len());
         unknowns.extend(self.y[..CRAMER].iter().map(|y| Unknown { value: y.0[lane], error }));

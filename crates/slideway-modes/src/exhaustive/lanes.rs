@@ -1,7 +1,7 @@
 //! One number of each of several sibling nodes, side by side.
 //!
-//! Every operation is a loop of fixed length over plain arrays without a branch, which the compiler turns into
-//! vector instructions of whatever width the surrounding function may use.
+//! Every operation is a loop of fixed length over plain arrays without a branch, which the compiler turns
+//! into vector instructions of whatever width the surrounding function may use.
 
 /// Nodes that are treated together.
 pub(super) const LANES: usize = 8;

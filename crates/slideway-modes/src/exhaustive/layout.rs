@@ -15,8 +15,8 @@ pub(super) const SOLVED: usize = 6;
 
 /// Places of contacts in the tree; the last place is decided first.
 ///
-/// Places `0..padding` hold contacts with the equation `sigma y = 1`, so that there are as many without a jump as the
-/// leaves need. Then follow the contacts without a jump, then those with one.
+/// Places `0..padding` hold contacts with the equation `sigma y = 1`, so that there are as many without a
+/// jump as the leaves need. Then follow the contacts without a jump, then those with one.
 #[derive(Debug)]
 pub(super) struct Layout {
     padding: usize,
@@ -63,8 +63,8 @@ impl Layout {
         (self.padding..place).try_fold(1_u64, |count, place| count.checked_mul(states(place)))
     }
 
-    /// The column of the positive side of the contact at a place. Column 0 is the right-hand side; a contact has
-    /// the columns `c^+, c^-`, and `d^+, d^-` if there is a jump.
+    /// The column of the positive side of the contact at a place. Column 0 is the right-hand side; a contact
+    /// has the columns `c^+, c^-`, and `d^+, d^-` if there is a jump.
     pub(super) fn column(&self, place: usize) -> usize {
         1 + 2 * place + 2 * place.saturating_sub(self.plain)
     }

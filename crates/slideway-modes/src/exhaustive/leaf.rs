@@ -76,7 +76,8 @@ impl Solved {
         result
     }
 
-    /// Bound on the error of the quotients, the largest of which is given, if the multiples are wrong by `error`.
+    /// Bound on the error of the quotients, the largest of which is given, if the multiples are wrong by
+    /// `error`.
     #[inline(always)]
     pub(super) fn error_of_y(&self, bounds: &LeafErrors, error: Lanes, largest: Lanes) -> Lanes {
         let mut result = Lanes::ZERO;

@@ -33,8 +33,8 @@ pub(super) struct Pivot {
 }
 
 impl Pivot {
-    /// Bound on the error of the unknown `y` that follows from `count` others, given the largest of these and of
-    /// their errors.
+    /// Bound on the error of the unknown `y` that follows from `count` others, given the largest of these and
+    /// of their errors.
     #[inline(always)]
     pub(super) fn error_of_y(&self, count: f64, y: Lanes, largest: Lanes, error: Lanes) -> Lanes {
         let (bound, size, guard) = (self.bound, self.size, self.guard);
@@ -52,7 +52,8 @@ impl Pivot {
     }
 }
 
-/// The bound of the module documentation; `factor` is the largest `|l|`, `guard` at least `1 / (|p| - bound)`.
+/// The bound of the module documentation; `factor` is the largest `|l|`, `guard` at least
+/// `1 / (|p| - bound)`.
 #[inline(always)]
 pub(super) fn bound_below(bound: f64, factor: f64, guard: f64, row: f64, node: f64, unit: f64) -> f64 {
     let spread = (1.0 + factor) * bound;

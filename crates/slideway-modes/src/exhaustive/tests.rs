@@ -32,7 +32,8 @@ fn elimination_is_wrong_by_its_bound_at_most() {
     }
 }
 
-/// Where the entries are exact, the first step has the roundings of the factor, the product and the difference.
+/// Where the entries are exact, the first step has the roundings of the factor, the product and the
+/// difference.
 #[test]
 fn roundings_of_an_elimination_are_within_its_bound() {
     let u = f64::EPSILON / 2.0;

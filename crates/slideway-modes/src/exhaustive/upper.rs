@@ -167,8 +167,8 @@ impl Node {
     }
 }
 
-/// The jump of the contact whose columns begin at `column` goes to the right-hand side. For a contact in its gap,
-/// `-(d^+ - d^-)` becomes the column of its share.
+/// The jump of the contact whose columns begin at `column` goes to the right-hand side. For a contact in its
+/// gap, `-(d^+ - d^-)` becomes the column of its share.
 fn apply_jump(high: &mut [f64], low: &mut [f64], column: usize, state: ContactState) {
     let entry = |at: usize| DoubleDouble { high: high[at], low: low[at] };
     let (d_plus, d_minus) = (entry(column + 2), entry(column + 3));
@@ -231,7 +231,8 @@ impl<'a> Elimination<'a> {
         match instructions.set() {
             #[cfg(target_arch = "x86_64")]
             #[expect(unsafe_code, reason = "three times as fast as generic x86-64, chosen at run time")]
-            // SAFETY: `Instructions` are only those that the processor has, and AVX-512 is told with AVX2 only.
+            // SAFETY: `Instructions` are only those that the processor has, and AVX-512 is told with AVX2
+            // only.
             Set::Avx512 | Set::Avx2 => unsafe { self.rows_avx2(high, low) },
             Set::Generic => self.rows::<false>(high, low),
         }

@@ -23,8 +23,8 @@ pub struct CountInterval {
 
 /// The number of solutions in each interval of a range, neighbours with equal numbers joined.
 ///
-/// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same solution,
-/// as they do when a normal force is zero throughout.
+/// `existence` holds the modes of `line` in that `range`. Two patterns count once where they have the same
+/// solution, as they do when a normal force is zero throughout.
 pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
     let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
     let cells = cells(ends.chain(range), is_same_end);
@@ -36,8 +36,8 @@ pub fn is_same_end(next: f64, kept: f64) -> bool {
     next.is_finite() && next - kept <= SAME_END * next.abs()
 }
 
-/// The number of solutions in each of several cells, between whose ends no mode begins or ends; neighbours with equal
-/// numbers are joined. `distinct` has the number of different solutions of some modes at a place.
+/// The number of solutions in each of several cells, between whose ends no mode begins or ends; neighbours
+/// with equal numbers are joined. `distinct` has the number of different solutions of some modes at a place.
 pub fn counts_in(
     existence: &Existence,
     cells: &[[f64; 2]],
@@ -79,8 +79,8 @@ fn middle([from, to]: [f64; 2]) -> f64 {
 impl ModeProblemLine {
     /// Number of different solutions of some modes at a parameter where all of them exist.
     ///
-    /// Two patterns have the same solution only if the normal forces of all contacts in which they differ vanish in both, that
-    /// is, within their own rounding errors, however small they are beside others.
+    /// Two patterns have the same solution only if the normal forces of all contacts in which they differ
+    /// vanish in both, that is, within their own rounding errors, however small they are beside others.
     pub fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
         if modes.len() < 2 {
             return modes.len();
@@ -98,8 +98,8 @@ impl ModeProblemLine {
         known.len()
     }
 
-    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs; none where
-    /// its determinant vanishes.
+    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs;
+    /// none where its determinant vanishes.
     pub fn unknowns(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
         self.line(pattern).solution(at)
     }

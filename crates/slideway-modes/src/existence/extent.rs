@@ -26,9 +26,9 @@ pub(super) enum Extent {
 impl Line {
     /// The parts of a range in which all conditions hold.
     ///
-    /// A determinant and a Cramer numerator of equations that are linear in `t` are polynomials whose zeros are
-    /// eigenvalues (theory, section 6), so nothing is scanned: the range is cut at the zeros of the determinant,
-    /// then at those of one condition after the other.
+    /// A determinant and a Cramer numerator of equations that are linear in `t` are polynomials whose zeros
+    /// are eigenvalues (theory, section 6), so nothing is scanned: the range is cut at the zeros of the
+    /// determinant, then at those of one condition after the other.
     pub(super) fn extent(&self, conditions: &[Condition], range: [f64; 2]) -> Extent {
         let end = |at| End { at, cause: Cause::Range };
         if self.right_hand_side[0].is_empty() {
@@ -125,8 +125,8 @@ fn merge(parts: &mut Vec<Part>, cause: &Cause) {
     *parts = joined;
 }
 
-/// Moves an end to where its condition changes sign, to machine precision, and lists all conditions that vanish
-/// there.
+/// Moves an end to where its condition changes sign, to machine precision, and lists all conditions that
+/// vanish there.
 fn polish(reduced: &Reduced, end: &mut End, inside: f64) {
     match &mut end.cause {
         Cause::Range => {}

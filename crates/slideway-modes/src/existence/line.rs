@@ -83,8 +83,8 @@ impl Limit {
 }
 
 impl Line {
-    /// The same equations and conditions with unknowns in units (powers of two, so that nothing is rounded) in which the
-    /// columns have entries of order one: a coefficient of friction may be very great.
+    /// The same equations and conditions with unknowns in units (powers of two, so that nothing is rounded)
+    /// in which the columns have entries of order one: a coefficient of friction may be very great.
     pub(super) fn in_units(&self, conditions: &[Condition], range: [f64; 2]) -> (Self, Vec<Condition>) {
         let reach = range[0].abs().max(range[1].abs());
         let unit = |column: usize| {
@@ -129,8 +129,8 @@ impl Line {
         self.matrix_at(at).lu().solve(&self.right_hand_side_at(at))
     }
 
-    /// Which unknowns are zero within rounding, at a parameter where the equations are regular: no greater than the tolerance
-    /// times `|A^-1| (|A| |z| + |b|)`, the size of what they are the sum of.
+    /// Which unknowns are zero within rounding, at a parameter where the equations are regular: no greater
+    /// than the tolerance times `|A^-1| (|A| |z| + |b|)`, the size of what they are the sum of.
     pub(super) fn vanishes(&self, at: f64) -> Option<Vec<bool>> {
         let (matrix, right) = (self.matrix_at(at), self.right_hand_side_at(at));
         let solution = self.solution(at)?;

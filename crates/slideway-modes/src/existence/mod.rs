@@ -1,11 +1,12 @@
 //! Where modes exist: the parameters of a line of mode problems for which each pattern has a solution.
 //!
-//! Along a line every number of the problem is affine in one parameter `t`: one coefficient of friction, several that
-//! are scaled together, a preload, a load. The equations of a pattern are then `A(t) z = b(t)` with
-//! `A(t) = A_0 + t A_1`, `b(t) = b_0 + t b_1`, and where their solution begins or ceases to exist is known without
-//! scanning (theory, section 6): `det A(t)` vanishes where `-1/t` is an eigenvalue of `A_0^-1 A_1`, and so do Cramer's
-//! numerators of the unknowns for a bordered pencil. Only the `m` columns that vary count, so that the pencils have
-//! size `m` and `m + 1`; for `m = 1` the zeros are those of a linear or quadratic function:
+//! Along a line every number of the problem is affine in one parameter `t`: one coefficient of friction,
+//! several that are scaled together, a preload, a load. The equations of a pattern are then `A(t) z = b(t)`
+//! with `A(t) = A_0 + t A_1`, `b(t) = b_0 + t b_1`, and where their solution begins or ceases to exist is
+//! known without scanning (theory, section 6): `det A(t)` vanishes where `-1/t` is an eigenvalue of
+//! `A_0^-1 A_1`, and so do Cramer's numerators of the unknowns for a bordered pencil. Only the `m` columns
+//! that vary count, so that the pencils have size `m` and `m + 1`; for `m = 1` the zeros are those of a
+//! linear or quadratic function:
 //!
 //! ```text
 //! D(mu) = det(A) (1 + mu v_k),       y_j(mu) = y0_j - mu v_j y0_k / (1 + mu v_k)
@@ -13,8 +14,8 @@
 //!
 //! Every end is then polished to machine precision, where it is a simple zero.
 //!
-//! Outputs are further unknowns that are affine in the `y_k`, such as the couples of guided sliders, with bounds
-//! `|output| <= factor * y_k` that a solution has to obey.
+//! Outputs are further unknowns that are affine in the `y_k`, such as the couples of guided sliders, with
+//! bounds `|output| <= factor * y_k` that a solution has to obey.
 
 mod counts;
 mod extent;
@@ -34,8 +35,9 @@ pub use counts::is_same_end;
 pub use counts::{CountInterval, cells, counts, counts_in};
 pub use line::Limit;
 
-/// Mode problems whose numbers are affine in a parameter `t`: index 0 holds the values at `t = 0`, index 1 what each
-/// unit of `t` adds. With `r` contacts and `o` outputs matrices are `(r + o) x r`, the right-hand side `r + o`.
+/// Mode problems whose numbers are affine in a parameter `t`: index 0 holds the values at `t = 0`, index 1
+/// what each unit of `t` adds. With `r` contacts and `o` outputs matrices are `(r + o) x r`, the right-hand
+/// side `r + o`.
 #[derive(Debug, Clone)]
 pub struct ModeProblemLine {
     /// Columns `c_k` of each side; below them the negative of what a unit `y_k` adds to each output.
@@ -87,8 +89,8 @@ pub enum EndCause {
     OutputBound(Vec<usize>),
     /// These contacts reach [`ExistenceOptions::greatest_normal_force`].
     GreatestNormalForce(Vec<usize>),
-    /// A sliding velocity vanishes, so that its friction has no direction and turns round beyond; only where the numbers do not
-    /// depend linearly on the parameter.
+    /// A sliding velocity vanishes, so that its friction has no direction and turns round beyond; only where
+    /// the numbers do not depend linearly on the parameter.
     Reversal,
     /// Beyond it there is no mode problem; only where the numbers do not depend linearly on the parameter.
     NoProblem,
@@ -182,8 +184,8 @@ impl ModeProblemLine {
 
     /// The exact intervals in which each pattern has a solution.
     ///
-    /// Patterns come in the order of enumeration, those with preload gaps among them. Isolated values of the parameter at
-    /// which a pattern has a solution are left out.
+    /// Patterns come in the order of enumeration, those with preload gaps among them. Isolated values of the
+    /// parameter at which a pattern has a solution are left out.
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than the options allow.
@@ -244,9 +246,9 @@ impl ModeProblemLine {
         Ok(Some(existence))
     }
 
-    /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and the pattern;
-    /// none if there is no such parameter. Without jumps every load has exactly one solution up to there, if
-    /// determinants have one orientation at `t = 0` (theory, section 5).
+    /// The smallest positive parameter at which the determinant of some pattern without gaps vanishes, and
+    /// the pattern; none if there is no such parameter. Without jumps every load has exactly one solution up
+    /// to there, if determinants have one orientation at `t = 0` (theory, section 5).
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than `limit`.
@@ -263,8 +265,8 @@ impl ModeProblemLine {
         Ok(first)
     }
 
-    /// The patterns that have a solution at one parameter, in the order of enumeration; those that `goes_on`, which is asked before
-    /// each, lets be tried.
+    /// The patterns that have a solution at one parameter, in the order of enumeration; those that `goes_on`,
+    /// which is asked before each, lets be tried.
     ///
     /// # Errors
     /// [`TooManyModes`] if there are more patterns than the options allow.
@@ -285,8 +287,8 @@ impl ModeProblemLine {
         mode.line.solution(at).is_some_and(|unknowns| mode.violated(&unknowns).is_empty())
     }
 
-    /// What vanishes within rounding in the solution of a pattern at a parameter, as the cause by which it would end there;
-    /// [`EndCause::Range`] if nothing does, or its determinant vanishes.
+    /// What vanishes within rounding in the solution of a pattern at a parameter, as the cause by which it
+    /// would end there; [`EndCause::Range`] if nothing does, or its determinant vanishes.
     pub fn cause_at(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> EndCause {
         let mode = self.mode(pattern, options);
         let Some(unknowns) = mode.line.solution(at) else { return EndCause::Range };
@@ -311,8 +313,8 @@ impl ModeProblemLine {
         (!violated.is_empty()).then(|| there.cause(&Cause::Conditions(violated)))
     }
 
-    /// What vanishes where a mode ends for this reason, positive where the mode exists but for the sign of a determinant;
-    /// none where its equations are singular.
+    /// What vanishes where a mode ends for this reason, positive where the mode exists but for the sign of a
+    /// determinant; none where its equations are singular.
     pub fn slack(
         &self,
         pattern: &[ContactState],
@@ -355,7 +357,8 @@ impl ModeProblemLine {
         Ok(patterns)
     }
 
-    /// The equations of one pattern. Unknowns: `y_k`, or the share `lambda_k` of a contact in its gap, then the outputs.
+    /// The equations of one pattern. Unknowns: `y_k`, or the share `lambda_k` of a contact in its gap, then
+    /// the outputs.
     fn line(&self, pattern: &[ContactState]) -> Line {
         let size = self.right_hand_side[0].len();
         let part = |power: usize| {
@@ -409,7 +412,8 @@ impl ModeProblemLine {
     }
 }
 
-/// In a range without end, places farther out than the inverse of this, relative to its start, count as infinite.
+/// In a range without end, places farther out than the inverse of this, relative to its start, count as
+/// infinite.
 const INFINITY: f64 = 1e-6;
 
 /// What a condition says.
@@ -462,8 +466,8 @@ impl Mode<'_> {
         self.meanings.push(meaning);
     }
 
-    /// Where the mode exists. Up to infinity the equations are taken with the parameter `u = 1/t`: multiplied by `u` they
-    /// have the same solution.
+    /// Where the mode exists. Up to infinity the equations are taken with the parameter `u = 1/t`: multiplied
+    /// by `u` they have the same solution.
     fn extent(&self, range: [f64; 2]) -> Extent {
         if range[1].is_finite() {
             return self.line.extent(&self.conditions, range);

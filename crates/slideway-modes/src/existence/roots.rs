@@ -15,8 +15,8 @@ const STEPS: usize = 300;
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) struct Root(pub(super) f64);
 
-/// The equations reduced to the `m` columns that vary. With `tau = t - base`, `X = A(base)^-1 A_1` of those columns,
-/// `K` the rows of `X` that belong to them and `z_0`, `z_1` the solutions for `b(base)` and `b_1`,
+/// The equations reduced to the `m` columns that vary. With `tau = t - base`, `X = A(base)^-1 A_1` of those
+/// columns, `K` the rows of `X` that belong to them and `z_0`, `z_1` the solutions for `b(base)` and `b_1`,
 ///
 /// ```text
 /// z = z_0 + tau z_1 - tau X (I + tau K)^-1 (z_0 + tau z_1)_varying,     det A(t) = det A(base) det(I + tau K)

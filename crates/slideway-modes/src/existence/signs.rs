@@ -1,5 +1,5 @@
-//! Signs that a determinant and Cramer numerators keep throughout a range: where a sign is certain there is no zero to look
-//! for.
+//! Signs that a determinant and Cramer numerators keep throughout a range: where a sign is certain there is
+//! no zero to look for.
 
 use super::line::TOLERANCE;
 use super::roots::Reduced;
@@ -108,7 +108,8 @@ impl Reduced {
     }
 }
 
-/// The sign of a polynomial throughout an interval, whose terms have this size: that of all its Bernstein coefficients.
+/// The sign of a polynomial throughout an interval, whose terms have this size: that of all its Bernstein
+/// coefficients.
 fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64) -> CertainSign {
     let mut shifted = *polynomial;
     // Horner's scheme: in powers of tau - from.
@@ -117,8 +118,8 @@ fn sign(polynomial: &Polynomial, degree: usize, [from, to]: [f64; 2], size: f64)
             shifted[power] += from * shifted[power + 1];
         }
     }
-    // In powers of s = (tau - from) / (to - from), divided by binomial coefficients; then Bernstein coefficients are sums
-    // of (i over k) times those.
+    // In powers of s = (tau - from) / (to - from), divided by binomial coefficients; then Bernstein
+    // coefficients are sums of (i over k) times those.
     let mut scale = 1.0;
     for (power, coefficient) in shifted.iter_mut().enumerate().take(degree + 1) {
         *coefficient *= scale;

@@ -11,14 +11,16 @@ use crate::solutions::{GapShare, Support};
 pub(crate) struct Admitted {
     pub(crate) set: SolutionSet,
     pub(crate) support: Support,
-    /// The mean of the shares at the vertices, which is one of the states, where all have the same normal forces.
+    /// The mean of the shares at the vertices, which is one of the states, where all have the same normal
+    /// forces.
     pub(crate) shares: Vec<GapShare>,
     /// Whether states with the same normal forces differ in their shares.
     pub(crate) shares_vary: bool,
 }
 
 impl Admitted {
-    /// From the normal forces, the number of vertices with their shares, and the mean share of a contact at these.
+    /// From the normal forces, the number of vertices with their shares, and the mean share of a contact at
+    /// these.
     pub(crate) fn new(
         pattern: &[ContactState],
         (set, support): (SolutionSet, Support),

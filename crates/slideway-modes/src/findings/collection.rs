@@ -41,8 +41,8 @@ pub(crate) struct Findings<'a> {
     found: Vec<Found>,
     shared: HashMap<SharedPattern, usize>,
     singular: Vec<SingularMode>,
-    /// Places in `singular` of non-empty sets. What patterns admit are faces of one polyhedron, so that those with the same
-    /// support are one set.
+    /// Places in `singular` of non-empty sets. What patterns admit are faces of one polyhedron, so that those
+    /// with the same support are one set.
     singular_places: HashMap<Support, usize>,
     pub(crate) undecided: Vec<UndecidedPattern>,
     /// Whether what is found is exact but for rounding, so that nothing is merged within tolerances.
@@ -218,8 +218,8 @@ impl<'a> Findings<'a> {
         Ok(())
     }
 
-    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False if it
-    /// has not, or if there are loads.
+    /// Counts a regular pattern of a problem without loads, once its solution `y = 0` has been found. False
+    /// if it has not, or if there are loads.
     pub(crate) fn count_unloaded(&mut self, pattern: &[ContactState]) -> bool {
         let [zero] = &mut self.found[..] else { return false };
         if self.problem.load_size().amax() != 0.0 {

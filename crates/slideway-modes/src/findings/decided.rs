@@ -124,8 +124,8 @@ impl Findings<'_> {
         }
     }
 
-    /// The solution in the middle of its enclosure; contacts on a boundary are left to the caller. The pattern is left
-    /// unexamined once `proceed` is false.
+    /// The solution in the middle of its enclosure; contacts on a boundary are left to the caller. The
+    /// pattern is left unexamined once `proceed` is false.
     fn candidate(
         &mut self,
         pattern: &[ContactState],

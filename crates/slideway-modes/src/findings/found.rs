@@ -105,7 +105,8 @@ impl Found {
         }
     }
 
-    /// What may be a state of its own for some values within bounds, though in their middle it is another one.
+    /// What may be a state of its own for some values within bounds, though in their middle it is another
+    /// one.
     pub(crate) fn into_undecided(self) -> Option<UndecidedPattern> {
         let Certificate::OnBoundaryWithinBounds { unknowns, in_doubt } = self.certificate else {
             return None;

@@ -25,8 +25,8 @@ fn above(value: f64) -> f64 {
     -below(-value)
 }
 
-/// The value of a function at a number. Functions are exact at 0 where they are 0 or 1 there, and at 1 where they are
-/// 0 there.
+/// The value of a function at a number. Functions are exact at 0 where they are 0 or 1 there, and at 1 where
+/// they are 0 there.
 fn at(function: fn(f64) -> f64, x: f64) -> Interval {
     let value = function(x);
     let exact = x == 0.0 && (value == 0.0 || value == 1.0) || x == 1.0 && value == 0.0;
@@ -44,7 +44,8 @@ fn from(least: f64, interval: Interval) -> Interval {
     Interval { lower: interval.lower.max(least), upper: interval.upper.max(least) }
 }
 
-/// The values of sine or cosine, whose extrema are at whole numbers of `half_turns`: 1 at even ones, -1 at odd ones.
+/// The values of sine or cosine, whose extrema are at whole numbers of `half_turns`: 1 at even ones, -1 at
+/// odd ones.
 fn wave(function: fn(f64) -> f64, x: Interval, half_turns: Interval) -> Interval {
     let (first, last) = (half_turns.lower.ceil(), half_turns.upper.floor());
     if half_turns.magnitude() >= MOST_TURNS || last > first {

@@ -1,13 +1,13 @@
 //! Closed intervals with outward rounding, and the arithmetic that they share with plain numbers.
 //!
-//! Sums, products, quotients and square roots are rounded from the exact remainder. The other functions widen what the
-//! mathematical library of the platform returns, see below.
+//! Sums, products, quotients and square roots are rounded from the exact remainder. The other functions widen
+//! what the mathematical library of the platform returns, see below.
 //!
 //! # Elementary functions
-//! The library's results are taken to be within two units in the last place, and are widened by at least three. The
-//! libraries of glibc, musl, macOS and Windows stay within one for the functions used here, `sinh`, `cosh` and `tanh`
-//! within two (Gladman et al., Accuracy of Mathematical Functions in Single, Double, Extended Double and Quadruple
-//! Precision, 2024).
+//! The library's results are taken to be within two units in the last place, and are widened by at least
+//! three. The libraries of glibc, musl, macOS and Windows stay within one for the functions used here,
+//! `sinh`, `cosh` and `tanh` within two (Gladman et al., Accuracy of Mathematical Functions in Single,
+//! Double, Extended Double and Quadruple Precision, 2024).
 //!
 //! # Files
 //! `interval` has closed intervals, their elementary functions, and the trait `Real` of the arithmetic that

@@ -6,10 +6,11 @@ use num_traits::{One, Zero};
 use std::iter::Sum;
 use std::ops::{AddAssign, Div, DivAssign, MulAssign, Neg, Sub, SubAssign};
 
-/// A real number in the equations of a mechanism: `f64` with its rounding, or an [`Interval`] that encloses it.
+/// A real number in the equations of a mechanism: `f64` with its rounding, or an [`Interval`] that encloses
+/// it.
 ///
-/// One code thus evaluates formulas and assembles equations in both. Functions of an interval hold all their values
-/// there; where one has no value for a number of the interval the result is not finite.
+/// One code thus evaluates formulas and assembles equations in both. Functions of an interval hold all their
+/// values there; where one has no value for a number of the interval the result is not finite.
 ///
 /// ```
 /// use slideway_modes::interval::{Interval, Real};
@@ -83,8 +84,8 @@ pub trait Real:
     /// Cosine.
     #[must_use]
     fn cos(self) -> Self;
-    /// The unit vector at this angle from the x axis; that of a plain number is exact along the axes, so that a guide
-    /// at 90 degrees is truly vertical.
+    /// The unit vector at this angle from the x axis; that of a plain number is exact along the axes, so that
+    /// a guide at 90 degrees is truly vertical.
     fn direction(self) -> [Self; 2];
     /// Tangent.
     #[must_use]

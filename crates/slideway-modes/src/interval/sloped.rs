@@ -7,9 +7,10 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 
 /// The values of a function over a range of its variable, and those of its derivative there.
 ///
-/// Formulas that are evaluated with it hold the values of their derivative by the chain rule (R. E. Moore, R. B. Kearfott,
-/// M. J. Cloud, Introduction to Interval Analysis, SIAM 2009, chapter 9). Where a function has a kink the slopes are those on
-/// both sides, so that the mean value theorem holds across it; where it jumps nothing is known of the slope.
+/// Formulas that are evaluated with it hold the values of their derivative by the chain rule (R. E. Moore, R.
+/// B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009, chapter 9). Where a function has a
+/// kink the slopes are those on both sides, so that the mean value theorem holds across it; where it jumps
+/// nothing is known of the slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sloped {
     /// All values.

@@ -164,7 +164,8 @@ impl<'a> From<&'a IntervalModeProblem> for ProblemView<'a> {
 pub(crate) struct Column<'a> {
     pub(crate) centre: &'a [f64],
     pub(crate) radius: Option<&'a [f64]>,
-    /// If there is one, the column is exactly `centre + remainder`, and `radius` is the size of the remainder.
+    /// If there is one, the column is exactly `centre + remainder`, and `radius` is the size of the
+    /// remainder.
     remainder: Option<&'a [f64]>,
 }
 

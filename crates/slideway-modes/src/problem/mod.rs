@@ -1,8 +1,8 @@
 //! The mode problem: exact or within bounds, what its contacts do, and its units.
 //!
-//! `side.rs` and `pattern.rs` are the words, `mode_problem.rs` holds exact numbers, `bounds.rs` those within bounds
-//! (`radii.rs`), of which `bounded_influence.rs` makes one from influence coefficients; `scaling.rs` chooses units in which
-//! tolerances are plain numbers.
+//! `side.rs` and `pattern.rs` are the words, `mode_problem.rs` holds exact numbers, `bounds.rs` those within
+//! bounds (`radii.rs`), of which `bounded_influence.rs` makes one from influence coefficients; `scaling.rs`
+//! chooses units in which tolerances are plain numbers.
 
 mod bounded_influence;
 mod bounds;

@@ -293,7 +293,8 @@ impl ModeProblem {
         self.right_hand_side.len()
     }
 
-    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`, which are finite.
+    /// The equations and columns of some contacts alone, with their entries of `right_hand_side`, which are
+    /// finite.
     pub(crate) fn restricted(&self, contacts: &[usize], right_hand_side: &DVector<f64>) -> Self {
         let size = contacts.len();
         let of = |matrix: &DMatrix<f64>| {
@@ -325,8 +326,8 @@ impl ModeProblem {
         self.columns.get(side)
     }
 
-    /// What rounding took from [`Self::columns`] (r x r), exactly; none if that is nothing. The problem is the
-    /// one with the columns `columns + remainder`.
+    /// What rounding took from [`Self::columns`] (r x r), exactly; none if that is nothing. The problem is
+    /// the one with the columns `columns + remainder`.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector};

@@ -7,13 +7,13 @@ use crate::problem::mode_problem::ModeProblem;
 use crate::problem::pattern::ContactState;
 use crate::problem::side::Side;
 
-/// Coefficients of scaled rows below this are not told from zero in proofs: far enough above the least number that
-/// products of them with what multiplies them do not underflow.
+/// Coefficients of scaled rows below this are not told from zero in proofs: far enough above the least number
+/// that products of them with what multiplies them do not underflow.
 const NEGLIGIBLE: f64 = f64::from_bits((1023 - 500) << 52);
 
-/// A mode problem with rows divided by their largest coefficient and loads divided by the largest
-/// load, both rounded to powers of two so that scaling makes no rounding error, underflow and overflow apart. What
-/// these do is part of the bounds of errors.
+/// A mode problem with rows divided by their largest coefficient and loads divided by the largest load, both
+/// rounded to powers of two so that scaling makes no rounding error, underflow and overflow apart. What these
+/// do is part of the bounds of errors.
 ///
 /// Unknowns are `y_k` divided by `load_unit`, and `lambda_k` itself for a contact in its gap.
 pub(crate) struct ScaledProblem {
@@ -87,7 +87,8 @@ impl ScaledProblem {
         scaled
     }
 
-    /// How far the scaled columns may be off. Numbers too small for products with them are not told from zero.
+    /// How far the scaled columns may be off. Numbers too small for products with them are not told from
+    /// zero.
     fn scaled_radius(&self, problem: ProblemView<'_>, side: Side) -> DMatrix<f64> {
         let centre = problem.centre.columns(side);
         DMatrix::from_fn(self.contacts(), self.contacts(), |row, contact| {

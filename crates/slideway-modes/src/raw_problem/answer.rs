@@ -14,7 +14,7 @@ use crate::search::{
     CombinedState, Completeness, GroupReport, GroupState, SearchOptions, SearchResult, SolutionProduct,
     StopReason, search,
 };
-use crate::{Proof, Status};
+use crate::status::{Proof, Status};
 
 /// Enclosures are computed as long as the sum of n^3 over the solutions is below this, ...
 const ENCLOSURE_WORK: f64 = 3e7;
@@ -25,9 +25,9 @@ const EXACT_UNKNOWNS: usize = 24;
 
 /// All solutions of a raw problem.
 ///
-/// Searches with `options` and lists up to `listed` solutions, gap states and continua each; the
-/// counts are those of all. What is part of a continuum is not listed beside it. `progress` is called at every
-/// node, and in the midst of long work, and ends the search when it breaks.
+/// Searches with `options` and lists up to `listed` solutions, gap states and continua each; the counts are
+/// those of all. What is part of a continuum is not listed beside it. `progress` is called at every node, and
+/// in the midst of long work, and ends the search when it breaks.
 ///
 /// # Errors
 /// [`ModeProblemError::NotFinite`] if `A + B` of an absolute value equation overflows.
@@ -242,8 +242,8 @@ impl Teller<'_> {
     }
 }
 
-/// How far values of a pattern may be from those of its exact solution; none if that is not known. Values that have
-/// no floating-point number are left out.
+/// How far values of a pattern may be from those of its exact solution; none if that is not known. Values
+/// that have no floating-point number are left out.
 fn radius(problem: &ModeProblem, pattern: &[ContactState], values: &[f64]) -> Option<f64> {
     let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
         decide(problem, pattern).decision

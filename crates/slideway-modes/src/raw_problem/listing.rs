@@ -105,8 +105,8 @@ pub(super) fn list(
     }
 }
 
-/// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the combinations
-/// that are left; none if there are no combinations.
+/// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the
+/// combinations that are left; none if there are no combinations.
 fn restrict(product: &mut SolutionProduct, most: Sort, all_faces: bool) -> Option<Sort> {
     let mut greatest = Some(Sort::Point);
     for factor in &mut product.factors {

@@ -1,10 +1,10 @@
 //! Whether a problem without solution has one within rounding of its numbers.
 //!
 //! Numbers that were computed or converted are rounded, and where a matrix ought to be singular, as that of a
-//! frictionless pile, this alone may take away every solution. `y >= 0` solves the equations of a pattern for some
-//! numbers within bounds exactly if `|C y - b| <= R y + s`, row by row, where `R` and `s` are the radii of the bounds
-//! (Oettli and Prager, 1964). The search within the bounds excludes what has no solution for any of these numbers, and
-//! finds candidates for this criterion, which is evaluated in exact numbers.
+//! frictionless pile, this alone may take away every solution. `y >= 0` solves the equations of a pattern for
+//! some numbers within bounds exactly if `|C y - b| <= R y + s`, row by row, where `R` and `s` are the radii
+//! of the bounds (Oettli and Prager, 1964). The search within the bounds excludes what has no solution for
+//! any of these numbers, and finds candidates for this criterion, which is evaluated in exact numbers.
 
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
@@ -17,8 +17,8 @@ use crate::progress::{Callback, Progress};
 use crate::search::{Arguments, CombinedState, Completeness, GroupState, SearchOptions, search};
 use crate::solutions::Limits;
 
-/// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the rounding of
-/// `A + B` and `B - A`.
+/// Every number may be off by this part of its size, `2^-50`: what is told is `TOLD`, with room for the
+/// rounding of `A + B` and `B - A`.
 const RELATIVE: f64 = 4.0 * f64::EPSILON;
 const TOLD: f64 = 1e-15;
 /// The search within bounds ends at so many states, ...
@@ -95,8 +95,8 @@ impl<'a> Nearby<'a> {
         IntervalModeProblem::new(&columns, &BySide::same(none), &around(load, &load_size)?).ok()
     }
 
-    /// The matrix of the unknowns with these signed values that do not vanish, which ones they are, and the sizes of
-    /// its numbers.
+    /// The matrix of the unknowns with these signed values that do not vanish, which ones they are, and the
+    /// sizes of its numbers.
     fn columns(&self, signed: &DVector<f64>) -> (DMatrix<f64>, Vec<usize>, DMatrix<f64>) {
         let present: Vec<usize> = (0..signed.len()).filter(|&at| signed[at] != 0.0).collect();
         let side = |at: usize| if signed[at] > 0.0 { Side::Positive } else { Side::Negative };
@@ -128,8 +128,8 @@ impl<'a> Nearby<'a> {
         y.iter().all(|&value| value >= 0.0).then_some(refined)
     }
 
-    /// Whether some numbers within the bounds have this solution, of which rounding does not carry the load: what
-    /// it does to the terms of an equation must be less than half of the largest load.
+    /// Whether some numbers within the bounds have this solution, of which rounding does not carry the load:
+    /// what it does to the terms of an equation must be less than half of the largest load.
     fn admits(&self, signed: &DVector<f64>) -> bool {
         let (matrix, present, sizes) = self.columns(signed);
         let y: Option<Vec<RBig>> = present.iter().map(|&at| exact(signed[at].abs())).collect();

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
 use super::range::in_range;
-use crate::{Proof, Status};
+use crate::status::{Proof, Status};
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/modes/2";
@@ -58,8 +58,8 @@ pub struct RawReport {
     pub groups: Vec<RawGroup>,
 }
 
-/// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of other
-/// patterns.
+/// What is part of a larger continuum: its ends and its faces, which the search finds as the solutions of
+/// other patterns.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Faces {
@@ -130,7 +130,8 @@ impl Unknowns {
         }
     }
 
-    /// The names of the unknown that a signed value other than zero belongs to, with its sign under that name.
+    /// The names of the unknown that a signed value other than zero belongs to, with its sign under that
+    /// name.
     pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(&'static str, f64)] {
         match kind {
             RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[("z", 1.0)],
@@ -225,9 +226,9 @@ pub struct GapShare {
     pub lambda: f64,
 }
 
-/// Infinitely many solutions: the unknowns of each part are in its set, whatever those of the other parts. NaN (in
-/// JSON `null`) is a value that is not zero and beyond the range of floating-point numbers, as of a [`BeyondRange`];
-/// its sign is that of the pattern.
+/// Infinitely many solutions: the unknowns of each part are in its set, whatever those of the other parts.
+/// NaN (in JSON `null`) is a value that is not zero and beyond the range of floating-point numbers, as of a
+/// [`BeyondRange`]; its sign is that of the pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RawContinuum {
@@ -239,8 +240,8 @@ pub struct RawContinuum {
     pub parts: Vec<ContinuumPart>,
 }
 
-/// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of the
-/// directions.
+/// Unknowns that vary together: all convex combinations of the vertices plus all non-negative multiples of
+/// the directions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContinuumPart {

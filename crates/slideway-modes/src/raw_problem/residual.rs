@@ -9,7 +9,8 @@ use super::RawProblem;
 use super::range::nearest;
 use crate::problem::Side;
 
-/// What a matrix of the equations is multiplied with, of each unknown `N` with its share `lambda` of the positive jump.
+/// What a matrix of the equations is multiplied with, of each unknown `N` with its share `lambda` of the
+/// positive jump.
 #[derive(Clone, Copy)]
 enum Multiplier {
     Signed,
@@ -64,8 +65,8 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// What is left over for these `N` and shares, relative to the largest sum of sizes of terms in an equation;
-    /// none if numbers overflow or underflow.
+    /// What is left over for these `N` and shares, relative to the largest sum of sizes of terms in an
+    /// equation; none if numbers overflow or underflow.
     pub(super) fn residual(&self, signed: &[f64], shares: &[f64]) -> Option<f64> {
         let factor = |factor, at: usize| match factor {
             Multiplier::Signed => signed[at],

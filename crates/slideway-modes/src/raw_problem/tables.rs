@@ -5,18 +5,18 @@ use super::{npy, npz};
 
 /// The report as a NumPy archive (`.npz`).
 ///
-/// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and
-/// `y`; likewise `signs`, `on_boundary`, `maximal`, `residual` and `enclosure_radius` (NaN where they were not
-/// established). States in preload gaps are in arrays with the prefix `gap_`, `gap_shares` being NaN
-/// outside of a gap. The rows of `vertex_...` and `direction_...` belong to the continua and their parts whose
-/// numbers are in `vertex_continuum`, `vertex_part`, `direction_continuum` and `direction_part`; they are zero outside
-/// of their part, so that a continuum is the sum of its parts. Unknowns beyond the range of floating-point numbers are
-/// NaN; if there are some, `beyond_range_row` (of the solution), `beyond_range_index`, `beyond_range_name` and
-/// `beyond_range_value` tell of them one by one, of gap states likewise with the prefix. `status`, `complete`,
-/// `partial`, `open`, `type`, `count`, `gap_state_count`, `continuum_count` and `schema` are those of [`RawReport`];
-/// `face_solution_count`, `face_gap_state_count` and `face_continuum_count` those of its `faces`. If there is no
-/// solution, `within_rounding` tells whether there is one within rounding of the numbers, and
-/// `within_rounding_z`, ... have it as their row.
+/// Arrays with the unknowns have one row for each solution: `z` and `w`, or `x`, or `normal_forces` and `y`;
+/// likewise `signs`, `on_boundary`, `maximal`, `residual` and `enclosure_radius` (NaN where they were not
+/// established). States in preload gaps are in arrays with the prefix `gap_`, `gap_shares` being NaN outside
+/// of a gap. The rows of `vertex_...` and `direction_...` belong to the continua and their parts whose
+/// numbers are in `vertex_continuum`, `vertex_part`, `direction_continuum` and `direction_part`; they are
+/// zero outside of their part, so that a continuum is the sum of its parts. Unknowns beyond the range of
+/// floating-point numbers are NaN; if there are some, `beyond_range_row` (of the solution),
+/// `beyond_range_index`, `beyond_range_name` and `beyond_range_value` tell of them one by one, of gap states
+/// likewise with the prefix. `status`, `complete`, `partial`, `open`, `type`, `count`, `gap_state_count`,
+/// `continuum_count` and `schema` are those of [`RawReport`]; `face_solution_count`, `face_gap_state_count`
+/// and `face_continuum_count` those of its `faces`. If there is no solution, `within_rounding` tells whether
+/// there is one within rounding of the numbers, and `within_rounding_z`, ... have it as their row.
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let mut archive = Archive { size: report.size, arrays: Vec::new() };
     let status = serde_json::to_value(report.status).ok();
@@ -159,7 +159,8 @@ impl Archive {
         self.push("continuum_pattern", npy::write_texts(&[patterns.len()], &patterns));
     }
 
-    /// Rows for the vertices or the directions of all parts, zero outside of the part, and what they belong to.
+    /// Rows for the vertices or the directions of all parts, zero outside of the part, and what they belong
+    /// to.
     fn corners(&mut self, report: &RawReport, name: &str, of: fn(&ContinuumPart) -> &[Unknowns]) {
         let mut rows: Vec<(i64, i64, &ContinuumPart, &Unknowns)> = Vec::new();
         for (number, continuum) in (0_i64..).zip(&report.continua) {

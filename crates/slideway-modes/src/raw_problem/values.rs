@@ -9,8 +9,8 @@ use super::residual::{Equations, exact};
 use crate::problem::{ContactState, ModeProblem};
 use crate::search::CombinedState;
 
-/// Signed values `N` and shares of a state. One beyond the range of floating-point numbers is infinite or subnormal,
-/// with its sign.
+/// Signed values `N` and shares of a state. One beyond the range of floating-point numbers is infinite or
+/// subnormal, with its sign.
 pub(super) struct Values {
     pub(super) signed: Vec<f64>,
     pub(super) gaps: Vec<GapShare>,
@@ -27,8 +27,8 @@ impl Values {
         Self { signed, gaps: gaps.collect(), beyond: Vec::new() }
     }
 
-    /// Puts the numbers nearest to the exact values where the search had none of full precision, and tells of the
-    /// unknowns that have none.
+    /// Puts the numbers nearest to the exact values where the search had none of full precision, and tells of
+    /// the unknowns that have none.
     pub(super) fn settle(
         &mut self,
         kind: RawKind,

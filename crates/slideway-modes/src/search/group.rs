@@ -16,8 +16,8 @@ use crate::findings::Findings;
 use crate::problem::{ContactState, ScaledProblem};
 use crate::solutions::Solutions;
 
-/// All patterns of a group are tried if they are so few. For 8 contacts without jumps that takes about 0.4 ms,
-/// several times as long as branch and bound, which does not tell the outcome of each.
+/// All patterns of a group are tried if they are so few. For 8 contacts without jumps that takes about 0.4
+/// ms, several times as long as branch and bound, which does not tell the outcome of each.
 const EVERY_PATTERN_UP_TO: u64 = 256;
 /// The fewest contacts for which the cells of an arrangement are worth a look.
 const CELLS_FROM: usize = 13;

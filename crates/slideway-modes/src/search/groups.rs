@@ -1,10 +1,10 @@
 //! Groups of contacts that depend on one another.
 //!
-//! Contact `k` acts on equation `i` where `c_k^+`, `c_k^-`, `d_k^+` or `d_k^-` has an entry in row
-//! `i` that is not zero, or need not be within the bounds of the data. The strongly connected components of that graph are the diagonal blocks of a block-triangular
-//! problem: a group needs the solution of the groups that act on it, and no other (theory, section
-//! 4 (d)). A contact whose right-hand side jumps stays together with all equations that the jump
-//! reaches, because its gap states depend on all of them.
+//! Contact `k` acts on equation `i` where `c_k^+`, `c_k^-`, `d_k^+` or `d_k^-` has an entry in row `i` that
+//! is not zero, or need not be within the bounds of the data. The strongly connected components of that graph
+//! are the diagonal blocks of a block-triangular problem: a group needs the solution of the groups that act
+//! on it, and no other (theory, section 4 (d)). A contact whose right-hand side jumps stays together with all
+//! equations that the jump reaches, because its gap states depend on all of them.
 
 use crate::problem::ProblemView;
 

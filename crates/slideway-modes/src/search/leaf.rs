@@ -52,11 +52,12 @@ impl<'a> Leaves<'a> {
         self.file(pattern, decision, monitor)
     }
 
-    /// Whether the linear program of a pattern has no solution for any value within bounds, proven by a Farkas vector.
+    /// Whether the linear program of a pattern has no solution for any value within bounds, proven by a
+    /// Farkas vector.
     ///
-    /// This decides patterns whose determinant is zero by theory, as of a block with both ends in their preload gaps:
-    /// both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel but for rounding. Shares are from 0 to 1, so that
-    /// such columns reach nothing across their direction. False once `proceed` is.
+    /// This decides patterns whose determinant is zero by theory, as of a block with both ends in their
+    /// preload gaps: both differences `d_k^+ - d_k^-` are couples `h F_k0`, parallel but for rounding. Shares
+    /// are from 0 to 1, so that such columns reach nothing across their direction. False once `proceed` is.
     fn is_infeasible(&self, pattern: &[ContactState], proceed: &mut dyn FnMut() -> bool) -> bool {
         let problem = self.findings.problem;
         let load_radius = problem.scaled_load_radius(&self.problem.right_hand_side_radius());
@@ -68,8 +69,8 @@ impl<'a> Leaves<'a> {
         proves_empty_while(self.problem.view(), &decided, &weights, proceed)
     }
 
-    /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is decided
-    /// together with the contacts that the right-hand side comes from.
+    /// Where errors of the right-hand side leave a pattern open though all numbers given are exact, it is
+    /// decided together with the contacts that the right-hand side comes from.
     fn decide(
         &mut self,
         pattern: &[ContactState],

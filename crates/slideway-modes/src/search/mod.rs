@@ -24,25 +24,25 @@
 //! [`certificate::decide`](super::certificate::decide), and each state carries what is proven of it, its
 //! [`Certificate`](super::Certificate).
 //!
-//! - Exact numbers (sums of two matrices are not rounded): every pattern is decided, in rational numbers if need be. A group's right-hand side that
-//!   follows from other groups has a rounding error; where that leaves a pattern open, it is decided together
-//!   with their contacts (up to 48 of them).
+//! - Exact numbers (sums of two matrices are not rounded): every pattern is decided, in rational numbers if
+//!   need be. A group's right-hand side that follows from other groups has a rounding error; where that
+//!   leaves a pattern open, it is decided together with their contacts (up to 48 of them).
 //! - Numbers within bounds: a pattern whose outcome differs between values, or of which that could not be
 //!   ruled out, is labelled. If it is a solution in the middle of the bounds it is listed as such, on the
-//!   boundary within the bounds; else as an [`UndecidedPattern`](super::UndecidedPattern). Such patterns do not
-//!   make a list less proven: it holds everything that is a solution for some value. A contact may rest in its
-//!   gap if `d_k^+` and `d_k^-` may differ within the bounds; where both are one number that is known within
-//!   bounds, let it be part of the right-hand side.
+//!   boundary within the bounds; else as an [`UndecidedPattern`](super::UndecidedPattern). Such patterns do
+//!   not make a list less proven: it holds everything that is a solution for some value. A contact may rest
+//!   in its gap if `d_k^+` and `d_k^-` may differ within the bounds; where both are one number that is known
+//!   within bounds, let it be part of the right-hand side.
 //!
-//! [`SearchResult::completeness`] tells whether all of this worked. Not proven are singular sets that take too
-//! much work to describe exactly. Without [`SearchOptions::certify`] patterns are solved with the tolerances of
-//! [`modes`](super), and nothing is proven.
+//! [`SearchResult::completeness`] tells whether all of this worked. Not proven are singular sets that take
+//! too much work to describe exactly. Without [`SearchOptions::certify`] patterns are solved with the
+//! tolerances of [`modes`](super), and nothing is proven.
 //!
 //! # Cost
 //! The relaxation leaves the sum of both sides of a contact unbounded. It is strong for random dense
-//! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low
-//! rank beyond that of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a
-//! boundary is met in up to `2^m` patterns, each of which is decided.
+//! problems, and weak where columns of many contacts are nearly dependent, as in coupling of low rank beyond
+//! that of method 4: there the tree can have nearly `2^r` nodes. A solution with `m` contacts on a boundary
+//! is met in up to `2^m` patterns, each of which is decided.
 //!
 //! Outside of groups whose every pattern is tried, singular patterns that admit nothing (locking of the mode)
 //! are excluded like others and not listed, unlike in [`enumerate`](super::enumerate).
@@ -88,13 +88,14 @@ use monitor::Monitor;
 
 /// All solutions of a mode problem of any size, and how they were found.
 ///
-/// Finds every solution of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` (Klepp
-/// (2002), eqs. (6) and (8)), states in preload gaps and what singular patterns admit, as
-/// [`enumerate`](super::enumerate) does, but without trying every pattern, and proves it. `problem` is a reference
-/// to a [`ModeProblem`](super::ModeProblem), or to an
-/// [`IntervalModeProblem`](super::certificate::IntervalModeProblem) whose numbers lie within bounds. The work depends on the
-/// problem and can grow like `2^r`: `progress` is called at every node, and in the midst of long work, and ends the
-/// search when it breaks (the library has no clock; compare times there). The answer is then labelled as partial.
+/// Finds every solution of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` (Klepp (2002), eqs.
+/// (6) and (8)), states in preload gaps and what singular patterns admit, as [`enumerate`](super::enumerate)
+/// does, but without trying every pattern, and proves it. `problem` is a reference to a
+/// [`ModeProblem`](super::ModeProblem), or to an
+/// [`IntervalModeProblem`](super::certificate::IntervalModeProblem) whose numbers lie within bounds. The work
+/// depends on the problem and can grow like `2^r`: `progress` is called at every node, and in the midst of
+/// long work, and ends the search when it breaks (the library has no clock; compare times there). The answer
+/// is then labelled as partial.
 ///
 /// ```
 /// use std::ops::ControlFlow;

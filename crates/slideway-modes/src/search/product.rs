@@ -179,8 +179,8 @@ impl SolutionProduct {
         product
     }
 
-    /// Drops what is beyond a kind, and returns the last kind of the combinations that are left; none if there
-    /// are no combinations.
+    /// Drops what is beyond a kind, and returns the last kind of the combinations that are left; none if
+    /// there are no combinations.
     fn restrict(&mut self, most: StateKind) -> Option<StateKind> {
         let mut last = Some(StateKind::Solution);
         for factor in &mut self.factors {

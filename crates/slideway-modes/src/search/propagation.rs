@@ -238,7 +238,8 @@ mod tests {
         let (identity, load) = (DMatrix::identity(2, 2), DVector::from_vec(vec![1.0, -2.0]));
         let problem =
             ModeProblem::from_absolute_value_equation(&identity, &coupling, load).expect("shapes fit");
-        // The spectral radius is 0.9 in the middle, and 1 where all coefficients are as large as a tenth lets them.
+        // The spectral radius is 0.9 in the middle, and 1 where all coefficients are as large as a tenth lets
+        // them.
         for (relative, expected) in [(1e-3, true), (0.1, false)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");
             let scaled = ScaledProblem::within((&bounded).into());

@@ -100,8 +100,8 @@ impl Relaxation {
         self.program.artificial_basis()
     }
 
-    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own. It is left undecided
-    /// once `proceed` is false.
+    /// Solves the relaxation of a node from the basis of its parent, and returns the node's own. It is left
+    /// undecided once `proceed` is false.
     pub(super) fn solve(
         &self,
         states: &[StateSet],
@@ -121,8 +121,8 @@ impl Relaxation {
         (relaxed, basis)
     }
 
-    /// A vector that excludes a node but for rounding errors; none if the relaxation may have a solution, or once
-    /// `proceed` is false.
+    /// A vector that excludes a node but for rounding errors; none if the relaxation may have a solution, or
+    /// once `proceed` is false.
     pub(super) fn farkas(&self, states: &[StateSet], proceed: &mut dyn FnMut() -> bool) -> Option<Vec<f64>> {
         let bounds = self.bounds(states);
         let mut basis = self.first_basis().restricted(&bounds);
@@ -219,8 +219,8 @@ impl Relaxation {
     }
 }
 
-/// A multiple of a vector by a power of two, with entries up to about 1 and none too small for products; none if that
-/// is not possible.
+/// A multiple of a vector by a power of two, with entries up to about 1 and none too small for products; none
+/// if that is not possible.
 fn of_size_one(mut vector: Vec<f64>) -> Option<Vec<f64>> {
     let size = vector.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
     if !vector.iter().all(|entry| entry.is_finite()) || size == 0.0 {

@@ -198,8 +198,8 @@ pub struct GroupReport {
     pub method: Method,
     /// Binary logarithm of the number of patterns, gap states included.
     pub log2_patterns: f64,
-    /// Nodes visited, or patterns tried with [`Method::EveryPattern`] and [`Method::Cells`] (a cell may be met
-    /// several times).
+    /// Nodes visited, or patterns tried with [`Method::EveryPattern`] and [`Method::Cells`] (a cell may be
+    /// met several times).
     pub nodes: u64,
     /// Pivots of the linear programs.
     pub pivots: u64,

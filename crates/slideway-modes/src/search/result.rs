@@ -43,8 +43,8 @@ impl SearchResult {
         self.product.counts()
     }
 
-    /// All states of all contacts, one after the other: see [`CombinedState::joined`]. There may be very many:
-    /// take what is needed.
+    /// All states of all contacts, one after the other: see [`CombinedState::joined`]. There may be very
+    /// many: take what is needed.
     ///
     /// [`CombinedState::joined`]: super::CombinedState::joined
     pub fn states(&self, listed: usize) -> impl Iterator<Item = GroupState> {
@@ -96,8 +96,8 @@ impl SearchResult {
         lists
     }
 
-    /// The outcome of every pattern of all contacts; none if they were searched in several groups, or not every
-    /// pattern was tried. See [`GroupReport::outcomes`] for those of each group.
+    /// The outcome of every pattern of all contacts; none if they were searched in several groups, or not
+    /// every pattern was tried. See [`GroupReport::outcomes`] for those of each group.
     pub fn outcomes(&self) -> Option<&PatternOutcomes> {
         match self.groups.as_slice() {
             [only] if only.contacts.len() == self.contacts => only.outcomes.as_ref(),

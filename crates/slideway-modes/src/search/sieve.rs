@@ -7,10 +7,11 @@
 //! ```
 //!
 //! so that `|A^-1 b - x| <= z + G max z / (1 - max G)` row by row, with `z = |R (b - A x)|` and `G` the row
-//! sums of `|I - R A|`. `A` is regular if `max G < 1`. Radii of the data and rounding are part of `z` and `G`.
+//! sums of `|I - R A|`. `A` is regular if `max G < 1`. Radii of the data and rounding are part of `z` and
+//! `G`.
 //!
-//! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but has one bound for all entries, and so excludes less
-//! where the data have wide bounds, as over a stretch of a parameter.
+//! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but has one bound for all entries,
+//! and so excludes less where the data have wide bounds, as over a stretch of a parameter.
 
 use crate::problem::{Column, ContactState, ProblemView, Side};
 

@@ -367,7 +367,8 @@ impl Basis {
         self.updates += 1;
     }
 
-    /// Computes tableau, values and reduced costs afresh; false if the basis is singular, or once `proceed` is false.
+    /// Computes tableau, values and reduced costs afresh; false if the basis is singular, or once `proceed`
+    /// is false.
     fn refactor(
         &mut self,
         program: &LinearProgram,

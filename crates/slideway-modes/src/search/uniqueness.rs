@@ -138,7 +138,8 @@ mod tests {
 
     #[test]
     fn bounds_of_the_columns_add_to_singular_values() {
-        // sigma_max = 0.92 in the middle, and 1.02 with a diagonal that is less by a tenth, the other entries being more.
+        // sigma_max = 0.92 in the middle, and 1.02 with a diagonal that is less by a tenth, the other entries
+        // being more.
         let problem = equation(&DMatrix::from_row_slice(2, 2, &[0.65, 0.65, -0.65, 0.65]));
         for (relative, expected) in [(1e-3, Some(Method::SingularValue)), (0.1, None)] {
             let bounded = IntervalModeProblem::widened(&problem, relative).expect("a sensible radius");

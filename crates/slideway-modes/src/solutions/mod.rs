@@ -33,14 +33,16 @@ pub enum Certificate {
         /// Contacts with `lambda_k = 1`.
         full_share: Vec<usize>,
     },
-    /// The data are exact, `D = 0`, and this is all that the pattern admits, but for the rounding of the result.
+    /// The data are exact, `D = 0`, and this is all that the pattern admits, but for the rounding of the
+    /// result.
     Singular,
     /// It is a solution in the middle of the bounds, but may be none for other values within them.
     OnBoundaryWithinBounds {
-        /// Encloses the solution of the pattern's equations for every value; none if `D = 0` could not be ruled
-        /// out.
+        /// Encloses the solution of the pattern's equations for every value; none if `D = 0` could not be
+        /// ruled out.
         unknowns: Option<Vec<Interval>>,
-        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
+        /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is
+        /// none.
         in_doubt: Vec<usize>,
     },
     /// It was found within tolerances only.
@@ -76,17 +78,17 @@ impl Certificate {
     }
 }
 
-/// A pattern of a problem within bounds that has no solution in the middle of the bounds, but may have one for
-/// other values within them.
+/// A pattern of a problem within bounds that has no solution in the middle of the bounds, but may have one
+/// for other values within them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UndecidedPattern {
     /// The state of each contact.
     pub pattern: Vec<ContactState>,
-    /// All patterns that are meant, at most [`Limits::listed`](crate::Limits::listed): more than one where another
-    /// group of contacts is in a state that several patterns share.
+    /// All patterns that are meant, at most [`Limits::listed`](crate::Limits::listed): more than one where
+    /// another group of contacts is in a state that several patterns share.
     pub patterns: Vec<Vec<ContactState>>,
-    /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None if
-    /// `D = 0` could not be ruled out.
+    /// Encloses the solution of the pattern's equations for every value: `y_k`, or `lambda_k` in a gap. None
+    /// if `D = 0` could not be ruled out.
     pub unknowns: Option<Vec<Interval>>,
     /// Contacts whose `y_k` may be negative, or `lambda_k` outside of 0 to 1; empty where `unknowns` is none.
     pub in_doubt: Vec<usize>,
@@ -109,8 +111,8 @@ pub struct ModeSolution {
     pub pattern: Vec<Side>,
     /// Sign of every normal force, 0 for a contact on the boundary.
     pub signs: Vec<i8>,
-    /// `y_k = |N_k|`, exactly 0 on the boundary. Of an exact problem it is infinite where `y_k` is too large for
-    /// `f64`, and no less than the least positive number where it is too small.
+    /// `y_k = |N_k|`, exactly 0 on the boundary. Of an exact problem it is infinite where `y_k` is too large
+    /// for `f64`, and no less than the least positive number where it is too small.
     pub y: DVector<f64>,
     /// Signed normal forces `N_k = sigma_k y_k`.
     pub normal_force: DVector<f64>,
@@ -189,15 +191,17 @@ pub struct SingularMode {
     /// What the pattern admits. For a pattern with gap states these are its normal forces; the
     /// shares `lambda` may vary besides.
     pub set: SolutionSet,
-    /// Where the set is a point, the shares of the contacts in their gaps; if they vary, those of one of the states.
+    /// Where the set is a point, the shares of the contacts in their gaps; if they vary, those of one of the
+    /// states.
     pub shares: Vec<GapShare>,
-    /// Whether the set is a point, and there are several states with these normal forces, which differ in their shares.
+    /// Whether the set is a point, and there are several states with these normal forces, which differ in
+    /// their shares.
     pub shares_vary: bool,
     /// Indices of the entries of [`Solutions::solutions`] that are vertices of the set, and so are
     /// reported there as well.
     pub contains: Vec<usize>,
-    /// Whether it is not part of a larger continuum that was found, too: exactly, if the data are exact, else within
-    /// tolerances.
+    /// Whether it is not part of a larger continuum that was found, too: exactly, if the data are exact, else
+    /// within tolerances.
     pub maximal: bool,
     pub(crate) support: Support,
     /// What is proven of it.
@@ -282,7 +286,8 @@ pub struct Solutions {
     /// Singular patterns that were examined, each set reported once, and those without a solution
     /// one by one.
     pub singular: Vec<SingularMode>,
-    /// Patterns that have a solution for some of the values within bounds only, if any, and none in their middle.
+    /// Patterns that have a solution for some of the values within bounds only, if any, and none in their
+    /// middle.
     pub undecided: Vec<UndecidedPattern>,
     /// Up to four regular patterns with the smallest `|D|`, if `solutions` is empty.
     pub closest: Vec<ClosestMode>,

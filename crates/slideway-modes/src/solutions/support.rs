@@ -28,7 +28,8 @@ impl Support {
         Self { unknowns: ContactSet::none_of(UNKNOWNS * contacts) }
     }
 
-    /// Of one solution or gap state: `y_k` or `lambda_k`, the contacts with `y_k = 0`, and those with a share of 0 or 1.
+    /// Of one solution or gap state: `y_k` or `lambda_k`, the contacts with `y_k = 0`, and those with a share
+    /// of 0 or 1.
     pub(crate) fn of_point(
         pattern: &[ContactState],
         unknowns: &DVector<f64>,
@@ -59,8 +60,9 @@ impl Support {
         support
     }
 
-    /// Of what a singular pattern admits, within tolerances: its vertices and directions with `y_k`, or the share of a
-    /// contact in its gap, and behind these `1 - lambda` of the contacts in their gaps. What vanishes is exactly zero.
+    /// Of what a singular pattern admits, within tolerances: its vertices and directions with `y_k`, or the
+    /// share of a contact in its gap, and behind these `1 - lambda` of the contacts in their gaps. What
+    /// vanishes is exactly zero.
     pub(crate) fn of_corners(
         pattern: &[ContactState],
         (vertices, directions): (&[DVector<f64>], &[DVector<f64>]),

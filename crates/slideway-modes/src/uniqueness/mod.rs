@@ -73,9 +73,9 @@ pub enum Uniqueness {
 /// pattern (theory, section 5), positive or negative. With jumps the statement does not hold. For a
 /// linear complementarity problem it says whether `M` is a P-matrix.
 ///
-/// The decision refers to the numbers given (sums of two matrices unrounded), and is rigorous. Two sufficient conditions come first
-/// (a spectral radius, a largest singular value), for the whole and for large parts of the tree of
-/// patterns. The tree's eliminations carry error bounds. Where these leave a sign open, the
+/// The decision refers to the numbers given (sums of two matrices unrounded), and is rigorous. Two sufficient
+/// conditions come first (a spectral radius, a largest singular value), for the whole and for large parts of
+/// the tree of patterns. The tree's eliminations carry error bounds. Where these leave a sign open, the
 /// determinants are computed exactly. In general the question is co-NP-hard: past the limits the answer is
 /// [`Uniqueness::NotComputed`], or [`Uniqueness::InDoubt`].
 ///

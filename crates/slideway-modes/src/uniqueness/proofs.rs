@@ -41,8 +41,8 @@ impl Family {
 
 /// Whether `T v < v` for a positive `v`: then the spectral radius of `T >= 0` is below 1.
 ///
-/// `v = (I - (1 + margin) T)^-1 1` is positive exactly if the spectral radius is below `1 / (1 + margin)`, and
-/// then `T v <= v / (1 + margin)`. However it was computed, only the last inequality counts.
+/// `v = (I - (1 + margin) T)^-1 1` is positive exactly if the spectral radius is below `1 / (1 + margin)`,
+/// and then `T v <= v / (1 + margin)`. However it was computed, only the last inequality counts.
 fn dominates(t: &DMatrix<f64>) -> bool {
     let size = t.nrows();
     let matrix = DMatrix::identity(size, size) - t * (1.0 + MARGIN);
@@ -52,8 +52,8 @@ fn dominates(t: &DMatrix<f64>) -> bool {
     v.iter().zip(&image).all(|(v, image)| *v > 0.0 && v.is_finite() && *image < *v * (1.0 - MARGIN / 2.0))
 }
 
-/// Whether `sigma_max(G) < 1 - deviation`: the Cholesky factorization of `t^2 I - G^T G` succeeds, with its own
-/// rounding subtracted.
+/// Whether `sigma_max(G) < 1 - deviation`: the Cholesky factorization of `t^2 I - G^T G` succeeds, with its
+/// own rounding subtracted.
 fn contracts(g: &DMatrix<f64>, deviation: f64) -> bool {
     let size = g.nrows();
     let limit = 1.0 - deviation * (1.0 + 1e-9);

@@ -1,5 +1,5 @@
-//! The example of Klepp (2002), sections 6 and 7, and its reference numbers, in the paper's convention (reactions in
-//! units of m g, `N_3` positive downwards).
+//! The example of Klepp (2002), sections 6 and 7, and its reference numbers, in the paper's convention
+//! (reactions in units of m g, `N_3` positive downwards).
 #![allow(dead_code, reason = "each test uses a part of it")]
 
 use nalgebra::{DMatrix, DVector, dvector};

@@ -326,8 +326,8 @@ impl Painter<'_> {
     }
 }
 
-/// By how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment of inertia
-/// leaves that open.
+/// By how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment
+/// of inertia leaves that open.
 pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
     let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
     let sliders = mechanism.joints.iter().filter_map(|joint| match &joint.kind {

@@ -27,7 +27,8 @@ const PLACES: [(f64, f64); 8] = [
 const VELOCITY: f64 = 40.0;
 
 impl Painter<'_> {
-    /// The forces of every contact on its block, at the pressed face `P - sign(N) (h/2) n` (theory, section 1).
+    /// The forces of every contact on its block, at the pressed face `P - sign(N) (h/2) n` (theory, section
+    /// 1).
     pub(super) fn contact_forces(&mut self) {
         let Some(scale) = self.options.force_scale else { return };
         for index in 0..self.mechanism.contacts.len() {
@@ -40,8 +41,8 @@ impl Painter<'_> {
         }
     }
 
-    /// The place of the face where the block is pressed, as it is drawn: the corner of whatever carries the contact;
-    /// in the middle if it is not pressed at all.
+    /// The place of the face where the block is pressed, as it is drawn: the corner of whatever carries the
+    /// contact; in the middle if it is not pressed at all.
     fn face(&self, slide: &Slide, contact: ContactId, side: f64) -> Point {
         let place = self.view.place(self.configuration.contact(self.mechanism, contact).point);
         let is_of_block = self.mechanism.contacts[contact.index()].carried_by == CarriedBy::Block;

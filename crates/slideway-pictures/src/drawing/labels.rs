@@ -27,8 +27,8 @@ const DISTANCES: [f64; 14] =
     [5.0, 11.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0, 100.0, 125.0, 155.0, 190.0, 235.0, 290.0];
 /// Beyond this distance a line leads to the anchor.
 const LEADER: f64 = 30.0;
-/// What it costs that the line to what is named runs through another label, and for each place of another arrow or
-/// dimension on its way.
+/// What it costs that the line to what is named runs through another label, and for each place of another
+/// arrow or dimension on its way.
 const CROSSED: f64 = 12.0;
 const MET: f64 = 3.0;
 /// What a unit costs by which a label makes the drawing wider or higher.
@@ -40,7 +40,8 @@ const MARGIN: f64 = 2.0;
 /// Distance of the places of a line that labels keep clear of.
 const STEP: f64 = 3.0;
 
-/// Gives every label its place, in their order; with bounds those that find no place within them are left out.
+/// Gives every label its place, in their order; with bounds those that find no place within them are left
+/// out.
 pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
     let mut obstacles = obstacles(scene);
     obstacles.extend(outlines(scene));

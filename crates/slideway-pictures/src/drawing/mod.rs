@@ -1,11 +1,11 @@
 //! Drawings of mechanisms, to scale, with their contact modes exaggerated.
 //!
-//! [`scene`] turns a mechanism in a configuration into a list of shapes; [`sheet`] puts a drawing of the mechanism and
-//! one of each solution side by side; [`svg`] writes either.
+//! [`scene`] turns a mechanism in a configuration into a list of shapes; [`sheet`] puts a drawing of the
+//! mechanism and one of each solution side by side; [`svg`] writes either.
 //!
-//! Real guides have hardly any play, so that a tipped block looks like any other. A drawing of a contact mode widens the
-//! guides by a few units and moves the whole mechanism so that each block lies on the faces that it touches
-//! ([`slideway::configuration::Configuration::displaced`]).
+//! Real guides have hardly any play, so that a tipped block looks like any other. A drawing of a contact mode
+//! widens the guides by a few units and moves the whole mechanism so that each block lies on the faces that
+//! it touches ([`slideway::configuration::Configuration::displaced`]).
 
 mod bodies;
 mod dimensions;
@@ -50,7 +50,8 @@ pub struct ContactStates {
 /// How a contact is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactState {
-    /// Where the block lies in its play: 1 if the normal force is positive, -1 if it is negative, 0 in the middle.
+    /// Where the block lies in its play: 1 if the normal force is positive, -1 if it is negative, 0 in the
+    /// middle.
     pub side: f64,
     /// Its forces, if they are known.
     pub forces: Option<ContactForces>,
@@ -104,8 +105,8 @@ pub struct SceneOptions {
     pub values: bool,
     /// Lengths and heights of blocks.
     pub dimensions: bool,
-    /// Drawing units for a newton: forces of contacts, loads and drives are drawn to this scale. Without it loads are
-    /// arrows of one length.
+    /// Drawing units for a newton: forces of contacts, loads and drives are drawn to this scale. Without it
+    /// loads are arrows of one length.
     pub force_scale: Option<f64>,
     /// Sliding velocities.
     pub velocities: bool,
@@ -196,8 +197,8 @@ impl SceneOptions {
 const GREATEST_ROTATION: f64 = 0.25;
 const GREATEST_DISPLACEMENT: f64 = 60.0;
 
-/// The configuration with play, and the part of the full play: less where levers magnify it. None where the state is
-/// singular.
+/// The configuration with play, and the part of the full play: less where levers magnify it. None where the
+/// state is singular.
 fn displaced(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -274,8 +275,8 @@ impl Painter<'_> {
         }
     }
 
-    /// Lines across the outer side of a straight line of ground, which is to the left of the way from `from` to `to`
-    /// as one looks at the drawing.
+    /// Lines across the outer side of a straight line of ground, which is to the left of the way from `from`
+    /// to `to` as one looks at the drawing.
     fn hatching(&mut self, from: Point, to: Point) {
         const SPACING: f64 = 7.0;
         const DEPTH: f64 = 7.0;

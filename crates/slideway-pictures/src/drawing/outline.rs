@@ -101,8 +101,8 @@ pub(super) fn nearest_on_line(place: Point, [from, to]: [Point; 2]) -> (f64, Poi
     ((place - nearest).norm(), nearest)
 }
 
-/// The side of a guide that is seen as its upper one, or as its right one if it stands upright: 1 in the direction of
-/// `across`, else -1.
+/// The side of a guide that is seen as its upper one, or as its right one if it stands upright: 1 in the
+/// direction of `across`, else -1.
 pub(super) fn upper_side(across: Point) -> f64 {
     let is_upper = if across.y.abs() > 1e-3 { across.y < 0.0 } else { across.x > 0.0 };
     if is_upper { 1.0 } else { -1.0 }

@@ -1,5 +1,5 @@
-//! What a drawing consists of: shapes in drawing units (x to the right, y down), each with a class that says what it
-//! shows.
+//! What a drawing consists of: shapes in drawing units (x to the right, y down), each with a class that says
+//! what it shows.
 
 use nalgebra::Vector2;
 

@@ -68,8 +68,8 @@ pub struct Sheet {
     pub description: String,
 }
 
-/// Drawings of a mechanism and, if they were found, of its solutions, side by side; none if there is no solution of
-/// the wanted number.
+/// Drawings of a mechanism and, if they were found, of its solutions, side by side; none if there is no
+/// solution of the wanted number.
 ///
 /// ```
 /// use slideway::{configuration::Configuration, mechanism::Mechanism, model::Model};

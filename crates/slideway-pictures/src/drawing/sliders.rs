@@ -101,7 +101,8 @@ impl Slide {
     }
 }
 
-/// Play of a sliding joint in drawing units: enough to be seen, and not so much that a block seems to fall over.
+/// Play of a sliding joint in drawing units: enough to be seen, and not so much that a block seems to fall
+/// over.
 pub(super) fn gap(mechanism: &Mechanism, joint: JointId, configuration: &Configuration, view: &View) -> f64 {
     let Some(slider) = mechanism.slider(joint) else { return 0.0 };
     match slider.kind {
@@ -199,7 +200,8 @@ impl Painter<'_> {
         }
     }
 
-    /// Whether the walls of ground lie behind a plate that is higher than the space between them, as if on a rail.
+    /// Whether the walls of ground lie behind a plate that is higher than the space between them, as if on a
+    /// rail.
     fn is_behind_plate(&self, slide: &Slide) -> bool {
         if slide.around || slide.kind == SliderKind::Pin || slide.guide_frame != Frame::Ground {
             return false;
@@ -244,8 +246,8 @@ impl Painter<'_> {
     fn walls(&mut self, slide: &Slide) {
         let (_, local, [from, to]) = slide.outer();
         let half = slide.half_channel();
-        // n points to the left of u in a world with y upwards, and y points down here: the wall at +n has its outer
-        // side to the left of the way along u.
+        // n points to the left of u in a world with y upwards, and y points down here: the wall at +n has its
+        // outer side to the left of the way along u.
         for (start, end, side) in [(from, to, half), (to, from, -half)] {
             let (start, end) = (local.at(start, side), local.at(end, side));
             self.line(Class::Wall, vec![start, end]);

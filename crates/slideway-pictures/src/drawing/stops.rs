@@ -1,9 +1,10 @@
 //! Stops and pads at the ends of travels.
 //!
-//! A stop stands where the block's outer end, or that of its plate, is when it reaches the end of its travel: there the guide
-//! ends. A pad, cross-hatched as rubber is in sections, begins there and leans on the end of the guide. What no picture can
-//! know is left out: the model does not say which faces meet where the block leaves its guide, or where the end of a plate is torn
-//! off; and an end of travel far outside the picture is none of it.
+//! A stop stands where the block's outer end, or that of its plate, is when it reaches the end of its travel:
+//! there the guide ends. A pad, cross-hatched as rubber is in sections, begins there and leans on the end of
+//! the guide. What no picture can know is left out: the model does not say which faces meet where the block
+//! leaves its guide, or where the end of a plate is torn off; and an end of travel far outside the picture is
+//! none of it.
 
 use super::Painter;
 use super::outline::Local;
@@ -52,7 +53,8 @@ impl Slide {
 }
 
 impl Painter<'_> {
-    /// The stops at the least and at the greatest displacement of a sliding joint, as far as their places are known.
+    /// The stops at the least and at the greatest displacement of a sliding joint, as far as their places are
+    /// known.
     pub(super) fn end_stops(&self, joint: JointId, slider: &Slider, slide: &Slide) -> [Option<EndStop>; 2] {
         let shown = self.view.slides[joint.index()];
         [0, 1].map(|end| {

@@ -13,7 +13,8 @@ use std::fmt::Write;
 pub enum Colours {
     /// From a theme, written into the picture.
     Theme(Theme),
-    /// From the page that holds the picture, which has the rules of [`rules`] and the variables that they name.
+    /// From the page that holds the picture, which has the rules of [`rules`] and the variables that they
+    /// name.
     Page,
 }
 

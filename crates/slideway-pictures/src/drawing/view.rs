@@ -16,20 +16,21 @@ pub struct View {
     pub middle: Vector2<f64>,
     /// Least and greatest displacement (m) of each joint, zero for hinges: guides reach that far.
     pub slides: Vec<[f64; 2]>,
-    /// Where the drawing of each body with a long rectangle begins and ends along its longer side (m, from its centre of
-    /// mass): beyond, nothing else is to be seen. None for bodies that are drawn whole.
+    /// Where the drawing of each body with a long rectangle begins and ends along its longer side (m, from
+    /// its centre of mass): beyond, nothing else is to be seen. None for bodies that are drawn whole.
     pub cuts: Vec<Option<[f64; 2]>>,
 }
 
 /// A rectangle may be cut if it is so many times as long as wide.
 const LONG: f64 = 4.0;
-/// How far a long rectangle is drawn beyond all other places, and how much has to be left for it to be torn off.
+/// How far a long rectangle is drawn beyond all other places, and how much has to be left for it to be torn
+/// off.
 const BEYOND: f64 = 70.0;
 const LEAST_CUT: f64 = 40.0;
 
 impl View {
-    /// A view in which every one of some configurations has its place within a width and height (drawing units);
-    /// what is drawn around it (hatching, arrows, labels) comes on top of that.
+    /// A view in which every one of some configurations has its place within a width and height (drawing
+    /// units); what is drawn around it (hatching, arrows, labels) comes on top of that.
     pub fn fitting(mechanism: &Mechanism, configurations: &[&Configuration], size: [f64; 2]) -> Self {
         let extent = |configuration: &&Configuration| places(mechanism, configuration);
         let bounds = Bounds::around(configurations.iter().flat_map(extent))
@@ -72,8 +73,8 @@ fn slides(mechanism: &Mechanism, configurations: &[&Configuration], slider: &Sli
         .unwrap_or([0.0; 2])
 }
 
-/// Whether a rectangle, such as a belt, is narrow and longer than all that it carries: then its ends do not have to be
-/// seen.
+/// Whether a rectangle, such as a belt, is narrow and longer than all that it carries: then its ends do not
+/// have to be seen.
 fn is_long(mechanism: &Mechanism, [width, height]: [f64; 2]) -> bool {
     width.max(height) >= mechanism.size.max(LONG * width.min(height))
 }

@@ -11,7 +11,8 @@ pub(super) struct Paint {
     pub(super) hatching: Option<Hatching>,
 }
 
-/// Numbers of solutions, from one on: blues that differ in lightness alone, the first closest to the background.
+/// Numbers of solutions, from one on: blues that differ in lightness alone, the first closest to the
+/// background.
 const NUMBERS: [&str; 6] = ["#d6e6f4", "#86bbdd", "#3a87c0", "#17548f", "#0b2f5b", "#061a36"];
 const NUMBERS_ON_DARK: [&str; 6] = ["#12365f", "#24649f", "#4a95cc", "#8cc4e6", "#c0e0f4", "#eef7fd"];
 /// Margins, small to large: the sequence YlGnBu of C. Brewer (ColorBrewer 2.0, Apache licence 2.0).

@@ -28,8 +28,9 @@ const LINE: f64 = 18.0;
 
 /// The map as an SVG document.
 ///
-/// Elements have classes: `title`, `frame`, `region` (with `data-class`), `tick`, `axis`, `model` (a cross at the values of
-/// the model), `legend`. Pixels of the report need not be pixels of the picture: a map of 1000 x 1000 is as large, but finer.
+/// Elements have classes: `title`, `frame`, `region` (with `data-class`), `tick`, `axis`, `model` (a cross at
+/// the values of the model), `legend`. Pixels of the report need not be pixels of the picture: a map of 1000
+/// x 1000 is as large, but finer.
 ///
 /// # Errors
 /// If a number is too large or too small to be drawn.

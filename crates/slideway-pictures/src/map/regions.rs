@@ -1,10 +1,12 @@
-//! Outlines of the regions of a raster: polygons whose boundaries are shared by neighbours and straightened alike.
+//! Outlines of the regions of a raster: polygons whose boundaries are shared by neighbours and straightened
+//! alike.
 
 use crate::plot::clip::simplified;
 use crate::plot::svg::coordinate;
 use std::fmt::Write;
 
-/// Boundaries keep to this distance of the middles of the edges of pixels (pixels), which lie within half a pixel of them.
+/// Boundaries keep to this distance of the middles of the edges of pixels (pixels), which lie within half a
+/// pixel of them.
 const TOLERANCE: f64 = 0.9;
 
 /// A corner of a pixel: column and row, from the lower left.

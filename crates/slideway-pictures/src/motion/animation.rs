@@ -10,13 +10,15 @@ use slideway::motion::{History, Sample};
 const FRAMES_PER_SECOND: f64 = 25.0;
 /// At most so many frames.
 const MOST_FRAMES: usize = 400;
-/// Without a wish a motion is shown as fast as it is if that takes between these times (s), else in this time.
+/// Without a wish a motion is shown as fast as it is if that takes between these times (s), else in this
+/// time.
 const USUAL: [f64; 3] = [3.0, 16.0, 8.0];
 /// Width and height of the part of the drawing that the mechanism takes (drawing units).
 const SIZE: [f64; 2] = [560.0, 300.0];
 /// Length of the arrow of the greatest force (drawing units).
 const LONGEST_ARROW: f64 = 80.0;
-/// The greatest force is that which only this part of the frames exceeds: forces may grow very large before a jam.
+/// The greatest force is that which only this part of the frames exceeds: forces may grow very large before a
+/// jam.
 const RARE: f64 = 0.05;
 /// Around the drawing (drawing units).
 const MARGIN: f64 = 24.0;

@@ -130,7 +130,8 @@ impl Samples {
     }
 }
 
-/// Phases that are drawn as one piece: each by itself, or where there are too many, neighbours for whose jumps there is no room.
+/// Phases that are drawn as one piece: each by itself, or where there are too many, neighbours for whose
+/// jumps there is no room.
 fn groups(history: &History) -> Vec<Vec<&PhaseInterval>> {
     let phases: Vec<&PhaseInterval> = history.phases.iter().filter(|phase| phase.to > phase.from).collect();
     let shortest =
@@ -182,7 +183,8 @@ fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
     Curve { branch, quantity: 0, points, ends: <[crate::plot::End; 2]>::default() }
 }
 
-/// The contact modes along the time, in colours from this one on: those before it are the curves' of the same panel.
+/// The contact modes along the time, in colours from this one on: those before it are the curves' of the same
+/// panel.
 fn bands(history: &History, first: usize) -> Vec<Band> {
     let mut meanings: Vec<String> = Vec::new();
     let mut bands: Vec<Band> = Vec::new();

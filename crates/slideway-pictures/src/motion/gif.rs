@@ -45,15 +45,16 @@ pub enum GifFault {
 }
 
 impl Animation {
-    /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each unit of
-    /// the drawing and at most 1000 on each side. The callback is told how many frames are done, and ends the work when it breaks.
-    /// The bytes do not depend on the number of threads.
+    /// As a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for each
+    /// unit of the drawing and at most 1000 on each side. The callback is told how many frames are done, and
+    /// ends the work when it breaks. The bytes do not depend on the number of threads.
     ///
-    /// Delays are hundredths of a second; they are shared out so that all frames together take the time that the SVG
-    /// takes, to half a hundredth.
+    /// Delays are hundredths of a second; they are shared out so that all frames together take the time that
+    /// the SVG takes, to half a hundredth.
     ///
     /// # Errors
-    /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s, or the callback broke.
+    /// If there is no frame, or one would stand for longer than a GIF can say, 655.35 s, or the callback
+    /// broke.
     pub fn to_gif(&self, callback: &mut Callback<'_>) -> Result<Vec<u8>, GifFault> {
         write(self, callback)
     }
@@ -167,8 +168,8 @@ fn indexed(picture: &Pixmap, palette: &Palette) -> Vec<u8> {
     colours(picture).map(|colour| *known.entry(colour).or_insert_with(|| palette.nearest(colour))).collect()
 }
 
-/// A frame, packed: the least rectangle with all pixels that differ from the frame before; those in it that do not
-/// are see-through.
+/// A frame, packed: the least rectangle with all pixels that differ from the frame before; those in it that
+/// do not are see-through.
 fn packed(
     (earlier, now): (Option<&Vec<u8>>, &[u8]),
     [width, height]: [usize; 2],
@@ -285,8 +286,8 @@ mod tests {
         assert_eq!(delays.iter().sum::<u16>(), 79);
     }
 
-    /// Every pixel of every frame has the nearest of the colours that the GIF shows: the flat ones exactly, and but for
-    /// some edges it is as it was drawn.
+    /// Every pixel of every frame has the nearest of the colours that the GIF shows: the flat ones exactly,
+    /// and but for some edges it is as it was drawn.
     #[test]
     fn frames_show_what_was_drawn() {
         let animation = bar(&LIGHT);

@@ -15,8 +15,9 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// The colours of `always`, fewer than 255, and of the counted ones the most frequent that are not within some
-    /// distance of one taken before, in every channel; with a distance so small that 255 colours just suffice.
+    /// The colours of `always`, fewer than 255, and of the counted ones the most frequent that are not within
+    /// some distance of one taken before, in every channel; with a distance so small that 255 colours just
+    /// suffice.
     pub(super) fn of(always: &[Colour], counts: &HashMap<Colour, u64>) -> Self {
         let mut ordered: Vec<(Colour, u64)> =
             counts.iter().map(|(colour, count)| (*colour, *count)).collect();
@@ -61,7 +62,8 @@ impl Palette {
     }
 }
 
-/// Colours of which one is within a distance of each counted colour, in every channel; none if it takes too many.
+/// Colours of which one is within a distance of each counted colour, in every channel; none if it takes too
+/// many.
 fn cover(always: &[Colour], ordered: &[(Colour, u64)], distance: u8) -> Option<Vec<Colour>> {
     let mut taken = always.to_vec();
     for (colour, _) in ordered {
@@ -91,9 +93,9 @@ mod tests {
         }
     }
 
-    /// 1000 colours on a grid of spacing 25. Below that distance each needs an entry of its own; with it every second
-    /// one in each direction suffices, 125. A taken colour within 25 in every channel is within 43.3, and so is the nearest;
-    /// on the grid its channels differ by 25 at most.
+    /// 1000 colours on a grid of spacing 25. Below that distance each needs an entry of its own; with it
+    /// every second one in each direction suffices, 125. A taken colour within 25 in every channel is within
+    /// 43.3, and so is the nearest; on the grid its channels differ by 25 at most.
     #[test]
     fn many_colours_have_one_nearby() {
         let grid = (0..1000_u64).map(|number| {

@@ -1,11 +1,12 @@
 //! A report as one page of HTML that needs nothing else: no network, no other file, no script.
 //!
-//! Light or dark as the reader's machine asks for, and with a style for print. The drawing is part of the page; figures are
-//! pictures within it, in both themes.
+//! Light or dark as the reader's machine asks for, and with a style for print. The drawing is part of the
+//! page; figures are pictures within it, in both themes.
 
 //!
 //! # Files
-//! `head.html` is the head with the style, with names in double braces for what [`head`] fills in; `body.rs` writes the rest.
+//! `head.html` is the head with the style, with names in double braces for what [`head`] fills in; `body.rs`
+//! writes the rest.
 
 mod body;
 
@@ -52,8 +53,8 @@ pub struct Figure {
     pub dark: String,
 }
 
-/// The page as HTML. Every name and text from the model is escaped, and its characters that are not seen stand as their
-/// numbers ([`slideway::printable`]).
+/// The page as HTML. Every name and text from the model is escaped, and its characters that are not seen
+/// stand as their numbers ([`slideway::printable`]).
 ///
 /// # Errors
 /// If a place or a size in its drawing is infinite or undefined.

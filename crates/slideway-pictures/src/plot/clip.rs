@@ -16,8 +16,8 @@ impl Frame {
         x >= self.left - slack && x <= self.right + slack && y >= self.top - slack && y <= self.bottom + slack
     }
 
-    /// The part of a segment within the frame (Y.-D. Liang and B. A. Barsky, A new concept and method for line clipping,
-    /// 1984).
+    /// The part of a segment within the frame (Y.-D. Liang and B. A. Barsky, A new concept and method for
+    /// line clipping, 1984).
     fn segment(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let delta = [to[0] - from[0], to[1] - from[1]];
         let (mut start, mut end) = (0.0_f64, 1.0_f64);
@@ -62,8 +62,9 @@ impl Frame {
     }
 }
 
-/// A polyline without the points that lie within `tolerance` of the line between others (D. H. Douglas and T. K. Peucker,
-/// Algorithms for the reduction of the number of points required to represent a digitized line or its caricature, 1973).
+/// A polyline without the points that lie within `tolerance` of the line between others (D. H. Douglas and T.
+/// K. Peucker, Algorithms for the reduction of the number of points required to represent a digitized line or
+/// its caricature, 1973).
 pub(crate) fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     if points.len() < 3 {
         return points.to_vec();

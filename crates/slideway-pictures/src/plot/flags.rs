@@ -38,9 +38,9 @@ impl Flag<'_> {
     }
 }
 
-/// Places labels to the right of their lines, from right to left, and before that to the left of them those that would
-/// leave the picture or stand among such, from left to right: a line that rises to a higher row then passes the labels that were placed before.
-/// Each has the lowest row in which least is crossed.
+/// Places labels to the right of their lines, from right to left, and before that to the left of them those
+/// that would leave the picture or stand among such, from left to right: a line that rises to a higher row
+/// then passes the labels that were placed before. Each has the lowest row in which least is crossed.
 pub(super) fn flags(mut values: Vec<(f64, &MarkedValue)>, right: f64, size: f64) -> Vec<Flag<'_>> {
     values.sort_by(|one, other| other.0.total_cmp(&one.0));
     let space = |value: &MarkedValue| GAP + width(&value.label, size);

@@ -56,7 +56,8 @@ impl Legend {
         Self { entries }
     }
 
-    /// The width of the entries of curves, if several find room side by side; else they have lines of their own.
+    /// The width of the entries of curves, if several find room side by side; else they have lines of their
+    /// own.
     fn column(&self) -> Option<f64> {
         let curves = self.entries.iter().filter(|(sample, _)| matches!(sample, Sample::Curve(..)));
         let widest = curves.map(|(_, text)| width(text, SMALL)).fold(0.0, f64::max) + SAMPLE + GAP;

@@ -11,9 +11,9 @@ const TOGETHER: f64 = 1e-6;
 
 /// The figure of [`slideway::limits::limits_with_curves`]: a panel for each direction and unit.
 ///
-/// Each mode is a branch: a colour, and a stroke that says whether a mechanism with slightly elastic guides settles on it.
-/// Locking values are asymptotes, values where contacts change side are marked, intervals without a solution are hatched. Dots
-/// cover what was found at single values and is not proven between them.
+/// Each mode is a branch: a colour, and a stroke that says whether a mechanism with slightly elastic guides
+/// settles on it. Locking values are asymptotes, values where contacts change side are marked, intervals
+/// without a solution are hatched. Dots cover what was found at single values and is not proven between them.
 pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
     let mut units: Vec<&str> = curves.series.iter().map(|series| series.unit).collect();
     units.dedup();

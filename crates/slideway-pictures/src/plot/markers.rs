@@ -16,7 +16,8 @@ const SHAPES: [&[[f64; 2]]; 5] = [
     &[[0.0, 1.2], [1.15, -0.9], [-1.15, -0.9]],
 ];
 
-/// Places at even distances along a polyline, the first one at `phase` of the distance (0 to 1); the middle of a short one.
+/// Places at even distances along a polyline, the first one at `phase` of the distance (0 to 1); the middle
+/// of a short one.
 pub(super) fn places(points: &[[f64; 2]], phase: f64) -> Vec<[f64; 2]> {
     let lengths: Vec<f64> =
         points.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).collect();

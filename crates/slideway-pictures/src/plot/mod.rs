@@ -1,7 +1,8 @@
 //! Plots: curves over an axis, with asymptotes, hatched intervals and coloured bands, as SVG.
 //!
-//! A [`Figure`] is plain data; [`to_svg`] draws it. Curves are cut at the frame, so that no coordinate lies outside of the
-//! picture; points closer to a line between their neighbours than a twentieth of a pixel are left out. Text stays text.
+//! A [`Figure`] is plain data; [`to_svg`] draws it. Curves are cut at the frame, so that no coordinate lies
+//! outside of the picture; points closer to a line between their neighbours than a twentieth of a pixel are
+//! left out. Text stays text.
 //!
 //! ```
 //! use slideway_pictures::plot::{Axis, Branch, Curve, Figure, Panel, Stroke, to_svg};
@@ -75,9 +76,9 @@ fn dashes(stroke: Stroke) -> &'static str {
 
 /// The figure as an SVG document.
 ///
-/// The same figure gives the same bytes. Elements have classes: `title`, `panel`, `frame`, `grid`, `tick`, `axis`, `curve`
-/// (with `data-branch` and `data-quantity`), `end`, `marker`, `marked` and `asymptote` (with `data-at`), `flag`, `zone`,
-/// `band`, `legend`.
+/// The same figure gives the same bytes. Elements have classes: `title`, `panel`, `frame`, `grid`, `tick`,
+/// `axis`, `curve` (with `data-branch` and `data-quantity`), `end`, `marker`, `marked` and `asymptote` (with
+/// `data-at`), `flag`, `zone`, `band`, `legend`.
 ///
 /// # Errors
 /// If a number is too large or too small to be drawn.

@@ -3,7 +3,8 @@
 /// Distance of the places of a curve that are looked at (px).
 const STEP: f64 = 6.0;
 
-/// Whether at least half of the length of `beneath` lies within a distance of `above`, both given by their visible parts.
+/// Whether at least half of the length of `beneath` lies within a distance of `above`, both given by their
+/// visible parts.
 pub(super) fn runs_along(beneath: &[Vec<[f64; 2]>], above: &[Vec<[f64; 2]>], distance: f64) -> bool {
     if !are_near(beneath, above, distance) {
         return false;

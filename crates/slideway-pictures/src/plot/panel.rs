@@ -177,8 +177,8 @@ impl<'f> PanelLayout<'f> {
         self.labels(theme, svg);
     }
 
-    /// Labels of marked values, above all lines: one that keeps from the edge of the picture may stand across lines of
-    /// others, which its border interrupts.
+    /// Labels of marked values, above all lines: one that keeps from the edge of the picture may stand across
+    /// lines of others, which its border interrupts.
     fn labels(&self, theme: &Theme, svg: &mut Svg) {
         let size = coordinate(SMALL);
         for Flag { value, text, row, .. } in &self.flags {
@@ -223,8 +223,9 @@ impl<'f> PanelLayout<'f> {
         (index + 1..parts.len()).filter(hides).collect()
     }
 
-    /// How many curves hide the curve with this index: it is drawn wider, so that it shows on both sides of them. A short
-    /// piece counts only if most of its branch is hidden by theirs: it may lie within a mere crossing.
+    /// How many curves hide the curve with this index: it is drawn wider, so that it shows on both sides of
+    /// them. A short piece counts only if most of its branch is hidden by theirs: it may lie within a mere
+    /// crossing.
     fn number_above(&self, index: usize, hiding: &[Vec<usize>], parts: &[Vec<Vec<[f64; 2]>>]) -> usize {
         let curves = &self.panel.curves;
         let is_same = |one: usize, other: usize| {

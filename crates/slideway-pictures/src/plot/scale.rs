@@ -39,8 +39,8 @@ pub(super) fn tick_step([from, to]: [f64; 2], wanted: usize) -> f64 {
     factor.unwrap_or(10.0) * power
 }
 
-/// Ticks at 1, 2 and 5 times powers of ten, at 1 and 3 times them, or at powers of ten: as many as there is room for, at
-/// even distances. None where the positive range is too narrow for three of them.
+/// Ticks at 1, 2 and 5 times powers of ten, at 1 and 3 times them, or at powers of ten: as many as there is
+/// room for, at even distances. None where the positive range is too narrow for three of them.
 pub(super) fn logarithmic_ticks([from, to]: [f64; 2], wanted: usize) -> Option<Vec<f64>> {
     let slack = 1e-9;
     #[expect(clippy::cast_possible_truncation, reason = "exponents of floating-point numbers")]
@@ -103,8 +103,8 @@ pub(super) fn tick_text(value: f64, step: f64, greatest: f64) -> String {
     format!("{value:.decimals$}").replace('-', "\u{2212}")
 }
 
-/// The range of a panel's vertical axis that its curves ask for: all of them, but for what lies near values at which they
-/// grow without bound; with zero if it is not far away.
+/// The range of a panel's vertical axis that its curves ask for: all of them, but for what lies near values
+/// at which they grow without bound; with zero if it is not far away.
 pub fn fitting_range(panel: &Panel) -> [f64; 2] {
     let values = panel.curves.iter().flat_map(visible).filter(|value| value.is_finite());
     let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {

@@ -9,7 +9,8 @@ use slideway::sweep::{Breakpoint, Line, PointStatus, RowKind, RowVerdict, Rows, 
 const POINTS: u64 = 3000;
 /// The most branches that are drawn: nobody could tell more apart.
 const MOST_BRANCHES: u32 = 24;
-/// Intervals narrower than this share of the range are not hatched, and values as close to each other share a label.
+/// Intervals narrower than this share of the range are not hatched, and values as close to each other share a
+/// label.
 const NARROW: f64 = 1e-6;
 /// The most hatched intervals; more of them are the noise of a sweep along a boundary.
 const MOST_ZONES: usize = 1000;
@@ -207,8 +208,8 @@ fn strokes(points: &[Kept]) -> Vec<Stroke> {
 }
 
 impl SweepPlot {
-    /// None if there is no line to draw over, see [`Sweep::line`], or the model has nothing of this quantity. Strokes tell
-    /// of attainability, so the sweep has to examine it.
+    /// None if there is no line to draw over, see [`Sweep::line`], or the model has nothing of this quantity.
+    /// Strokes tell of attainability, so the sweep has to examine it.
     pub fn new(sweep: &Sweep, quantity: Quantity) -> Option<Self> {
         let line = sweep.line()?;
         let prefix = match quantity {
@@ -276,8 +277,9 @@ impl SweepPlot {
         self.left_out = count.saturating_sub(MOST_BRANCHES);
     }
 
-    /// The figure: a panel for each unit; each branch has a colour, and a stroke that says whether a mechanism with
-    /// slightly elastic guides settles on it; exact ends of modes are marked, intervals without a solution hatched.
+    /// The figure: a panel for each unit; each branch has a colour, and a stroke that says whether a
+    /// mechanism with slightly elastic guides settles on it; exact ends of modes are marked, intervals
+    /// without a solution hatched.
     pub fn figure(&self, title: &str) -> Figure {
         let mut legend = Vec::new();
         let mut units: Vec<&str> = self.series.iter().map(|series| series.unit).collect();

@@ -92,8 +92,8 @@ fn between(from: Point, to: Point) -> impl Iterator<Item = Point> {
         .map(move |step| from + way * (step / steps))
 }
 
-/// A belt of 3 m that carries a block of 0.12 m is torn off, so that the block fills more than a tenth of the panel of
-/// 440 units; the plates of drawers are drawn whole.
+/// A belt of 3 m that carries a block of 0.12 m is torn off, so that the block fills more than a tenth of the
+/// panel of 440 units; the plates of drawers are drawn whole.
 #[test]
 fn long_plates_are_torn_off_and_others_are_whole() {
     let case = Case::gallery("stick-slip");
@@ -163,8 +163,8 @@ fn contact_mode(case: &Case, number: usize, force_scale: f64) -> (View, Scene) {
     (view, scene)
 }
 
-/// Arrows of the paper's example: lengths are forces times the scale, reactions point along sign(N) n (up is -y), friction
-/// against the motion to the right; arrows below 9 units are heads alone.
+/// Arrows of the paper's example: lengths are forces times the scale, reactions point along sign(N) n (up is
+/// -y), friction against the motion to the right; arrows below 9 units are heads alone.
 #[test]
 fn arrows_are_proportional_to_forces() {
     let case = Case::gallery("klepp-2002");
@@ -219,8 +219,8 @@ fn lower_block(scene: &Scene) -> Vec<Point> {
     }
 }
 
-/// Drawn flush, the corners of the lower block are where the model says: the points A +- b/2 along x, +- h/2 along y, with
-/// b = 0.2 m, h = 0.1 m and A at the origin.
+/// Drawn flush, the corners of the lower block are where the model says: the points A +- b/2 along x, +- h/2
+/// along y, with b = 0.2 m, h = 0.1 m and A at the origin.
 #[test]
 fn block_corners_are_where_the_model_says() {
     let case = Case::gallery("klepp-2002");
@@ -236,8 +236,8 @@ fn block_corners_are_where_the_model_says() {
     }
 }
 
-/// In solution 1 (+ + -) the lower block touches below at its right end and above at its left end, in solution 3 (- + +)
-/// it lies flat below, with the gap above.
+/// In solution 1 (+ + -) the lower block touches below at its right end and above at its left end, in
+/// solution 3 (- + +) it lies flat below, with the gap above.
 #[test]
 fn blocks_touch_the_walls_that_press_them() {
     let case = Case::gallery("klepp-2002");

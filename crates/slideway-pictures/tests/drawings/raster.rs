@@ -8,7 +8,8 @@ fn svg(body: &str) -> String {
     )
 }
 
-/// Text needs no typeface of the machine: its pixels differ from an empty picture, and from those of other text.
+/// Text needs no typeface of the machine: its pixels differ from an empty picture, and from those of other
+/// text.
 #[test]
 fn text_is_drawn_with_the_typeface_that_is_built_in() {
     let empty = png(&svg(""), 1.0).unwrap();

@@ -82,8 +82,8 @@ fn close(found: &[f64], expected: &[f64]) {
     );
 }
 
-/// A block 0.2 m long with 0.2 m and 0.15 m to go meets stops at -0.3 m and 0.25 m; without, or where the motion ends, or with an end of
-/// travel that is far away, nothing stands there.
+/// A block 0.2 m long with 0.2 m and 0.15 m to go meets stops at -0.3 m and 0.25 m; without, or where the
+/// motion ends, or with an end of travel that is far away, nothing stands there.
 #[test]
 fn a_stop_stands_where_the_block_is_at_the_end_of_its_travel() {
     let stopped = |stop: &str| {
@@ -137,7 +137,8 @@ fn a_pad_is_compressed_by_the_block() {
     }
 }
 
-/// The pad of the drawer is pressed by its plate, which covers the slider: its end is 0.225 m from its middle.
+/// The pad of the drawer is pressed by its plate, which covers the slider: its end is 0.225 m from its
+/// middle.
 #[test]
 fn a_plate_meets_the_pad() {
     let text = slideway::gallery::find("soft-closing-drawer").unwrap().text;

@@ -1,4 +1,5 @@
-//! What becomes of a mechanism that starts beside an unattainable solution: the fast motion, piecewise linear.
+//! What becomes of a mechanism that starts beside an unattainable solution: the fast motion, piecewise
+//! linear.
 //!
 //! With the gaps `g` and the damping `delta` of the contacts,
 //!
@@ -6,8 +7,8 @@
 //! N = -K (g + delta g'),    Y g'' = sum_k c_k^sigma |N_k| - N(0) - sum_k d_k^sigma,    sigma = sign N
 //! ```
 //!
-//! is linear as long as no contact changes side. There the motion is exact: powers of one matrix exponential for steps
-//! that are halved until the change of side lies within the last.
+//! is linear as long as no contact changes side. There the motion is exact: powers of one matrix exponential
+//! for steps that are halved until the change of side lies within the last.
 
 use super::spectrum::{eigenvalues, is_real};
 use crate::modes::{ModeProblem, Side};
@@ -74,8 +75,8 @@ impl<'p> FastMotion<'p> {
         damping.is_finite().then_some(Self { problem, mobility, stiffness, damping, steps })
     }
 
-    /// Where the motion leads to on both sides of a solution with one unstable motion: started along that motion. None
-    /// if there is no such motion or several.
+    /// Where the motion leads to on both sides of a solution with one unstable motion: started along that
+    /// motion. None if there is no such motion or several.
     pub(super) fn ends(&mut self, from: &Rest<'_>, targets: &[Rest<'_>]) -> Option<[End; 2]> {
         let (lambda, gaps) = self.unstable(from.sides)?;
         // s^2 + lambda (1 + delta s) = 0, lambda < 0

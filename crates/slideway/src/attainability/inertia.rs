@@ -9,8 +9,9 @@ const DEPENDENT: f64 = 1e-10;
 
 /// The matrix Y of `Y gap'' = N - N(friction)`, and its null spaces.
 ///
-/// `Y = left right^T` with as many columns as there are gaps with inertia. The other gaps, `massless[0]`, and the
-/// directions in which nothing resists, `massless[1]`, are orthonormal; `Y massless[0] = 0`, `massless[1]^T Y = 0`.
+/// `Y = left right^T` with as many columns as there are gaps with inertia. The other gaps, `massless[0]`, and
+/// the directions in which nothing resists, `massless[1]`, are orthonormal; `Y massless[0] = 0`,
+/// `massless[1]^T Y = 0`.
 #[derive(Debug, Clone)]
 pub(super) struct Inertia {
     pub(super) matrix: DMatrix<f64>,
@@ -24,8 +25,9 @@ pub(super) struct Inertia {
 }
 
 impl Inertia {
-    /// The inertia of the gaps of a mechanism whose size is `length`; none if the motions that carry no mass and the
-    /// directions in which nothing resists differ in number or are dependent, which only drives can bring about.
+    /// The inertia of the gaps of a mechanism whose size is `length`; none if the motions that carry no mass
+    /// and the directions in which nothing resists differ in number or are dependent, which only drives can
+    /// bring about.
     pub(super) fn new(equations: &KineticEquations, length: f64) -> Option<Self> {
         let matrix = equations.contact_inertia();
         let lengths: Vec<f64> = equations
@@ -40,7 +42,8 @@ impl Inertia {
         }
         let [right, left] = [&right_gaps, &left_gaps].map(complement);
         let core = left.transpose() * &matrix * &right;
-        // Without drives Y is symmetric, and its root keeps the eigenvalue problem symmetric where friction vanishes.
+        // Without drives Y is symmetric, and its root keeps the eigenvalue problem symmetric where friction
+        // vanishes.
         let symmetric =
             (&core - core.transpose()).amax() <= DEPENDENT * core.amax() && left_gaps == right_gaps;
         let root = if symmetric { core.clone().cholesky() } else { None };
@@ -126,8 +129,8 @@ mod tests {
     use super::Inertia;
     use nalgebra::DMatrix;
 
-    /// Of two motions without mass that react to each other, with the stiffness [[1, -3], [1, 2]]: equal masses flutter,
-    /// (1 + 2)^2 < 4 x 5, masses of 0.1 and 10 do not, (10 + 0.2)^2 > 4 x 5.
+    /// Of two motions without mass that react to each other, with the stiffness [[1, -3], [1, 2]]: equal
+    /// masses flutter, (1 + 2)^2 < 4 x 5, masses of 0.1 and 10 do not, (10 + 0.2)^2 > 4 x 5.
     #[test]
     fn ratios_of_vanishing_masses_can_decide() {
         let both = || [DMatrix::identity(2, 2), DMatrix::identity(2, 2)];

@@ -1,20 +1,20 @@
 //! Which of several solutions a mechanism takes whose guides are slightly elastic (theory, section 7).
 //!
-//! Let the normal forces come from small elastic gaps, `N = -K gap`, with a stiffness for every contact. Hinges, the
-//! rotation locks of guided sliders and drives stay rigid. What a unit acceleration of the gaps needs in normal forces,
-//! Y, and the columns `c_k^sigma = sigma e_k - mu_k s_k eta_k^sigma` of eq. (6) come from the same equations, and the
-//! fast motion about a solution with the sides `sigma` is
+//! Let the normal forces come from small elastic gaps, `N = -K gap`, with a stiffness for every contact.
+//! Hinges, the rotation locks of guided sliders and drives stay rigid. What a unit acceleration of the gaps
+//! needs in normal forces, Y, and the columns `c_k^sigma = sigma e_k - mu_k s_k eta_k^sigma` of eq. (6) come
+//! from the same equations, and the fast motion about a solution with the sides `sigma` is
 //!
 //! ```text
 //! Y gap'' = -C S K gap,     C S = [c_k^sigma_k sigma_k],     lambda Y gap = C S K gap
 //! ```
 //!
-//! These are the eigenvalues other than zero of `M x'' + (G_c^T + W_sigma diag(mu s sigma)) K G_c x = 0` on the motions
-//! that hinges, locks and drives allow, one for each contact. A motion without mass makes Y singular: it reacts
-//! statically, and its stiffness has to be positive.
+//! These are the eigenvalues other than zero of `M x'' + (G_c^T + W_sigma diag(mu s sigma)) K G_c x = 0` on
+//! the motions that hinges, locks and drives allow, one for each contact. A motion without mass makes Y
+//! singular: it reacts statically, and its stiffness has to be positive.
 //!
-//! Since `det(C S)` is the oriented determinant `p`, the number of negative eigenvalues is odd if and only if `p < 0`,
-//! whatever the stiffness.
+//! Since `det(C S)` is the oriented determinant `p`, the number of negative eigenvalues is odd if and only if
+//! `p < 0`, whatever the stiffness.
 
 mod fate;
 mod inertia;
@@ -66,8 +66,8 @@ pub struct ElasticGuides<'p> {
 }
 
 impl<'p> ElasticGuides<'p> {
-    /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of the
-    /// model if it gives them for every contact, else 1 N/m.
+    /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of
+    /// the model if it gives them for every contact, else 1 N/m.
     pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
         let contacts = &mechanism.contacts;
         let stiffness: Option<Vec<f64>> = contacts.iter().map(|contact| contact.stiffness).collect();
@@ -84,16 +84,16 @@ impl<'p> ElasticGuides<'p> {
         Self { problem, inertia, stiffness, given, stable }
     }
 
-    /// The attainability of each of these solutions, which are all that the mechanism has and none of them on the
-    /// boundary between modes. Where one is unattainable, its two sides are followed to the others.
+    /// The attainability of each of these solutions, which are all that the mechanism has and none of them on
+    /// the boundary between modes. Where one is unattainable, its two sides are followed to the others.
     pub fn attainability(&self, candidates: &[Candidate]) -> Vec<Attainability> {
         let mut all: Vec<_> = candidates.iter().map(|candidate| self.of(&candidate.sides)).collect();
         self.fates(candidates, &mut all);
         all
     }
 
-    /// The verdict on the mode with these sides alone: neither how it depends on stiffnesses nor what the solution
-    /// separates is examined.
+    /// The verdict on the mode with these sides alone: neither how it depends on stiffnesses nor what the
+    /// solution separates is examined.
     pub fn verdict_on(&self, sides: &[Side]) -> Verdict {
         if sides.len() > MOST_CONTACTS {
             return Verdict::NotComputed;

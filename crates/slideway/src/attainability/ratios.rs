@@ -2,12 +2,13 @@
 
 /// The most quantities whose ratios are all tried.
 const MOST_QUANTITIES: usize = 4;
-/// The most samples of more quantities, and the work that they may take for matrices of many rows: samples x rows^3.
+/// The most samples of more quantities, and the work that they may take for matrices of many rows: samples x
+/// rows^3.
 const MOST_SAMPLES: usize = 27;
 const WORK: usize = 6_000;
 
-/// Ratios of `count` quantities: all combinations of 1/10, 1 and 10 that differ by more than a common factor if these
-/// are few, else a deterministic sample of all combinations.
+/// Ratios of `count` quantities: all combinations of 1/10, 1 and 10 that differ by more than a common factor
+/// if these are few, else a deterministic sample of all combinations.
 pub(super) fn ratios(count: usize) -> Vec<Vec<f64>> {
     match count {
         0 | 1 => Vec::new(),
@@ -34,7 +35,8 @@ fn ratio(digits: Vec<usize>) -> Vec<f64> {
     digits.into_iter().map(|digit| [0.1, 1.0, 10.0][digit % 3]).collect()
 }
 
-/// Digits from the upper bits of a linear congruential generator (Knuth, The Art of Computer Programming, 3.3.4).
+/// Digits from the upper bits of a linear congruential generator (Knuth, The Art of Computer Programming,
+/// 3.3.4).
 fn sample(count: usize, samples: usize) -> Vec<Vec<f64>> {
     let mut state: u64 = 2002;
     let mut digit = || {

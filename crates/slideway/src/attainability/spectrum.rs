@@ -3,7 +3,8 @@
 use super::inertia::Inertia;
 use nalgebra::{Complex, DMatrix, LU, Schur};
 
-/// Imaginary parts below this multiple of an eigenvalue are rounding: double eigenvalues lose half of the digits.
+/// Imaginary parts below this multiple of an eigenvalue are rounding: double eigenvalues lose half of the
+/// digits.
 const REAL: f64 = 1e-7;
 /// Inverse eigenvalues below this multiple of the greatest are zero within rounding.
 const ZERO: f64 = 1e-13;
@@ -55,9 +56,9 @@ impl Stability {
         }
     }
 
-    /// Of one eigenvalue. With `x'' + lambda (x + delta x') = 0`, `lambda = a + i b`, a solution `exp(i omega t)` has
-    /// `omega^2 = |lambda|^2 / a` and `delta = |b| / (sqrt(a) |lambda|)`: for `a > 0` the motion is stable above this
-    /// damping, for `a <= 0` never.
+    /// Of one eigenvalue. With `x'' + lambda (x + delta x') = 0`, `lambda = a + i b`, a solution
+    /// `exp(i omega t)` has `omega^2 = |lambda|^2 / a` and `delta = |b| / (sqrt(a) |lambda|)`: for `a > 0`
+    /// the motion is stable above this damping, for `a <= 0` never.
     fn of(lambda: Complex<f64>) -> Self {
         let (a, b) = (lambda.re, lambda.im);
         if !(a > 0.0 && a.is_finite()) {
@@ -76,8 +77,8 @@ pub(super) fn is_real(lambda: Complex<f64>) -> bool {
     lambda.im.abs() <= REAL * lambda.norm()
 }
 
-/// Eigenvalues of the fast motion `lambda Y gap = C S K gap` of one mode, with `C S = [c_k sigma_k]` of eq. (6) and the
-/// stiffnesses `K`.
+/// Eigenvalues of the fast motion `lambda Y gap = C S K gap` of one mode, with `C S = [c_k sigma_k]` of eq.
+/// (6) and the stiffnesses `K`.
 #[derive(Debug, Clone)]
 pub(super) struct Spectrum {
     /// Those of motions with mass, ascending by real part.
@@ -104,8 +105,8 @@ impl<'i> Pencil<'i> {
 
     /// The eigenvalues for these stiffnesses and vanishing masses; none if they cannot be computed.
     ///
-    /// The finite ones are the inverse eigenvalues of `right^T K^-1 (C S)^-1 left`, where motions without mass do not
-    /// enter.
+    /// The finite ones are the inverse eigenvalues of `right^T K^-1 (C S)^-1 left`, where motions without
+    /// mass do not enter.
     pub(super) fn spectrum(&self, stiffness: &[f64], ratios: &[f64]) -> Option<Spectrum> {
         let mut compliance = self.compliance.clone();
         for (mut row, stiffness) in compliance.row_iter_mut().zip(stiffness) {

@@ -1,7 +1,7 @@
 //! What a model consists of, and whether it can be solved: degrees of freedom, determinacy, inertia, sliding.
 //!
-//! Stands beside [`mod@crate::solve`]: where that stops at the first thing that makes no sense, a check goes on as far
-//! as it can and gathers what it finds.
+//! Stands beside [`mod@crate::solve`]: where that stops at the first thing that makes no sense, a check goes
+//! on as far as it can and gathers what it finds.
 //!
 //! ```
 //! use slideway::{check, gallery, model::Model};
@@ -42,8 +42,8 @@ pub struct CheckReport {
     pub schema: &'static str,
     /// The model's title.
     pub title: Option<String>,
-    /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings. (What
-    /// only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
+    /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings.
+    /// (What only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
     pub sound: bool,
     /// Everything for which it would be refused.
     pub findings: Vec<Finding>,
@@ -55,8 +55,8 @@ pub struct CheckReport {
     pub condition: Option<f64>,
     /// Whether the state could be assembled; if not, what depends on it is told of the drawing.
     pub assembled: bool,
-    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
-    /// where they are those of the drawing.
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    /// branch; absent where they are those of the drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
     /// The bodies.

@@ -1,8 +1,8 @@
 //! A state with a proof of how far its branch can be followed in one step.
 //!
-//! Along a [`Leg`] the joint equations `F(x; s) = 0` depend on the place `s` linearly. At a state `x0` (place `s0`) let
-//! `J = D F(x0)`, `C` an approximate inverse of `J`, `t` the tangent (`J t + dF/ds` is about zero), and for a way `h` and a
-//! vector `e > 0`
+//! Along a [`Leg`] the joint equations `F(x; s) = 0` depend on the place `s` linearly. At a state `x0` (place
+//! `s0`) let `J = D F(x0)`, `C` an approximate inverse of `J`, `t` the tangent (`J t + dF/ds` is about zero),
+//! and for a way `h` and a vector `e > 0`
 //!
 //! ```text
 //! y(s) = x0 + (s - s0) t,      X(s) = { x : |x - y(s)| <= e },      |s - s0| <= h       (componentwise)
@@ -14,27 +14,29 @@
 //! |C F(y(s); s)| <= b,         |I - C D F(x)| <= B,                 b + B e <= e
 //! ```
 //!
-//! the map `x -> x - C F(x; s)` takes `X(s)` into itself, for by the mean value theorem its Lipschitz matrix is B, and in
-//! the maximum norm with the weights `e` it is a contraction. So each `X(s)` holds exactly one solution `x(s)`, where `D F` is
-//! regular, and `x(s)` is continuous in s: all these solutions lie on the branch of `x(s0)`. (The theorem of Newton and
-//! Kantorovich in the componentwise form of Krawczyk: Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in
-//! Several Variables, 1970, sections 12.4 to 12.6; Neumaier, Interval Methods for Systems of Equations, 1990, section 5.1.)
+//! the map `x -> x - C F(x; s)` takes `X(s)` into itself, for by the mean value theorem its Lipschitz matrix
+//! is B, and in the maximum norm with the weights `e` it is a contraction. So each `X(s)` holds exactly one
+//! solution `x(s)`, where `D F` is regular, and `x(s)` is continuous in s: all these solutions lie on the
+//! branch of `x(s0)`. (The theorem of Newton and Kantorovich in the componentwise form of Krawczyk: Ortega
+//! and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 1970, sections 12.4 to
+//! 12.6; Neumaier, Interval Methods for Systems of Equations, 1990, section 5.1.)
 //!
-//! By Taylor's theorem about `x0`, with `u = h |t| + e`, with `D2 F` there and with bounds of `D3 F` everywhere in the tube
-//! ([`super::curvature`]):
+//! By Taylor's theorem about `x0`, with `u = h |t| + e`, with `D2 F` there and with bounds of `D3 F`
+//! everywhere in the tube ([`super::curvature`]):
 //!
 //! ```text
 //! b = |C F(x0; s0)| + h |C (J t + dF/ds)| + h^2/2 |C D2F[t, t]| + |C| (1/6 sup |D3F[h t, h t, h t]| + p + r)
 //! B e = (|I - C J| + h |C D2F[t, .]|) e + |C| (sup |D2F[e, e]| + 1/2 sup |D3F[u, u, e]|)
 //! ```
 //!
-//! `p` is what the wanted values may be beside the leg (zero, or the half width of a neighbourhood for which the step is
-//! shown, too). `r` is an allowance for rounding, [`ROUNDING`] units in the last place of the greatest number in an
-//! equation for each residual and each derivative; products with C have one of their own. It is not an interval computation:
-//! sums of about ten products are off by less than half of it. `b + B e <= 0.8 e` is asked for ([`FIT`]).
+//! `p` is what the wanted values may be beside the leg (zero, or the half width of a neighbourhood for which
+//! the step is shown, too). `r` is an allowance for rounding, [`ROUNDING`] units in the last place of the
+//! greatest number in an equation for each residual and each derivative; products with C have one of their
+//! own. It is not an interval computation: sums of about ten products are off by less than half of it.
+//! `b + B e <= 0.8 e` is asked for ([`FIT`]).
 //!
-//! The computed state at the end counts if it lies in the tube, nearer to its middle than 0.9 e, with a residual that is
-//! rounding: by the contraction the solution in the tube is then next to it.
+//! The computed state at the end counts if it lies in the tube, nearer to its middle than 0.9 e, with a
+//! residual that is rounding: by the contraction the solution in the tube is then next to it.
 
 use super::Pose;
 use super::curvature::Curvature;
@@ -82,7 +84,8 @@ pub(super) struct Anchor {
 }
 
 impl Anchor {
-    /// A state with positions that satisfy the joints at a place of a leg; none if its Jacobian has no inverse.
+    /// A state with positions that satisfy the joints at a place of a leg; none if its Jacobian has no
+    /// inverse.
     pub(super) fn new(mechanism: &Mechanism, leg: &Leg, place: f64, poses: Vec<Pose>) -> Option<Self> {
         let (equations, curvature) = JointEquations::with_curvature(mechanism, &poses, &leg.values(place));
         let jacobian = equations.jacobian;
@@ -121,7 +124,8 @@ impl Anchor {
         is_finite.then_some(anchor)
     }
 
-    /// The half widths of a tube in which the branch is proven for a way in both directions; none if it was not shown.
+    /// The half widths of a tube in which the branch is proven for a way in both directions; none if it was
+    /// not shown.
     pub(super) fn tube(&self, way: f64) -> Option<DVector<f64>> {
         let matrix = &self.defect + &self.turning * way;
         let start = self.beside_tangent(way);

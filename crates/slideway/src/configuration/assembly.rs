@@ -13,7 +13,8 @@ use crate::mechanism::{JointKind, Mechanism};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
 const CLOSED: f64 = 1e-12;
-/// Motions count as free at a singular position if their singular values are below this multiple of the least one ...
+/// Motions count as free at a singular position if their singular values are below this multiple of the least
+/// one ...
 const FREE: f64 = 10.0;
 /// ... and this multiple of the greatest one, where everything else is.
 const LEAST: f64 = 1e-12;

@@ -1,4 +1,5 @@
-//! Poses of a mechanism with play in its sliding joints: each block lies on the faces that its contacts touch.
+//! Poses of a mechanism with play in its sliding joints: each block lies on the faces that its contacts
+//! touch.
 
 use super::{Configuration, JointEquations, Pose, advance};
 use crate::ids::JointId;
@@ -10,12 +11,12 @@ use nalgebra::DVector;
 const STEPS: usize = 4;
 
 impl Configuration {
-    /// This state with each contact displaced by the given distance (m) along its normal n from the centre line of
-    /// its guide: the poses that a mechanism with play takes. Chosen coordinates keep their values.
+    /// This state with each contact displaced by the given distance (m) along its normal n from the centre
+    /// line of its guide: the poses that a mechanism with play takes. Chosen coordinates keep their values.
     ///
-    /// With the displacements `d` of front and rear contact a block turns by `(d_front - d_rear)/overlap` against
-    /// its guide. The positions satisfy hinges and displacements to second order at least; velocities are left as
-    /// they are. None if the state is singular, so that no such poses follow.
+    /// With the displacements `d` of front and rear contact a block turns by `(d_front - d_rear)/overlap`
+    /// against its guide. The positions satisfy hinges and displacements to second order at least; velocities
+    /// are left as they are. None if the state is singular, so that no such poses follow.
     ///
     /// ```
     /// use slideway::{configuration::Configuration, mechanism::Mechanism, model::Model};
@@ -47,8 +48,8 @@ impl Configuration {
         poses.iter().all(is_finite).then(|| Self { poses, ..self.clone() })
     }
 
-    /// Residuals of the joint equations with these displacements: two rows for a hinge, those of each slider, one for
-    /// each coordinate.
+    /// Residuals of the joint equations with these displacements: two rows for a hinge, those of each slider,
+    /// one for each coordinate.
     fn wanted(&self, mechanism: &Mechanism, displacements: &[f64]) -> DVector<f64> {
         let mut rows = Vec::new();
         for (index, joint) in mechanism.joints.iter().enumerate() {
@@ -63,7 +64,8 @@ impl Configuration {
         DVector::from_vec(rows)
     }
 
-    /// Displacement of the block's middle (in sizes of the mechanism) and, unless it may rotate, its rotation.
+    /// Displacement of the block's middle (in sizes of the mechanism) and, unless it may rotate, its
+    /// rotation.
     fn slider_rows(
         &self,
         mechanism: &Mechanism,

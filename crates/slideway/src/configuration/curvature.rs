@@ -1,8 +1,9 @@
 //! Second derivatives of the joint equations at given poses, and bounds of the third ones anywhere.
 //!
-//! Only rotations bend the equations. Two terms occur, in lengths divided by the size of the mechanism; `a` is the
-//! axis of the equation, `w` an arm that turns with a body, `m` what lies between the origin of a body and that of the
-//! guide or a fixed point, `n = rot90(a)`, and dots are changes along a vector of (x, y, angle) of every body:
+//! Only rotations bend the equations. Two terms occur, in lengths divided by the size of the mechanism; `a`
+//! is the axis of the equation, `w` an arm that turns with a body, `m` what lies between the origin of a body
+//! and that of the guide or a fixed point, `n = rot90(a)`, and dots are changes along a vector of (x, y,
+//! angle) of every body:
 //!
 //! ```text
 //! a . w     turned by psi, an angle of a body against the axis:   D2 = -(a . w) psi'^2
@@ -67,8 +68,8 @@ impl Curvature {
         }
     }
 
-    /// Adds the distance of an end along an axis that turns with a guide as the equation `row`; `between` leads from the
-    /// origin of the guide to that of the end's body, or to the fixed end itself.
+    /// Adds the distance of an end along an axis that turns with a guide as the equation `row`; `between`
+    /// leads from the origin of the guide to that of the end's body, or to the fixed end itself.
     pub(super) fn along_guide(
         &mut self,
         row: usize,
@@ -128,8 +129,8 @@ impl Curvature {
         }
     }
 
-    /// Adds `factor` times bounds of |D3 F[u, u, v]| for all |u| <= `one` and |v| <= `other`, row by row, wherever the
-    /// bodies have moved by up to `one` from here.
+    /// Adds `factor` times bounds of |D3 F[u, u, v]| for all |u| <= `one` and |v| <= `other`, row by row,
+    /// wherever the bodies have moved by up to `one` from here.
     pub(super) fn add_third(
         &self,
         factor: f64,

@@ -14,8 +14,8 @@ use nalgebra::{DVector, Vector2};
 const REMEMBERED: usize = 3;
 /// Steps of a coordinate that differ by less than this multiple count as even.
 const EVEN: f64 = 1e-6;
-/// Where several coordinates have left the drawing, the neighbourhood of a state for which its way is shown, too, is so
-/// many times as wide as the way from the state before ...
+/// Where several coordinates have left the drawing, the neighbourhood of a state for which its way is shown,
+/// too, is so many times as wide as the way from the state before ...
 const NEIGHBOURS: f64 = 8.0;
 /// ... but at most this (sizes of the mechanism, or rad).
 const WIDEST: f64 = 0.02;
@@ -23,9 +23,10 @@ const WIDEST: f64 = 0.02;
 /// Finds the configurations of one mechanism after another, in fewer steps where they are near those before.
 ///
 /// Every configuration is the one to which the straight way of the coordinates leads from the drawing, as
-/// [`Configuration::new`] finds it: what was shown for neighbouring values is used only where it shows this, too. For a single
-/// coordinate that has left the drawing these are all values between which steps were followed; for several ones the
-/// ways from the drawing to all values in a neighbourhood are shown together. If a dimension changes everything is forgotten.
+/// [`Configuration::new`] finds it: what was shown for neighbouring values is used only where it shows this,
+/// too. For a single coordinate that has left the drawing these are all values between which steps were
+/// followed; for several ones the ways from the drawing to all values in a neighbourhood are shown together.
+/// If a dimension changes everything is forgotten.
 ///
 /// ```
 /// use slideway::configuration::{Configuration, Follower};
@@ -149,7 +150,8 @@ impl Follower {
         let way =
             |place: f64, poses: &[Pose]| follow(mechanism, &leg, (place, poses.to_vec()), (end, values));
         let mut found = way(place, poses);
-        // How near a fold is approached depends on the steps: the way from the drawing decides, for all values alike.
+        // How near a fold is approached depends on the steps: the way from the drawing decides, for all
+        // values alike.
         if place != 0.0 && found.as_ref().is_err_and(|halt| !halt.is_effort()) {
             (found, before) = (way(0.0, &self.drawing), 0);
         }
@@ -251,9 +253,10 @@ fn extrapolated(coordinates: &[f64], earlier: &[Configuration]) -> Option<Vec<Po
 
 /// Velocities of all bodies: J v = 0 in the rows of the joints, and the rates in those of the coordinates.
 ///
-/// The factors may be those before a last Newton step of `|J^-1| 1e-12`, which near a dead centre is felt in velocities. One step
-/// of refinement with J at the positions themselves squares that error, `(|J^-1|^2 1e-12)^2`: less than what rounded positions
-/// do (`|J^-1|^2 1e-16`) wherever such factors are taken.
+/// The factors may be those before a last Newton step of `|J^-1| 1e-12`, which near a dead centre is felt in
+/// velocities. One step of refinement with J at the positions themselves squares that error,
+/// `(|J^-1|^2 1e-12)^2`: less than what rounded positions do (`|J^-1|^2 1e-16`) wherever such factors are
+/// taken.
 fn velocities(mechanism: &Mechanism, settled: &Settled, values: &[f64]) -> Option<Vec<Velocity>> {
     let rows = 3 * mechanism.bodies.len();
     let first = rows - mechanism.coordinates.len();

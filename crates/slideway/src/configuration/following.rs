@@ -1,9 +1,9 @@
 //! Follows the branch of the drawing from place to place, by steps that are shown to stay on it.
 //!
-//! What a state is near says nothing about its branch, and Newton's method goes wherever it goes. So a step counts only if
-//! [`Anchor`] proves that the way has one continuous solution, and that the state at its end is that one; else it is halved.
-//! Before a fold or a dead centre steps shrink in proportion to the distance from it, so that it is approached to within
-//! rounding in some hundred steps, and never passed.
+//! What a state is near says nothing about its branch, and Newton's method goes wherever it goes. So a step
+//! counts only if [`Anchor`] proves that the way has one continuous solution, and that the state at its end
+//! is that one; else it is halved. Before a fold or a dead centre steps shrink in proportion to the distance
+//! from it, so that it is approached to within rounding in some hundred steps, and never passed.
 
 use super::Pose;
 use super::anchor::Anchor;
@@ -18,7 +18,8 @@ const MOST_STEPS: usize = 5000;
 const FIRST_WAY: f64 = 0.1;
 /// Newton steps after which a state counts as not found; quadratic convergence needs far fewer.
 const NEWTON_STEPS: usize = 25;
-/// A residual (sizes of the mechanism, or rad) that one more Newton step brings to rounding, in a regular state.
+/// A residual (sizes of the mechanism, or rad) that one more Newton step brings to rounding, in a regular
+/// state.
 const CLOSED: f64 = 1e-12;
 /// The joint equations are certainly regular if no pivot is below this multiple of the greatest.
 const REGULAR: f64 = 1e-3;
@@ -65,7 +66,8 @@ impl Leg {
         self.from.iter().zip(&self.direction).map(|(from, change)| from + place * change).collect()
     }
 
-    /// The place on a leg along one coordinate at which these values are; none if others have left the drawing, too.
+    /// The place on a leg along one coordinate at which these values are; none if others have left the
+    /// drawing, too.
     pub(super) fn place(&self, mechanism: &Mechanism, coordinate: usize, values: &[f64]) -> Option<f64> {
         let stays = |index: usize| index == coordinate || values[index] == self.from[index];
         let moved = (values[coordinate] - self.from[coordinate]) / scale(mechanism, coordinate);
@@ -151,7 +153,8 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// Whether the number of steps is the reason; else the joint equations are singular there within rounding.
+    /// Whether the number of steps is the reason; else the joint equations are singular there within
+    /// rounding.
     pub(super) fn is_effort(&self) -> bool {
         self.steps >= MOST_STEPS
     }

@@ -1,8 +1,9 @@
 //! The joint equations: their residuals at given poses, and their Jacobian.
 //!
-//! A hinge gives two equations (its two points coincide), a block or guided slider two (the middle of the block
-//! stays on the guide's centre line; no relative rotation), a pin in a slot one. Rows of length are divided by
-//! the size of the mechanism, and displacements are counted in it, so that all numbers are of order one.
+//! A hinge gives two equations (its two points coincide), a block or guided slider two (the middle of the
+//! block stays on the guide's centre line; no relative rotation), a pin in a slot one. Rows of length are
+//! divided by the size of the mechanism, and displacements are counted in it, so that all numbers are of
+//! order one.
 
 use super::curvature::{Curvature, End};
 use super::{Pose, middle_points, moved};
@@ -156,7 +157,8 @@ impl<T: Real> Rows<'_, T> {
         self.list.push(row);
     }
 
-    /// Notes how the next row bends: the distance of two ends along an axis, which may turn with the frame of the second.
+    /// Notes how the next row bends: the distance of two ends along an axis, which may turn with the frame of
+    /// the second.
     fn bend(&mut self, ends: [(&Attachment<T>, Vector2<T>); 2], axis: Vector2<T>, axis_frame: Option<Frame>) {
         let (row, size) = (self.list.len(), self.mechanism.size);
         let Some(curvature) = &mut self.curvature else { return };

@@ -1,5 +1,5 @@
-//! Degrees of freedom and determinacy: rank of the joint equations, which joints are in excess, which bodies a
-//! set of coordinates leaves free.
+//! Degrees of freedom and determinacy: rank of the joint equations, which joints are in excess, which bodies
+//! a set of coordinates leaves free.
 
 use super::joint_equations::JointEquations;
 use super::{Configuration, Pose};

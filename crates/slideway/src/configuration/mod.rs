@@ -1,8 +1,8 @@
 //! Positions and velocities that satisfy the joints.
 //!
-//! Third stage of the pipeline: [`Mechanism`] in, [`Configuration`] out. The chosen coordinates and their rates
-//! are given; everything else follows from the joints. The mechanism is led from the reference drawing to the wanted state in
-//! steps that are shown to stay on the assembly branch of the drawing.
+//! Third stage of the pipeline: [`Mechanism`] in, [`Configuration`] out. The chosen coordinates and their
+//! rates are given; everything else follows from the joints. The mechanism is led from the reference drawing
+//! to the wanted state in steps that are shown to stay on the assembly branch of the drawing.
 //!
 //! # Files
 //! `joint_equations.rs` has the equations and `curvature.rs` how they bend, `anchor.rs` proves how far the
@@ -86,7 +86,8 @@ pub struct Configuration<T = f64> {
     pub rates: Vec<T>,
     /// Time (s).
     pub time: T,
-    /// Steps in which the positions were followed from the drawing; 0 if they are those of the drawing, or of a motion.
+    /// Steps in which the positions were followed from the drawing; 0 if they are those of the drawing, or of
+    /// a motion.
     pub steps: usize,
     /// On which piece each relation of the loads and drives is; without, their arguments decide.
     pub(crate) pieces: Option<Arc<Pieces>>,
@@ -117,13 +118,13 @@ pub struct ContactGeometry<T = f64> {
 }
 
 impl Configuration {
-    /// The state that the model's coordinate values and rates describe: the one to which the straight way of the
-    /// coordinates leads from the drawing, without leaving its assembly branch.
+    /// The state that the model's coordinate values and rates describe: the one to which the straight way of
+    /// the coordinates leads from the drawing, without leaving its assembly branch.
     ///
     /// # Errors
     /// A redundant structure, a singular position, a wrong number of coordinates, a state that cannot be
-    /// assembled or to which the branch could not be followed, an overlap that has vanished, travel limits that are
-    /// exceeded.
+    /// assembled or to which the branch could not be followed, an overlap that has vanished, travel limits
+    /// that are exceeded.
     pub fn new(mechanism: &Mechanism) -> Result<Self, Faults> {
         Follower::default().configuration(mechanism)
     }
@@ -250,7 +251,8 @@ impl<T: Real> Configuration<T> {
         ContactGeometry { point, tangent, normal: rot90(tangent), sliding_velocity: tangent.dot(&relative) }
     }
 
-    /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu over velocity).
+    /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu
+    /// over velocity).
     ///
     /// # Errors
     /// A fault for each coefficient that is not finite or is negative there.

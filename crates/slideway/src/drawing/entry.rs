@@ -70,7 +70,8 @@ impl Entries {
         &mut self.0[index].1
     }
 
-    /// The name of an entry. A handle of another drawing has a name that no entry has, which the model refuses.
+    /// The name of an entry. A handle of another drawing has a name that no entry has, which the model
+    /// refuses.
     pub(super) fn plain_name(&self, index: usize) -> String {
         self.0
             .get(index)

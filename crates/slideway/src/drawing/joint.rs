@@ -256,7 +256,8 @@ impl ContactBuilder<'_> {
         self
     }
 
-    /// The contact stays at a place of the guide, such as the mouth of a carcass. Default: it travels with the block.
+    /// The contact stays at a place of the guide, such as the mouth of a carcass. Default: it travels with
+    /// the block.
     pub fn carried_by_guide(&mut self) -> &mut Self {
         self.set("carried_by", quantity::text("guide"))
     }

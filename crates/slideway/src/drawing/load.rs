@@ -80,7 +80,8 @@ impl<'d> LoadBuilder<'d> {
         self.set("free_length", length.into())
     }
 
-    /// The rotation of the first body against the second at which a torsional spring has no torque, from the drawing (rad).
+    /// The rotation of the first body against the second at which a torsional spring has no torque, from the
+    /// drawing (rad).
     pub fn free_angle(self, angle: impl Into<Quantity>) -> Self {
         self.set("free_angle", angle.into())
     }

@@ -1,8 +1,9 @@
 //! Mechanisms in code: what a model file says, with typed handles in place of names.
 //!
-//! A [`Drawing`] collects bodies, joints, loads and coordinates in the order in which they are added, and becomes a
-//! [`Model`] by the way of every model file. So it has the same defaults, the same meaning and the same faults, and
-//! [`Drawing::to_toml`] is its file. Numbers are in SI units; a text may hold a unit or an expression of parameters.
+//! A [`Drawing`] collects bodies, joints, loads and coordinates in the order in which they are added, and
+//! becomes a [`Model`] by the way of every model file. So it has the same defaults, the same meaning and the
+//! same faults, and [`Drawing::to_toml`] is its file. Numbers are in SI units; a text may hold a unit or an
+//! expression of parameters.
 //!
 //! ```
 //! use slideway::{Drawing, GROUND, solve};
@@ -105,7 +106,8 @@ impl Drawing {
         BodyBuilder { drawing: self, id }
     }
 
-    /// A frictionless hinge between two bodies, or a body and [`GROUND`]. The hinge force is counted on the first body.
+    /// A frictionless hinge between two bodies, or a body and [`GROUND`]. The hinge force is counted on the
+    /// first body.
     pub fn hinge(
         &mut self,
         name: &str,
@@ -161,8 +163,8 @@ impl Drawing {
         LoadBuilder::new(self, name, "torque").set("body", body).set("moment", moment.into())
     }
 
-    /// A linear spring between places of two bodies in the drawing, with its stiffness (N/m). Without force at its length in
-    /// the drawing unless [`LoadBuilder::free_length`] says another.
+    /// A linear spring between places of two bodies in the drawing, with its stiffness (N/m). Without force
+    /// at its length in the drawing unless [`LoadBuilder::free_length`] says another.
     pub fn spring<P: Into<Quantity>>(
         &mut self,
         name: &str,
@@ -228,8 +230,8 @@ impl Drawing {
         CoordinateBuilder { drawing: self, id }
     }
 
-    /// A prescribed motion of a coordinate by an unknown force on a body, at a place of the drawing (m), in a direction that is
-    /// given by the angle from the x axis (rad).
+    /// A prescribed motion of a coordinate by an unknown force on a body, at a place of the drawing (m), in a
+    /// direction that is given by the angle from the x axis (rad).
     pub fn drive_by_force<P: Into<Quantity>>(
         &mut self,
         name: &str,
@@ -263,8 +265,9 @@ impl Drawing {
     /// The model.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as [`Model::parse`] would say of its file, [`to_toml`](Self::to_toml): names that
-    /// are no names or are used twice, missing values, wrong dimensions.
+    /// Everything that is wrong with it, as [`Model::parse`] would say of its file,
+    /// [`to_toml`](Self::to_toml): names that are no names or are used twice, missing values, wrong
+    /// dimensions.
     pub fn build(&self) -> Result<Model, Faults> {
         Model::parse(&self.to_toml())
     }
@@ -353,7 +356,8 @@ impl BodyBuilder<'_> {
         self.set("centre_of_mass", quantity::pair(place))
     }
 
-    /// A homogeneous rectangle about the centre of mass, with its width and height (m), in place of a moment of inertia.
+    /// A homogeneous rectangle about the centre of mass, with its width and height (m), in place of a moment
+    /// of inertia.
     pub fn rectangle(self, size: [impl Into<Quantity>; 2]) -> Self {
         self.drawing.bodies.table(self.id.index()).inner("shape").set("rectangle", quantity::pair(size));
         self
@@ -365,7 +369,8 @@ impl BodyBuilder<'_> {
         self
     }
 
-    /// A thin bar between two places of the drawing (m), in place of a moment of inertia and a centre of mass.
+    /// A thin bar between two places of the drawing (m), in place of a moment of inertia and a centre of
+    /// mass.
     pub fn bar<P: Into<Quantity>>(self, ends: [[P; 2]; 2]) -> Self {
         let ends = quantity::list(ends.map(quantity::pair));
         self.drawing.bodies.table(self.id.index()).inner("shape").set("bar", ends);

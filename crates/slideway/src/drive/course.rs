@@ -45,8 +45,8 @@ pub(super) fn direction(
     Ok((guarantee(&found), CourseDirection { direction, rows, blow_ups, without_mode_problem }))
 }
 
-/// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes its sign
-/// between evenly spaced values without vanishing.
+/// Where an effort passes through infinity inside a mode, as at a dead centre of what is driven: it changes
+/// its sign between evenly spaced values without vanishing.
 fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &ModesFound) -> Vec<BlowUp> {
     let values = (0..=STEPS).map(|step| from + (to - from) * step as f64 / STEPS as f64);
     let places: Vec<(f64, Option<Efforts>)> = values.map(|value| (value, at(value))).collect();
@@ -89,7 +89,8 @@ fn poles(at: impl Fn(f64) -> Option<Efforts>, [from, to]: [f64; 2], found: &Mode
     poles
 }
 
-/// Where a function changes its sign through infinity between two values; none where it does not, or vanishes.
+/// Where a function changes its sign through infinity between two values; none where it does not, or
+/// vanishes.
 fn pole([low, high]: [(f64, f64); 2], function: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (mut below, mut above) = (low.0, high.0);
     if low.1 * high.1 >= 0.0 {

@@ -66,7 +66,8 @@ impl Efforts {
     }
 }
 
-/// The velocity at which a unit effort of each drive works: force times velocity of its point, against its reaction.
+/// The velocity at which a unit effort of each drive works: force times velocity of its point, against its
+/// reaction.
 pub(super) fn velocities(stages: &Stages) -> Vec<f64> {
     let configuration = &stages.configuration;
     let work = |drive: &crate::mechanism::Drive| {

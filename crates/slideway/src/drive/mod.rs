@@ -1,18 +1,18 @@
 //! Driven motion: the effort that each drive needs against friction, and where it grows without bound.
 //!
-//! The efforts `u` of the drives are affine in the friction forces, as are the normal forces (theory, section 2). So they
-//! have one value in each solution, and grow without bound where the determinant of its mode vanishes (section 6). With
-//! the velocity `w_i` at which an effort works, the power of all drives is `P = sum_i u_i w_i`; `P_0` is that of the same
-//! motion without friction. The efficiency is
+//! The efforts `u` of the drives are affine in the friction forces, as are the normal forces (theory, section
+//! 2). So they have one value in each solution, and grow without bound where the determinant of its mode
+//! vanishes (section 6). With the velocity `w_i` at which an effort works, the power of all drives is
+//! `P = sum_i u_i w_i`; `P_0` is that of the same motion without friction. The efficiency is
 //!
 //! ```text
 //! P_0 / P      P_0 > 0, P > 0: the drives push; the share of their power that is not lost to friction
 //! P / P_0      P_0 < 0, P < 0: the load pushes and the drives brake; the share of its power that reaches them
 //! ```
 //!
-//! and has no value where friction holds what would otherwise push (`P_0 < 0`, `P >= 0`), or where nothing is gained
-//! (`P_0 = 0`). Where some motions are not prescribed, they accelerate otherwise with friction than without; the
-//! comparison is that of the same instant.
+//! and has no value where friction holds what would otherwise push (`P_0 < 0`, `P >= 0`), or where nothing is
+//! gained (`P_0 = 0`). Where some motions are not prescribed, they accelerate otherwise with friction than
+//! without; the comparison is that of the same instant.
 //!
 //! ```
 //! use slideway::drive::{DriveOptions, drive};
@@ -56,7 +56,8 @@ pub const GREATEST_ROWS: usize = 10_001;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct DriveOptions {
-    /// Over what the efforts are tabulated; the usual ranges are those of [`size`](crate::size::SizeOptions::vary).
+    /// Over what the efforts are tabulated; the usual ranges are those of
+    /// [`size`](crate::size::SizeOptions::vary).
     pub vary: Option<Vary>,
     /// Evenly spaced rows of the table, at least two.
     pub rows: usize,

@@ -50,10 +50,12 @@ pub struct DriveDirection {
     pub frictionless: Frictionless,
     /// Every solution, preload-gap states after the others.
     pub solutions: Vec<DriveSolution>,
-    /// From this factor of friction on there is no solution; absent if there always is one, or it was not computed.
+    /// From this factor of friction on there is no solution; absent if there always is one, or it was not
+    /// computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_solution: Option<f64>,
-    /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many modes.
+    /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too
+    /// many modes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blow_ups: Option<Vec<BlowUp>>,
 }
@@ -104,13 +106,15 @@ pub struct Efficiency {
 pub enum EfficiencyKind {
     /// The drives push, with and without friction: power without friction over power with it.
     Driving,
-    /// The load pushes and the drives brake, with and without friction: power with friction over power without it.
+    /// The load pushes and the drives brake, with and without friction: power with friction over power
+    /// without it.
     Braking,
     /// Without friction the load would push; friction holds it, and the drives have to push.
     HeldByFriction,
     /// Without friction the motion takes no power.
     NoPower,
-    /// Without friction the drives would push, with it they brake; possible where some motions are not prescribed.
+    /// Without friction the drives would push, with it they brake; possible where some motions are not
+    /// prescribed.
     Undefined,
 }
 
@@ -148,7 +152,8 @@ pub struct Course {
 pub struct CourseDirection {
     /// Which direction it is.
     pub direction: Sense,
-    /// One row for each value and each solution there; a value without a solution has one row without a pattern.
+    /// One row for each value and each solution there; a value without a solution has one row without a
+    /// pattern.
     pub rows: Vec<CourseRow>,
     /// Values at which efforts grow without bound, in ascending order.
     pub blow_ups: Vec<BlowUp>,

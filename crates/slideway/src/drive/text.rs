@@ -26,7 +26,8 @@ impl Report for DriveReport {
     }
 }
 
-/// One sentence for each direction, and one for each factor of friction at which its efforts grow without bound.
+/// One sentence for each direction, and one for each factor of friction at which its efforts grow without
+/// bound.
 pub(super) fn conclusion(report: &DriveReport, locked: &str) -> Vec<String> {
     let mut sentences = Vec::new();
     for direction in &report.directions {

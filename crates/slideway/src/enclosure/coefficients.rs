@@ -11,8 +11,9 @@ use crate::modes::BySide;
 use crate::modes::certificate::{IntervalInfluence, IntervalMatrix};
 use nalgebra::{DMatrix, DVector};
 
-/// Where parameters are uncertain, forces below this multiple of the greatest are taken for nothing but rounding. It is a
-/// convention, which decides only what is called a solution in the middle of the bounds, not the bounds.
+/// Where parameters are uncertain, forces below this multiple of the greatest are taken for nothing but
+/// rounding. It is a convention, which decides only what is called a solution in the middle of the bounds,
+/// not the bounds.
 const ROUNDING: f64 = 1e-12;
 
 /// A mechanism in its configuration, all within intervals.
@@ -21,8 +22,8 @@ pub(super) struct Coefficients<'a> {
     pub(super) mechanism: &'a Mechanism<Interval>,
     pub(super) configuration: &'a Configuration<Interval>,
     pub(super) equations: &'a Assembled<Interval>,
-    /// Whether every parameter is one number. Then all widths come from rounding, and bounds that hold zero mean that
-    /// nothing but zero can be told; else they mean that zero is one of many values.
+    /// Whether every parameter is one number. Then all widths come from rounding, and bounds that hold zero
+    /// mean that nothing but zero can be told; else they mean that zero is one of many values.
     pub(super) are_numbers: bool,
 }
 
@@ -50,8 +51,9 @@ impl Coefficients<'_> {
         Ok((influence, self.couples(&unknowns)))
     }
 
-    /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the face that
-    /// is pressed when its normal force is positive; none if the equations are not proven to be regular.
+    /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
+    /// face that is pressed when its normal force is positive; none if the equations are not proven to be
+    /// regular.
     fn unknowns(&self) -> Option<DMatrix<Interval>> {
         let Assembled { matrix, load, friction, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
@@ -78,7 +80,8 @@ impl Coefficients<'_> {
         }))
     }
 
-    /// Bounds that hold zero for rounding alone, with zero in their middle, so that what belongs on a boundary is found there.
+    /// Bounds that hold zero for rounding alone, with zero in their middle, so that what belongs on a
+    /// boundary is found there.
     fn without_rounding(&self, value: Interval, scale: f64) -> Interval {
         let is_rounding = value.contains(0.0) && (self.are_numbers || value.magnitude() <= ROUNDING * scale);
         if is_rounding { Interval::around(0.0, value.magnitude()) } else { value }
@@ -93,7 +96,8 @@ impl Coefficients<'_> {
             let row = self.equations.layout.reaction(Reaction::Couple(joint))?;
             let contact = slider.contacts.first()?.index();
             let positive: Vec<Interval> = unknowns.row(row).iter().skip(1).copied().collect();
-            // At the other face the slider's own friction turns by h more the one way, and its couple the other way.
+            // At the other face the slider's own friction turns by h more the one way, and its couple the
+            // other way.
             let mut negative = positive.clone();
             negative[contact] -= slider.height;
             let influence = BySide { positive, negative };
@@ -108,7 +112,8 @@ impl Coefficients<'_> {
         joints.filter_map(couple).collect()
     }
 
-    /// The influence of the preload's friction on a couple: at the pressed face, or in the middle between both.
+    /// The influence of the preload's friction on a couple: at the pressed face, or in the middle between
+    /// both.
     fn couple_of_preload(&self, influence: &BySide<Vec<Interval>>) -> BySide<Vec<Interval>> {
         let mut preload = influence.clone();
         for (k, contact) in self.mechanism.contacts.iter().enumerate() {
@@ -134,9 +139,9 @@ impl Coefficients<'_> {
 
     /// The influence of friction at the other faces.
     ///
-    /// Between both faces friction differs by a couple `h` on the block and its opposite on the guide. These do not
-    /// turn against each other, so that the couple changes no acceleration and no other joint: the couple of a guided
-    /// slider takes it up, or the two contacts of a block slider with their distance `o`,
+    /// Between both faces friction differs by a couple `h` on the block and its opposite on the guide. These
+    /// do not turn against each other, so that the couple changes no acceleration and no other joint: the
+    /// couple of a guided slider takes it up, or the two contacts of a block slider with their distance `o`,
     ///
     /// ```text
     /// eta_jk^- = eta_jk^+ - h/o (front), + h/o (rear),      eta_jk^- = eta_jk^+ else
@@ -185,8 +190,8 @@ impl Coefficients<'_> {
         Ok(DVector::from_vec(signs))
     }
 
-    /// The same mode problem with `d_k` on the right-hand side wherever it is the same on both sides, or all but the
-    /// same: `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
+    /// The same mode problem with `d_k` on the right-hand side wherever it is the same on both sides, or all
+    /// but the same: `N(0) + d_k`, `d_k = s_k F_k0 eta_k`.
     pub(super) fn without_shared_jumps(
         &self,
         influence: &IntervalInfluence,
@@ -218,7 +223,8 @@ impl Coefficients<'_> {
         })
     }
 
-    /// Whether `d_k^+` and `d_k^-` are the same number: one formula of the preload, and one line of its friction.
+    /// Whether `d_k^+` and `d_k^-` are the same number: one formula of the preload, and one line of its
+    /// friction.
     fn has_shared_jump(&self, contact: usize) -> bool {
         let joint = self.mechanism.contacts[contact].joint;
         let Some(slider) = self.mechanism.slider(joint) else { return false };
@@ -232,8 +238,9 @@ impl Coefficients<'_> {
         one_line && formulas.is_some_and(|[positive, negative]| positive == negative)
     }
 
-    /// Whether nothing tells `d_k^+` from `d_k^-` but rounding. A gap between them is the boundary between both sides then, and
-    /// the hull of both holds every share of them. Of exact numbers (raw problems) this is never asked.
+    /// Whether nothing tells `d_k^+` from `d_k^-` but rounding. A gap between them is the boundary between
+    /// both sides then, and the hull of both holds every share of them. Of exact numbers (raw problems) this
+    /// is never asked.
     fn may_be_shared(&self, jumps: &[[Interval; 2]]) -> bool {
         jumps.iter().all(|&[positive, negative]| {
             let difference = positive - negative;

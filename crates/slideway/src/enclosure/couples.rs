@@ -13,8 +13,8 @@ pub struct EnclosedCouple {
     pub half_length: Interval,
     /// `C(0)`, the couple without friction (N m).
     pub frictionless: Interval,
-    /// `gamma_k`, what a unit friction force of each contact adds (m), at either of its faces: the same but for the
-    /// slider's own contact.
+    /// `gamma_k`, what a unit friction force of each contact adds (m), at either of its faces: the same but
+    /// for the slider's own contact.
     pub influence: BySide<Vec<Interval>>,
     /// The same for the friction of the preload.
     pub influence_preload: BySide<Vec<Interval>>,
@@ -32,8 +32,8 @@ pub enum Tipping {
 }
 
 impl EnclosedModeProblem {
-    /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|`, or of the share of a contact in its gap
-    /// (theory, section 1).
+    /// Whether a guided slider tips in a state with these bounds of `y_k = |N_k|`, or of the share of a
+    /// contact in its gap (theory, section 1).
     ///
     /// # Panics
     /// If `pattern` and `y` do not have one entry for each contact.

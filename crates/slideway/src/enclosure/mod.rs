@@ -1,10 +1,11 @@
 //! Rigorous bounds of a mechanism's influence coefficients, so that proofs speak of the mechanism itself.
 //!
-//! The other stages compute with rounded numbers. This one repeats what they did in interval arithmetic: the formulas
-//! of the model (a number such as 0.1 is the decimal that is written), the positions on the joints by an interval
-//! Newton operator around the computed ones, the velocities and the kinetic equations by verified linear solutions.
-//! What it returns holds for the exact mechanism that the model file describes, and for every value of parameters that
-//! are only known within bounds, in the one configuration near the computed one that has the coordinates of the model.
+//! The other stages compute with rounded numbers. This one repeats what they did in interval arithmetic: the
+//! formulas of the model (a number such as 0.1 is the decimal that is written), the positions on the joints
+//! by an interval Newton operator around the computed ones, the velocities and the kinetic equations by
+//! verified linear solutions. What it returns holds for the exact mechanism that the model file describes,
+//! and for every value of parameters that are only known within bounds, in the one configuration near the
+//! computed one that has the coordinates of the model.
 //!
 //! ```
 //! use slideway::configuration::Configuration;
@@ -45,11 +46,11 @@ use crate::modes::certificate::{
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
 
-/// Parameters of a model that are known only within bounds (SI units). Each formula that uses one is evaluated for the
-/// whole range; the formula of the parameter itself does not count.
+/// Parameters of a model that are known only within bounds (SI units). Each formula that uses one is
+/// evaluated for the whole range; the formula of the parameter itself does not count.
 ///
-/// Every parameter may be uncertain, those that change positions, too, as long as the joints hold for the whole range. So
-/// may the values of coordinates, and a factor of all coefficients of friction.
+/// Every parameter may be uncertain, those that change positions, too, as long as the joints hold for the
+/// whole range. So may the values of coordinates, and a factor of all coefficients of friction.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct UncertainParameters {
     entries: Vec<(String, Interval)>,
@@ -141,11 +142,11 @@ impl UncertainParameters {
 /// What is known of the mode problem of an exact mechanism, or of one with uncertain parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnclosedModeProblem {
-    /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a column have
-    /// the same bounds where theory says that they are equal.
+    /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a
+    /// column have the same bounds where theory says that they are equal.
     pub influence: IntervalInfluence,
-    /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are moved to
-    /// the right-hand side, so that they do not look like a jump.
+    /// The mode problem with these numbers, eq. (6). Where `d_k^+` and `d_k^-` are equal by theory both are
+    /// moved to the right-hand side, so that they do not look like a jump.
     pub problem: IntervalModeProblem,
     /// Bounds of the couples of guided sliders, in the order of the joints.
     pub couples: Vec<EnclosedCouple>,
@@ -177,7 +178,8 @@ pub enum NotEnclosed {
     /// A formula or load has no value, or one that is not allowed, for some of the numbers within bounds.
     #[error("within the bounds of the parameters and of rounding: {0}")]
     Values(Faults),
-    /// No neighbourhood of the computed positions was proven to hold exactly one solution of the joint equations.
+    /// No neighbourhood of the computed positions was proven to hold exactly one solution of the joint
+    /// equations.
     #[error(
         "the positions could not be enclosed: the joint equations are too near to a singular position, or the parameters too uncertain"
     )]
@@ -208,11 +210,12 @@ pub enum NotEnclosed {
     Problem(#[from] IntervalModeProblemError),
 }
 
-/// Bounds of the mode problem of the mechanism that `model` describes, for all values of the parameters in `uncertain`.
+/// Bounds of the mode problem of the mechanism that `model` describes, for all values of the parameters in
+/// `uncertain`.
 ///
-/// `mechanism` and `configuration` are what the earlier stages made of the same model. The configuration meant is the
-/// one near `configuration` in which the coordinates have the values of the model; that there is exactly one for each
-/// value of the parameters is proven. Units are those of the model (N).
+/// `mechanism` and `configuration` are what the earlier stages made of the same model. The configuration
+/// meant is the one near `configuration` in which the coordinates have the values of the model; that there is
+/// exactly one for each value of the parameters is proven. Units are those of the model (N).
 ///
 /// # Errors
 /// [`NotEnclosed`] if it could not be proven; nothing is known then.

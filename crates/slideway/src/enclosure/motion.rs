@@ -31,8 +31,8 @@ pub(super) fn enclosed(
     Ok(Configuration { poses, velocities, coordinates, rates, time, steps, pieces: None })
 }
 
-/// A box of poses that holds exactly one solution of the joint equations with the wanted coordinates, for every value
-/// of the parameters, and this solution in particular.
+/// A box of poses that holds exactly one solution of the joint equations with the wanted coordinates, for
+/// every value of the parameters, and this solution in particular.
 ///
 /// Interval Newton operator around the computed poses `z`, for a box `z + D`:
 ///
@@ -88,8 +88,8 @@ impl Newton<'_> {
 
     /// N(D); none if the Jacobian is not proven to be regular everywhere in the box.
     ///
-    /// The mean value theorem needs the Jacobian on the way from the centre, which need not be in the box: parameters
-    /// may be stated to differ from those of the computed positions.
+    /// The mean value theorem needs the Jacobian on the way from the centre, which need not be in the box:
+    /// parameters may be stated to differ from those of the computed positions.
     fn image(&self, steps: &DVector<Interval>, residual: &DVector<Interval>) -> Option<DVector<Interval>> {
         let way = steps.map(|step| step.hull(Interval::ZERO));
         let jacobian = self.equations(&self.moved(&way)).jacobian;

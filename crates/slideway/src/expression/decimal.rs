@@ -2,8 +2,8 @@
 
 use crate::interval::Interval;
 
-/// The numbers that a decimal may be whose nearest number is `value`: that one alone where the decimal is exactly it,
-/// else all from the number below to the number above. Digits may be separated by `_`.
+/// The numbers that a decimal may be whose nearest number is `value`: that one alone where the decimal is
+/// exactly it, else all from the number below to the number above. Digits may be separated by `_`.
 pub(super) fn enclosure(value: f64, written: &str) -> Interval {
     if is_exact(value, written) == Some(true) {
         return Interval::point(value);

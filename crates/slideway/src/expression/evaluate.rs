@@ -51,8 +51,9 @@ impl Expression {
     ///
     /// # Errors
     ///
-    /// When a part has no finite value: a division by zero, a function outside its domain, an overflow, or a missing
-    /// or infinite value of a symbol. The fault carries the arguments and points at the innermost such part.
+    /// When a part has no finite value: a division by zero, a function outside its domain, an overflow, or a
+    /// missing or infinite value of a symbol. The fault carries the arguments and points at the innermost
+    /// such part.
     ///
     /// ```
     /// use slideway::expression::{ExpressionFaultKind, Names, Values, parse};

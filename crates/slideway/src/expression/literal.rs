@@ -23,7 +23,8 @@ enum Joint {
 /// The most units proposed in place of an unknown one.
 const MAX_PROPOSALS: usize = 3;
 
-/// The value in SI units of a unit that stands by itself, such as `mm` or `N/m`; none for a text that is no unit.
+/// The value in SI units of a unit that stands by itself, such as `mm` or `N/m`; none for a text that is no
+/// unit.
 pub(crate) fn unit_in_si(text: &str) -> Option<f64> {
     let names = Names::new();
     let mut parser = Parser::new(text, tokens(text).ok()?, &names);
@@ -47,7 +48,8 @@ impl<'t> Parser<'t> {
         Ok(span)
     }
 
-    /// The unit behind what was read, whose place grows by that of the unit; none if there is something wrong with it.
+    /// The unit behind what was read, whose place grows by that of the unit; none if there is something wrong
+    /// with it.
     fn unit(&mut self, span: &mut Range<usize>) -> Result<Option<Scale>, ExpressionFault> {
         let mut scale = Some(Scale::ONE);
         while let Some((joint, name)) = self.joint() {
@@ -69,8 +71,8 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The next unit and its joint, if the unit goes on: after a blank everything is taken for a unit, after `*` or
-    /// `/` only what is one and is not called as a function (`min` is both).
+    /// The next unit and its joint, if the unit goes on: after a blank everything is taken for a unit, after
+    /// `*` or `/` only what is one and is not called as a function (`min` is both).
     fn joint(&self) -> Option<(Joint, &'t str)> {
         let (joint, name) = match (self.peek(0)?, self.peek(1)) {
             (TokenKind::Name(name), _) => return Some((Joint::Blank, name)),

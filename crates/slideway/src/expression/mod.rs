@@ -1,14 +1,15 @@
 //! The expressions of a model file: reading them, their dimensions, their values.
 //!
 //! Everything is evaluated in SI units. A number may carry a unit, which follows it at once or after a blank:
-//! `80 deg`, `25 mm`, `9.81 m/s^2`, `5 N m`, `2 kg m²`. What follows a number in this way is always a unit; products
-//! with a name are written with `*`.
+//! `80 deg`, `25 mm`, `9.81 m/s^2`, `5 N m`, `2 kg m²`. What follows a number in this way is always a unit;
+//! products with a name are written with `*`.
 //!
-//! Units go on after a blank, `*` or `/`, each with a whole exponent. After `*` or `/` a name that is no unit ends the
-//! unit: `3 N*arm`. One that is both a unit and a name of the model is refused, with both ways to write it; only a
-//! slash without blanks always goes on with a unit, so that `9.81 m/s^2` means what it says beside a coordinate `s`.
-//! Units are `m dm cm mm um µm km in ft`, `kg g mg Mg`, `s ms min`, `N mN kN MN`, `Nm kNm J kJ`, `W kW`,
-//! `Pa kPa MPa GPa`, `rad mrad deg °`, `Hz rpm` and `%`. Hz counts as 1/s, rpm as 2π/60 1/s.
+//! Units go on after a blank, `*` or `/`, each with a whole exponent. After `*` or `/` a name that is no unit
+//! ends the unit: `3 N*arm`. One that is both a unit and a name of the model is refused, with both ways to
+//! write it; only a slash without blanks always goes on with a unit, so that `9.81 m/s^2` means what it says
+//! beside a coordinate `s`. Units are `m dm cm mm um µm km in ft`, `kg g mg Mg`, `s ms min`, `N mN kN MN`,
+//! `Nm kNm J kJ`, `W kW`, `Pa kPa MPa GPa`, `rad mrad deg °`, `Hz rpm` and `%`. Hz counts as 1/s, rpm as
+//! 2π/60 1/s.
 //!
 //! | part | meaning |
 //! |---|---|

@@ -50,7 +50,8 @@ impl Names {
 
     /// Adds the next parameter and returns its symbol: 0, 1, 2, ... in the order of the calls.
     ///
-    /// A name already present keeps its first meaning; the caller reports the duplicate (see [`Names::lookup`]).
+    /// A name already present keeps its first meaning; the caller reports the duplicate (see
+    /// [`Names::lookup`]).
     pub fn parameter(&mut self, name: &str) -> Symbol {
         let symbol = Symbol::Parameter(self.parameters);
         self.parameters += 1;
@@ -82,8 +83,8 @@ impl Names {
         symbol
     }
 
-    /// What `name` stands for; `t` is always time, `sliding_speed` the absolute sliding velocity, and no other reserved name
-    /// is a symbol.
+    /// What `name` stands for; `t` is always time, `sliding_speed` the absolute sliding velocity, and no
+    /// other reserved name is a symbol.
     pub fn lookup(&self, name: &str) -> Option<Symbol> {
         match name {
             TIME => Some(Symbol::Time),
@@ -118,7 +119,8 @@ pub(super) const PI: &str = "pi";
 pub(super) const RATE: &str = "rate";
 pub(super) const SLIDING_SPEED: &str = "sliding_speed";
 
-/// Whether `name` has a fixed meaning in every expression: `t`, `pi`, `rate`, `sliding_speed` and the functions.
+/// Whether `name` has a fixed meaning in every expression: `t`, `pi`, `rate`, `sliding_speed` and the
+/// functions.
 ///
 /// ```
 /// assert!(slideway::expression::is_reserved("sin"));

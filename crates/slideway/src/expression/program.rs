@@ -44,7 +44,8 @@ pub(super) struct Step {
 
 /// A parsed expression.
 ///
-/// Its operations are kept in the order of execution (postfix), so that evaluation neither allocates nor recurses.
+/// Its operations are kept in the order of execution (postfix), so that evaluation neither allocates nor
+/// recurses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expression {
     steps: Vec<Step>,

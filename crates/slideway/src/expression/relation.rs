@@ -1,10 +1,11 @@
-//! Relations: the parts of an expression whose value jumps or has a kink where an argument passes a threshold.
+//! Relations: the parts of an expression whose value jumps or has a kink where an argument passes a
+//! threshold.
 //!
-//! Between two such places the expression is smooth if each relation keeps the *piece* that it is on: the sign of the
-//! argument of `sign`, `step` and `abs`, the argument that `min` or `max` takes, the rows between which the argument of a
-//! table lies. An integrator holds the pieces, watches the margins of the arguments, and goes over to the next piece where a
-//! margin vanishes; so no step goes across a jump. Modelling languages treat relations in the same way (Modelica Language
-//! Specification 3.6, section 8.5).
+//! Between two such places the expression is smooth if each relation keeps the *piece* that it is on: the
+//! sign of the argument of `sign`, `step` and `abs`, the argument that `min` or `max` takes, the rows between
+//! which the argument of a table lies. An integrator holds the pieces, watches the margins of the arguments,
+//! and goes over to the next piece where a margin vanishes; so no step goes across a jump. Modelling
+//! languages treat relations in the same way (Modelica Language Specification 3.6, section 8.5).
 
 use super::evaluate::{Values, run};
 use super::fault::ExpressionFault;
@@ -13,8 +14,9 @@ use super::names::Symbol;
 use super::program::{Expression, Operation};
 use crate::interval::Real;
 
-/// On which piece a relation is: the sign of its argument (`sign`, `step`, `abs`), 0 or 1 for the first or second argument
-/// (`min`, `max`), the number of rows before the argument of a table, counted through all its periods.
+/// On which piece a relation is: the sign of its argument (`sign`, `step`, `abs`), 0 or 1 for the first or
+/// second argument (`min`, `max`), the number of rows before the argument of a table, counted through all its
+/// periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Piece {
     /// The relation stays on this piece.
@@ -171,7 +173,8 @@ impl Expression {
         self.inspect(values, pieces, |_, _| {})
     }
 
-    /// How far the arguments of a relation are from an end of its piece; nothing where there is no end or no value.
+    /// How far the arguments of a relation are from an end of its piece; nothing where there is no end or no
+    /// value.
     pub(crate) fn margin<T: Real>(
         &self,
         values: &Values<'_, T>,

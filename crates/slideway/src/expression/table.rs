@@ -110,7 +110,8 @@ impl Table {
         (self.beyond == Beyond::Repeat && length > 0.0).then_some(length)
     }
 
-    /// How many rows there are before an argument, counted through all periods; of rows with the same argument all.
+    /// How many rows there are before an argument, counted through all periods; of rows with the same
+    /// argument all.
     #[allow(clippy::cast_possible_wrap, clippy::cast_possible_truncation)]
     pub(super) fn piece(&self, argument: f64) -> i64 {
         let before = |argument: f64| self.rows.partition_point(|[place, _]| place.value <= argument) as i64;
@@ -126,8 +127,8 @@ impl Table {
         self.rows.len() as i64 - 1
     }
 
-    /// The rows between which a piece lies and the shift of their arguments; nothing where the table holds its first or last
-    /// value.
+    /// The rows between which a piece lies and the shift of their arguments; nothing where the table holds
+    /// its first or last value.
     fn rows_of(&self, piece: i64) -> Option<([[Entry; 2]; 2], f64)> {
         let (row, shift) = match self.period() {
             Some(period) => {

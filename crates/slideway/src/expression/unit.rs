@@ -8,7 +8,8 @@ use crate::interval::{Interval, Real};
 
 /// A unit: its value in SI is `numerator / denominator`.
 ///
-/// The two are kept apart because both are exact for decimal units: `35 mm` is then the number nearest to 0.035.
+/// The two are kept apart because both are exact for decimal units: `35 mm` is then the number nearest to
+/// 0.035.
 #[derive(Debug)]
 pub(super) struct Unit {
     pub(super) name: &'static str,

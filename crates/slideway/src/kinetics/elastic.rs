@@ -8,15 +8,17 @@ use nalgebra::{DMatrix, DVector};
 /// Motions of massless bodies that the elastic guides allow and the other joints, too, one in each column.
 #[derive(Debug, Clone)]
 pub(crate) struct MasslessMotions {
-    /// Accelerations without mass that such a motion has: rows are the massless ones among the 3 of each body.
+    /// Accelerations without mass that such a motion has: rows are the massless ones among the 3 of each
+    /// body.
     pub(crate) motions: DMatrix<f64>,
     /// The gaps of the contacts that they open.
     pub(crate) gaps: DMatrix<f64>,
 }
 
 impl KineticEquations {
-    /// Y: the normal forces that unit accelerations of the gaps of the contacts need, `N = Y gap''` (kg). Square; with
-    /// `M` symmetric and positive definite on the motions `G_r x = 0` it is the inverse of `G_c M^-1 G_c^T` there.
+    /// Y: the normal forces that unit accelerations of the gaps of the contacts need, `N = Y gap''` (kg).
+    /// Square; with `M` symmetric and positive definite on the motions `G_r x = 0` it is the inverse of
+    /// `G_c M^-1 G_c^T` there.
     pub(crate) fn contact_inertia(&self) -> DMatrix<f64> {
         let rows = self.normal_rows();
         let columns: Vec<DVector<f64>> = rows

@@ -1,8 +1,9 @@
-//! The unknowns without friction and per unit of friction in one elimination, for states that follow one another.
+//! The unknowns without friction and per unit of friction in one elimination, for states that follow one
+//! another.
 //!
-//! [`super::KineticEquations`] factors once and solves as often as is asked for. Here all right-hand sides are known
-//! beforehand, so that elimination takes them along, row by row in one block of memory. The scales are those of an earlier
-//! state.
+//! [`super::KineticEquations`] factors once and solves as often as is asked for. Here all right-hand sides
+//! are known beforehand, so that elimination takes them along, row by row in one block of memory. The scales
+//! are those of an earlier state.
 
 use super::system::equilibration;
 use super::{Assembled, ConstraintRow, Layout, Reaction};
@@ -61,14 +62,15 @@ impl Influences {
         Accuracy { part: ROUNDING * self.condition, of_load: self.greatest_load.max(self.greatest_unknown) }
     }
 
-    /// Accelerations of a chosen coordinate: without friction if `bias` is asked for, else what is added to it.
+    /// Accelerations of a chosen coordinate: without friction if `bias` is asked for, else what is added to
+    /// it.
     pub(crate) fn coordinate(&self, index: usize, unknowns: &DVector<f64>, bias: bool) -> f64 {
         let row = &self.coordinate_rows[index];
         row.times(unknowns) - if bias { row.right_hand_side } else { 0.0 }
     }
 
-    /// The influences of a mechanism in a state; none if its equations are not certainly well-conditioned: then
-    /// [`super::KineticEquations`] has to tell.
+    /// The influences of a mechanism in a state; none if its equations are not certainly well-conditioned:
+    /// then [`super::KineticEquations`] has to tell.
     ///
     /// # Errors
     /// Loads without a value or direction.
@@ -98,7 +100,8 @@ impl Influences {
 }
 
 impl Elimination {
-    /// Solves for the load and all unit frictions: gives the condition, and the place of both solutions of each contact.
+    /// Solves for the load and all unit frictions: gives the condition, and the place of both solutions of
+    /// each contact.
     fn solve(&mut self, assembled: &Assembled<f64>) -> Option<(f64, Vec<[usize; 2]>)> {
         let size = assembled.layout.len();
         let mut sides: Vec<&DVector<f64>> = vec![&assembled.load];
@@ -137,7 +140,8 @@ impl Elimination {
         }
     }
 
-    /// Elimination with row pivoting; multipliers are kept where zeros would be. None if a pivot is too small.
+    /// Elimination with row pivoting; multipliers are kept where zeros would be. None if a pivot is too
+    /// small.
     fn eliminate(&mut self, size: usize, sides: usize) -> Option<f64> {
         let width = size + sides;
         self.work.clear();

@@ -30,7 +30,8 @@ impl<T: Real> Wrench<T> {
     }
 }
 
-/// Forces (N) and couples (N m) with which every product of the equations stays within the range of floating point.
+/// Forces (N) and couples (N m) with which every product of the equations stays within the range of floating
+/// point.
 const GREATEST: f64 = 1e100;
 
 /// Weights and loads in a configuration; it can be filled again and again without new memory.

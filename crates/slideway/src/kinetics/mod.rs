@@ -114,7 +114,8 @@ pub struct KineticEquations {
     pub applied: Vec<Wrench>,
     /// Right-hand side without friction: f, gamma, prescribed accelerations.
     load: DVector<f64>,
-    /// Unit friction of each contact at its face where the normal force is positive, and where it is negative.
+    /// Unit friction of each contact at its face where the normal force is positive, and where it is
+    /// negative.
     friction: Vec<[DVector<f64>; 2]>,
     factorization: Factorization,
     coordinate_rows: Vec<ConstraintRow>,
@@ -202,7 +203,8 @@ impl KineticEquations {
     }
 }
 
-/// The row that gives the acceleration of sliding of a joint, the block's material point against the guide's along u.
+/// The row that gives the acceleration of sliding of a joint, the block's material point against the guide's
+/// along u.
 #[derive(Debug, Clone)]
 pub(crate) struct SlidingRow(ConstraintRow);
 
@@ -212,7 +214,8 @@ impl SlidingRow {
         Self(rows::sliding(mechanism, configuration, slider))
     }
 
-    /// What these changes of the unknowns add to the acceleration (m/s^2), or to the velocity if they are impulses.
+    /// What these changes of the unknowns add to the acceleration (m/s^2), or to the velocity if they are
+    /// impulses.
     pub(crate) fn change(&self, unknowns: &DVector<f64>) -> f64 {
         self.0.times(unknowns)
     }
@@ -236,7 +239,8 @@ pub(crate) struct Assembled<T> {
     pub(crate) matrix: DMatrix<T>,
     /// Right-hand side without friction: f, gamma, prescribed accelerations.
     pub(crate) load: DVector<T>,
-    /// Unit friction of each contact at its face where the normal force is positive, and where it is negative.
+    /// Unit friction of each contact at its face where the normal force is positive, and where it is
+    /// negative.
     pub(crate) friction: Vec<[DVector<T>; 2]>,
     coordinate_rows: Vec<ConstraintRow<T>>,
 }
@@ -397,8 +401,8 @@ impl Builder<'_> {
     }
 }
 
-/// The friction force `friction` of a contact as forces on block and guide, acting at the face that is pressed
-/// when the normal force has this sign (theory, section 1).
+/// The friction force `friction` of a contact as forces on block and guide, acting at the face that is
+/// pressed when the normal force has this sign (theory, section 1).
 pub(crate) fn friction_forces<T: Real>(
     mechanism: &Mechanism<T>,
     id: ContactId,

@@ -114,8 +114,8 @@ impl<T: Real> ConstraintRow<T> {
 
     /// The block's material point stays on the line of the guide: n . (a_block - a_guide) = 2 omega_guide ds.
     ///
-    /// A contact that is carried by the guide stays on a line of the block; block and guide turn together there, so
-    /// that the row is the same.
+    /// A contact that is carried by the guide stays on a line of the block; block and guide turn together
+    /// there, so that the row is the same.
     fn normal(
         &mut self,
         mechanism: &Mechanism<T>,
@@ -138,8 +138,8 @@ impl<T: Real> ConstraintRow<T> {
         }
     }
 
-    /// The row that gives the acceleration of sliding, s'' = u . (a_block - a_guide), both at the place of the block: the
-    /// Coriolis term is normal to u.
+    /// The row that gives the acceleration of sliding, s'' = u . (a_block - a_guide), both at the place of
+    /// the block: the Coriolis term is normal to u.
     fn add_sliding(
         &mut self,
         mechanism: &Mechanism<T>,

@@ -131,8 +131,9 @@ impl Factorization {
     }
 }
 
-/// Triangular factors of a square matrix whose rows and columns have been exchanged, by elimination with complete pivoting. A few dozen
-/// rows are mostly zeros: passing these over, with all right-hand sides side by side, takes a fraction of the time of a general library.
+/// Triangular factors of a square matrix whose rows and columns have been exchanged, by elimination with
+/// complete pivoting. A few dozen rows are mostly zeros: passing these over, with all right-hand sides side
+/// by side, takes a fraction of the time of a general library.
 #[derive(Debug, Clone)]
 struct Factors {
     /// Column by column: the upper triangle, and below the diagonal the multipliers.
@@ -182,7 +183,8 @@ impl Factors {
         if size == 0 { 1.0 } else { greatest / least }
     }
 
-    /// Solutions for several right-hand sides, which stand side by side in each row and are multiplied by its scale.
+    /// Solutions for several right-hand sides, which stand side by side in each row and are multiplied by its
+    /// scale.
     fn solve(&self, (sides, scales): (&[f64], &[f64]), count: usize) -> Vec<f64> {
         let size = self.rows.len();
         let mut work = Vec::with_capacity(size * count);
@@ -282,7 +284,8 @@ pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64
     (DVector::from_column_slice(rows), DVector::from_column_slice(columns))
 }
 
-/// The power of two nearest to 1/sqrt(x), from the exponent of x; 1 for an empty row. Between two the one farther from 1.
+/// The power of two nearest to 1/sqrt(x), from the exponent of x; 1 for an empty row. Between two the one
+/// farther from 1.
 fn inverse_root(x: f64) -> f64 {
     if x <= 0.0 || !x.is_finite() {
         return 1.0;

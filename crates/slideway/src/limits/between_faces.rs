@@ -1,9 +1,10 @@
 //! States with a guided slider between its faces over a range: no normal force, no couple.
 //!
-//! They are on the boundary of sign patterns throughout, so that neither zeros of determinants nor proofs over intervals
-//! tell them. They are those of `solve` at evenly spaced values of what is not proven otherwise, and what changes between
-//! these is bisected. Those at single values, where a normal force passes through zero, are those of `solve` at its zeros,
-//! which are known where modes end at zeros of determinants: a mode that tips ends there, too, if tipping is not judged.
+//! They are on the boundary of sign patterns throughout, so that neither zeros of determinants nor proofs
+//! over intervals tell them. They are those of `solve` at evenly spaced values of what is not proven
+//! otherwise, and what changes between these is bisected. Those at single values, where a normal force passes
+//! through zero, are those of `solve` at its zeros, which are known where modes end at zeros of determinants:
+//! a mode that tips ends there, too, if tipping is not judged.
 
 use super::closed_form::value_at;
 use super::examine::margin_of;
@@ -50,7 +51,8 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound
             all_known.push(known.clone());
             continue;
         }
-        // Zeros of determinants do not tell these states: what they are not found at may be between the values.
+        // Zeros of determinants do not tell these states: what they are not found at may be between the
+        // values.
         let spacing = parts.iter().map(|[from, to]| (to - from) / VALUES as f64).fold(0.0, f64::max);
         let elsewhere = match known.elsewhere {
             Elsewhere::Contradicted => Elsewhere::Contradicted,
@@ -76,7 +78,8 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound
     }
 }
 
-/// The states at single values, outside of intervals that have others; they are among the zeros of normal forces, if these are known.
+/// The states at single values, outside of intervals that have others; they are among the zeros of normal
+/// forces, if these are known.
 fn single_values(
     varied: &Varied,
     (greatest, zeros): (Option<f64>, Option<Vec<f64>>),
@@ -93,8 +96,8 @@ fn single_values(
     SingleValues::At(values)
 }
 
-/// Where the normal forces of contacts with free faces vanish or may vanish in a mode, whether or not a guided slider tips in it;
-/// none if the modes of the range are not known from zeros of determinants.
+/// Where the normal forces of contacts with free faces vanish or may vanish in a mode, whether or not a
+/// guided slider tips in it; none if the modes of the range are not known from zeros of determinants.
 fn zeros(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Option<Vec<f64>> {
     if found.method == Method::Bracketing {
         return None;
@@ -125,7 +128,8 @@ fn zeros(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Option<Vec<f64>
     Some(zeros)
 }
 
-/// The parts of an interval that are not proven, without those that are as narrow as what is left out next to ends.
+/// The parts of an interval that are not proven, without those that are as narrow as what is left out next to
+/// ends.
 fn open([from, to]: [f64; 2], known: &Knowledge) -> Vec<[f64; 2]> {
     let ends: Vec<f64> =
         std::iter::once(from).chain(known.proven.iter().flatten().copied()).chain([to]).collect();

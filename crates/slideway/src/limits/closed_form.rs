@@ -1,8 +1,9 @@
 //! Where modes exist if the numbers of the mode problem are affine in what is varied.
 //!
-//! Values that the model allows form one interval then, because all that it demands is affine, too. Ranges that are wide
-//! against the scale on which the mode problem changes are cut into pieces, each with its own line between mode problems
-//! that were made at its ends: on one line over all of it small values would drown in the rounding of great ones.
+//! Values that the model allows form one interval then, because all that it demands is affine, too. Ranges
+//! that are wide against the scale on which the mode problem changes are cut into pieces, each with its own
+//! line between mode problems that were made at its ends: on one line over all of it small values would drown
+//! in the rounding of great ones.
 
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
 use super::scan::bisect;
@@ -21,7 +22,8 @@ const REACH: f64 = 1e3;
 /// The most pieces on each side of zero: those of all floating-point numbers that can be computed with.
 const PIECES: usize = 40;
 
-/// The modes by zeros of determinants; none if the mode problem is not affine in what is varied, or the model allows no value.
+/// The modes by zeros of determinants; none if the mode problem is not affine in what is varied, or the model
+/// allows no value.
 pub(super) fn closed_form(
     varied: &Varied,
     options: &ExistenceOptions,
@@ -84,7 +86,8 @@ fn allowed(varied: &Varied, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     (ends[0] < ends[1]).then_some(ends)
 }
 
-/// The rest of the range, with the reason at its ends: next to what is allowed bisection may have stopped early.
+/// The rest of the range, with the reason at its ends: next to what is allowed bisection may have stopped
+/// early.
 fn outside(varied: &Varied, [from, to]: [f64; 2], [first, last]: [f64; 2]) -> Vec<Gap> {
     let gap = |([from, to], end): ([f64; 2], f64)| {
         (from < to).then(|| Gap { from, to, faults: varied.parts(end).err().unwrap_or_default() })
@@ -92,8 +95,8 @@ fn outside(varied: &Varied, [from, to]: [f64; 2], [first, last]: [f64; 2]) -> Ve
     [([from, first], from), ([last, to], to)].into_iter().filter_map(gap).collect()
 }
 
-/// The pieces of a range: from the value nearest to zero outwards, the first as long as the scale on which the mode problem
-/// changes there allows.
+/// The pieces of a range: from the value nearest to zero outwards, the first as long as the scale on which
+/// the mode problem changes there allows.
 fn pieces(varied: &Varied, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     if from < 0.0 && to > 0.0 {
         return [pieces(varied, [from, 0.0]), pieces(varied, [0.0, to])].concat();
@@ -142,8 +145,8 @@ fn append(all: &mut Vec<CountInterval>, more: Vec<CountInterval>) {
     }
 }
 
-/// Joins modes that go on in the next piece, and sorts them. One that ends exactly where a piece does, as where all loads vanish, ends by
-/// what vanishes there; if nothing does it has not been understood.
+/// Joins modes that go on in the next piece, and sorts them. One that ends exactly where a piece does, as
+/// where all loads vanish, ends by what vanishes there; if nothing does it has not been understood.
 fn join(existence: &mut Existence, [from, to]: [f64; 2], cause: &dyn Fn(&[ContactState], f64) -> EndCause) {
     existence
         .modes

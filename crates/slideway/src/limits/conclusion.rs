@@ -4,7 +4,8 @@ use super::found::Method;
 use super::report::{CountLimits, Direction, Known};
 use crate::report::precise;
 
-/// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7); `locked` says what no solution means.
+/// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7); `locked` says
+/// what no solution means.
 pub(super) fn conclusion(
     (name, method): (&str, Method),
     locked: &str,

@@ -83,8 +83,8 @@ pub struct Curves {
     pub reversed: Option<Vec<Curve>>,
 }
 
-/// [`limits`](super::limits), and a quantity along every mode, sampled densely over the mode's exact interval and ever
-/// closer towards ends at which it grows without bound.
+/// [`limits`](super::limits), and a quantity along every mode, sampled densely over the mode's exact interval
+/// and ever closer towards ends at which it grows without bound.
 ///
 /// # Errors
 /// As [`limits`](super::limits); a model without drives has no efforts.

@@ -1,5 +1,5 @@
-//! What is proven of the numbers of solutions between the ends of modes: the certified search for whole intervals of what is
-//! varied, which are halved while that helps.
+//! What is proven of the numbers of solutions between the ends of modes: the certified search for whole
+//! intervals of what is varied, which are halved while that helps.
 
 use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::varied::Varied;
@@ -9,7 +9,8 @@ use crate::progress::{Progress, Work};
 use crate::solve::SolveOptions;
 use std::collections::VecDeque;
 
-/// Nothing is proven nearer than this to an end of a mode, relative to the interval up to the next end and to the end itself.
+/// Nothing is proven nearer than this to an end of a mode, relative to the interval up to the next end and to
+/// the end itself.
 pub(super) const MARGIN: f64 = 1e-4;
 /// Parts narrower than this share of the margin are not halved.
 const NARROW: f64 = 0.25;
@@ -53,7 +54,8 @@ impl<'v> Examiner<'v> {
         Self { varied, options: *options, solve, effort, left: effort, work }
     }
 
-    /// Says of every interval of `found` how its number of solutions is known. Returns values at which another number is proven.
+    /// Says of every interval of `found` how its number of solutions is known. Returns values at which
+    /// another number is proven.
     pub(super) fn examine(&mut self, found: &mut ModesFound) -> Vec<f64> {
         let intervals = found.counts.iter().enumerate();
         let mut cells: Vec<Cell> =
@@ -128,7 +130,8 @@ impl<'v> Examiner<'v> {
         }
     }
 
-    /// Whether parts as long as can be proven in the middle of a cell cover it with the searches that are left.
+    /// Whether parts as long as can be proven in the middle of a cell cover it with the searches that are
+    /// left.
     fn is_within_reach(&mut self, [from, to]: [f64; 2]) -> bool {
         let at = middle([from, to]);
         let (mut reach, mut parts) = ((at - from).min(to - at), 1);

@@ -14,7 +14,8 @@ use crate::progress::Work;
 /// How often values at which the certified search contradicts the ends are scanned around.
 const ROUNDS: usize = 3;
 
-/// Where modes exist in a range; those with a normal force above `greatest` (N) do not count. So many certified searches may be made.
+/// Where modes exist in a range; those with a normal force above `greatest` (N) do not count. So many
+/// certified searches may be made.
 ///
 /// # Errors
 /// Too many modes.

@@ -65,7 +65,8 @@ pub(crate) struct Knowledge {
 /// What is known outside the proven stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Elsewhere {
-    /// All of the interval is proven, but for what is next to ends of modes, as [`super::examine::MARGIN`] says.
+    /// All of the interval is proven, but for what is next to ends of modes, as [`super::examine::MARGIN`]
+    /// says.
     Nothing,
     /// The number follows from zeros of determinants.
     ClosedForm,

@@ -17,15 +17,15 @@
 //! ```
 //!
 //! # Files
-//! `limits` varies a parameter: `vary.rs` is what is asked for, `varied.rs` is what is varied (with a `Follower` for the positions from value
-//! to value), `solve::Parts` the mode problem at one value, with the couples of guided sliders.
-//! `model/dependence.rs` decides from the formulas whether that is affine in it; `closed_form.rs` has
-//! `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs` asks the certified
-//! search for the numbers of solutions over whole intervals, and `find.rs` scans anew where these contradict;
-//! `between_faces.rs` counts the states of guided sliders between their faces, which
+//! `limits` varies a parameter: `vary.rs` is what is asked for, `varied.rs` is what is varied (with a
+//! `Follower` for the positions from value to value), `solve::Parts` the mode problem at one value, with the
+//! couples of guided sliders. `model/dependence.rs` decides from the formulas whether that is affine in it;
+//! `closed_form.rs` has `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs`
+//! asks the certified search for the numbers of solutions over whole intervals, and `find.rs` scans anew
+//! where these contradict; `between_faces.rs` counts the states of guided sliders between their faces, which
 //! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `guarantee.rs`
-//! and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples quantities along the modes that were
-//! found, for plots.
+//! and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
+//! quantities along the modes that were found, for plots.
 
 mod analysis;
 mod answer;
@@ -68,14 +68,16 @@ use analysis::Analysis;
 
 /// The intervals in which each mode exists, what ends it, and the number of solutions in between.
 ///
-/// Where the numbers of the mode problem are affine in what is varied (coefficients of friction, preloads, loads; decided
-/// from the formulas and from where they stand) the ends are zeros of determinants, and nothing is scanned (theory, section
-/// 6; [`crate::modes::existence`]). Otherwise many values are tried and what changes between them is bisected to machine
-/// precision. In either case the certified search is asked for the numbers of solutions over whole intervals, as far as
-/// [`LimitsOptions::effort`] allows: each of them says how it is known, [`Known`].
+/// Where the numbers of the mode problem are affine in what is varied (coefficients of friction, preloads,
+/// loads; decided from the formulas and from where they stand) the ends are zeros of determinants, and
+/// nothing is scanned (theory, section 6; [`crate::modes::existence`]). Otherwise many values are tried and
+/// what changes between them is bisected to machine precision. In either case the certified search is asked
+/// for the numbers of solutions over whole intervals, as far as [`LimitsOptions::effort`] allows: each of
+/// them says how it is known, [`Known`].
 ///
 /// # Errors
-/// Whatever `solve` refuses; an unknown name, an empty, reversed or infinite range, negative coefficients or factors of friction.
+/// Whatever `solve` refuses; an unknown name, an empty, reversed or infinite range, negative coefficients or
+/// factors of friction.
 pub fn limits(model: &Model, options: &LimitsOptions) -> Result<LimitsReport, Faults> {
     undisturbed(|work| limits_of(model, options, work))
 }

@@ -9,20 +9,21 @@ pub const EFFORT: u64 = 800;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LimitsOptions {
-    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to twice its value, but
-    /// at least to 1; whatever else is varied needs a range.
+    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to
+    /// twice its value, but at least to 1; whatever else is varied needs a range.
     pub vary: Vary,
     /// Modes count only where no normal force exceeds this (N).
     pub max_reaction: Option<f64>,
     /// Whether motion in the opposite direction is looked at, too.
     pub both_directions: bool,
-    /// How many certified searches may be made in each direction to prove numbers of solutions over intervals; one that
-    /// visits many nodes counts as several. With 0 nothing is proven.
+    /// How many certified searches may be made in each direction to prove numbers of solutions over
+    /// intervals; one that visits many nodes counts as several. With 0 nothing is proven.
     pub effort: u64,
 }
 
 impl LimitsOptions {
-    /// The limits of what is named, in the direction of the model, whatever the reactions, with the usual effort.
+    /// The limits of what is named, in the direction of the model, whatever the reactions, with the usual
+    /// effort.
     pub fn new(vary: Vary) -> Self {
         Self { vary, max_reaction: None, both_directions: false, effort: EFFORT }
     }

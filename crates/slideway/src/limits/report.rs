@@ -17,8 +17,9 @@ pub struct LimitsReport {
     pub title: Option<String>,
     /// What is varied.
     pub vary: VariedQuantity,
-    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
-    /// where they are those of the drawing, and where a coordinate is varied: then `guarantee` tells of it.
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    /// branch; absent where they are those of the drawing, and where a coordinate is varied: then `guarantee`
+    /// tells of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
     /// How the ends of modes were found.
@@ -29,9 +30,11 @@ pub struct LimitsReport {
     pub modes: Vec<ModeLimits>,
     /// Numbers of solutions in that direction.
     pub counts: Vec<CountLimits>,
-    /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed, in that direction.
+    /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed, in that
+    /// direction.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
-    /// Single values at which a guided slider is between its faces, in that direction; absent if none was found.
+    /// Single values at which a guided slider is between its faces, in that direction; absent if none was
+    /// found.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub between_faces_at: Vec<f64>,
     /// The opposite direction, if it was asked for.
@@ -144,8 +147,9 @@ pub struct CountLimits {
     pub preload_gap_states: usize,
     /// How these numbers are known.
     pub known: Known,
-    /// The stretches for all values of which they are proven, both ends included. If `known` is `proven` nothing of the interval lies
-    /// between them but what is next to ends of modes: [`CountLimits::left_out`].
+    /// The stretches for all values of which they are proven, both ends included. If `known` is `proven`
+    /// nothing of the interval lies between them but what is next to ends of modes:
+    /// [`CountLimits::left_out`].
     pub proven: Vec<[f64; 2]>,
     /// Where they were sampled: the greatest distance between neighbouring values; else null.
     pub spacing: Option<f64>,
@@ -155,7 +159,8 @@ pub struct CountLimits {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
-    /// By the certified search for all values but those next to ends of modes: for all of [`CountLimits::proven`].
+    /// By the certified search for all values but those next to ends of modes: for all of
+    /// [`CountLimits::proven`].
     Proven,
     /// Outside [`CountLimits::proven`] by zeros of determinants, which were computed in rounded numbers.
     ClosedForm,

@@ -1,8 +1,8 @@
-//! Where modes exist if the mode problem does not depend linearly on what is varied: many values, and bisection of what
-//! changes between them.
+//! Where modes exist if the mode problem does not depend linearly on what is varied: many values, and
+//! bisection of what changes between them.
 //!
-//! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values inside every
-//! interval between two ends that has none yet, until no further mode turns up.
+//! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values
+//! inside every interval between two ends that has none yet, until no further mode turns up.
 
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SingleValues};
 use super::varied::Varied;
@@ -123,7 +123,8 @@ impl Scanner<'_> {
         self.varied.parts(at).ok().map(|parts| parts.line_to(&parts))
     }
 
-    /// Values on both sides of where the mode problem ceases to exist or has another fault, and ever closer to it.
+    /// Values on both sides of where the mode problem ceases to exist or has another fault, and ever closer
+    /// to it.
     fn edges(&self, places: &[Tried]) -> Vec<f64> {
         let mut values = Vec::new();
         for pair in places.windows(2) {
@@ -214,7 +215,8 @@ impl Scanner<'_> {
         ModeEnd { at, cause: EndCause::Range, normal_force }
     }
 
-    /// A mode that ends because there is no mode problem beyond: where a sliding velocity vanishes it has no direction of friction.
+    /// A mode that ends because there is no mode problem beyond: where a sliding velocity vanishes it has no
+    /// direction of friction.
     fn lost(&self, at: f64, beyond: f64) -> ModeEnd {
         let reverses = |fault: &Fault| matches!(fault.kind, FaultKind::ZeroSlidingVelocity { .. });
         let cause = match self.varied.parts(beyond) {
@@ -264,8 +266,8 @@ fn is_same_fault<T>(one: &Result<T, Faults>, other: &Result<T, Faults>) -> bool 
     matches!((one, other), (Err(one), Err(other)) if kind(one) == kind(other))
 }
 
-/// The ranges without a mode problem, one for each reason, up to the last places where there is one. The reason is that of a place
-/// in the middle.
+/// The ranges without a mode problem, one for each reason, up to the last places where there is one. The
+/// reason is that of a place in the middle.
 fn gaps(places: &[Tried]) -> Vec<Gap> {
     let mut gaps = Vec::new();
     let stretches = places.chunk_by(|one, next| is_same_fault(&one.line, &next.line));

@@ -144,8 +144,9 @@ impl Varied {
         }
     }
 
-    /// The numbers of solutions and of preload-gap states that are proven for all values between two, if they are, and
-    /// what that took: nodes of the search, which ends with the work. States with a normal force above `greatest` do not count.
+    /// The numbers of solutions and of preload-gap states that are proven for all values between two, if they
+    /// are, and what that took: nodes of the search, which ends with the work. States with a normal force
+    /// above `greatest` do not count.
     pub(crate) fn certain_counts(
         &self,
         [from, to]: [f64; 2],
@@ -176,9 +177,9 @@ impl Varied {
         (certain_counts(&enclosed, &result, options, greatest), result.nodes())
     }
 
-    /// The states with a guided slider between its faces that `solve` finds at a value and with so many times the friction, and
-    /// no sign pattern tells; none where there is no mode problem, and when the work is to end. States with a normal force above
-    /// `greatest` do not count.
+    /// The states with a guided slider between its faces that `solve` finds at a value and with so many times
+    /// the friction, and no sign pattern tells; none where there is no mode problem, and when the work is to
+    /// end. States with a normal force above `greatest` do not count.
     pub(crate) fn states_between_faces(
         &self,
         (value, rougher): (f64, f64),
@@ -205,7 +206,8 @@ impl Varied {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the SI.
+    /// The unit in which its values are shown: the one of both ends of a range, as written, else that of the
+    /// SI.
     pub(crate) fn shown_in(&self, range: Option<[&Value; 2]>) -> ShownIn {
         let [from, to] = range.map_or([""; 2], |ends| ends.map(unit_of));
         let scale = if from == to && !from.is_empty() { unit_in_si(from) } else { None };
@@ -295,7 +297,8 @@ impl Varied {
     }
 }
 
-/// The mechanism of a model with these values of what is varied, and the factor of its coefficients of friction.
+/// The mechanism of a model with these values of what is varied, and the factor of its coefficients of
+/// friction.
 ///
 /// # Errors
 /// Values that the model does not allow.

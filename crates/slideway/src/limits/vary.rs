@@ -7,8 +7,8 @@ use crate::model::Value;
 use std::fmt;
 use std::str::FromStr;
 
-/// What is to be varied, and over which range: a parameter, a coordinate, or all coefficients of friction together
-/// ([`FRICTION`](super::FRICTION)).
+/// What is to be varied, and over which range: a parameter, a coordinate, or all coefficients of friction
+/// together ([`FRICTION`](super::FRICTION)).
 ///
 /// ```
 /// use slideway::limits::Vary;
@@ -41,8 +41,8 @@ impl Vary {
     /// The ends of the range in SI units.
     ///
     /// # Errors
-    /// A range that is reversed, empty, too great to compute with, or one of coefficients of friction that begins below zero;
-    /// whatever `usual` refuses where there is no range.
+    /// A range that is reversed, empty, too great to compute with, or one of coefficients of friction that
+    /// begins below zero; whatever `usual` refuses where there is no range.
     pub(crate) fn ends(
         &self,
         varied: &Varied,

@@ -33,7 +33,8 @@ pub enum ClassMeaning {
         /// The patterns, in the order of enumeration.
         patterns: Vec<String>,
     },
-    /// There is one solution, and there are none or several from a factor of friction on that lies in this range.
+    /// There is one solution, and there are none or several from a factor of friction on that lies in this
+    /// range.
     Margin {
         /// The least factor.
         from: f64,
@@ -66,7 +67,8 @@ pub(super) struct ClassKey(pub(super) ClassMeaning);
 pub(super) struct Point {
     /// Its mode problem.
     pub(super) parts: Parts,
-    /// The patterns of its states with a guided slider between its faces, which the mode problem does not tell.
+    /// The patterns of its states with a guided slider between its faces, which the mode problem does not
+    /// tell.
     pub(super) between_faces: Vec<String>,
 }
 

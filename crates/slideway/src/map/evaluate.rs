@@ -1,4 +1,5 @@
-//! The mode problem at a point of the plane: interpolated where it depends bilinearly on both quantities, else made anew.
+//! The mode problem at a point of the plane: interpolated where it depends bilinearly on both quantities,
+//! else made anew.
 
 use super::class::{ClassKey, Point, class, reason};
 use super::{Axis, ColourBy};
@@ -11,7 +12,8 @@ use crate::progress::{Progress, Work};
 use crate::solve::{Parts, SolveOptions, Stages, Trail, states_between_faces};
 use std::ops::ControlFlow;
 
-/// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least accurate of them is known.
+/// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least
+/// accurate of them is known.
 struct Corners {
     parts: Box<[Parts; 4]>,
     accuracy: Accuracy,
@@ -29,8 +31,8 @@ pub(super) struct Evaluator<'a> {
 /// Where mode problems come from.
 struct Source {
     model: Model,
-    /// Between these mode problems are interpolated; if there are none, they are made from the model at every point, from the
-    /// states of the points before it.
+    /// Between these mode problems are interpolated; if there are none, they are made from the model at every
+    /// point, from the states of the points before it.
     corners: Option<Corners>,
 }
 
@@ -176,9 +178,9 @@ mod tests {
     use crate::gallery;
     use crate::progress::undisturbed;
 
-    /// The oracle assembles the model of every point from the drawing and factors with full pivoting. Between neighbouring
-    /// points lie up to 11 degrees; a rod shorter than the crank cannot pass 90 degrees, which its neighbours can. The other run
-    /// of points jumps to and fro.
+    /// The oracle assembles the model of every point from the drawing and factors with full pivoting. Between
+    /// neighbouring points lie up to 11 degrees; a rod shorter than the crank cannot pass 90 degrees, which
+    /// its neighbours can. The other run of points jumps to and fro.
     #[test]
     fn points_along_a_trail_are_those_assembled_anew() {
         let planes = [

@@ -140,17 +140,19 @@ impl Axis {
 
 /// The map of a model over two of its quantities.
 ///
-/// Every pixel has the class of its middle. Probes are spaced evenly; between probes that agree the plane is filled, where
-/// they differ it is divided down to single pixels, and boundaries that were met are followed from pixel to pixel. So a
-/// region is missed only if it lies between probes and touches no boundary that was found. Solutions are those of
-/// [`modes::enumerate`](crate::modes::enumerate), within its tolerances, not certified as those of `solve`.
+/// Every pixel has the class of its middle. Probes are spaced evenly; between probes that agree the plane is
+/// filled, where they differ it is divided down to single pixels, and boundaries that were met are followed
+/// from pixel to pixel. So a region is missed only if it lies between probes and touches no boundary that was
+/// found. Solutions are those of [`modes::enumerate`](crate::modes::enumerate), within its tolerances, not
+/// certified as those of `solve`.
 ///
-/// Where the mode problem depends bilinearly on both quantities (friction, preloads, loads), which is tried at a few points,
-/// its numbers are interpolated, else the mechanism is assembled at every point, from the positions of neighbouring points.
+/// Where the mode problem depends bilinearly on both quantities (friction, preloads, loads), which is tried
+/// at a few points, its numbers are interpolated, else the mechanism is assembled at every point, from the
+/// positions of neighbouring points.
 ///
 /// # Errors
-/// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a point cannot be
-/// assembled or solved is no error: it has a class of its own.
+/// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a
+/// point cannot be assembled or solved is no error: it has a class of its own.
 pub fn map(model: &Model, options: &MapOptions) -> Result<MapReport, Faults> {
     undisturbed(|work| map_of(model, options, work))
 }

@@ -9,7 +9,8 @@ const AT_ONCE: usize = 512;
 const RUN: usize = 32;
 /// Points or cells that are looked through between two calls of the callback.
 const UNTOLD: usize = 1024;
-/// Points are solved in rows of so many pixels' height, from left to right, so that successive ones are neighbours.
+/// Points are solved in rows of so many pixels' height, from left to right, so that successive ones are
+/// neighbours.
 const BAND: usize = 16;
 
 /// A plane of pixels, counted from the lower left corner.
@@ -174,8 +175,8 @@ impl<K: PartialEq + Send> Work<'_, K> {
         }
     }
 
-    /// Solves filled pixels beside solved ones of another class, until there are none: boundaries are followed into cells
-    /// whose corners agree.
+    /// Solves filled pixels beside solved ones of another class, until there are none: boundaries are
+    /// followed into cells whose corners agree.
     fn follow(&mut self) -> Option<()> {
         let mut suspects: Vec<[usize; 2]> = Vec::new();
         for j in 0..self.grid.height {
@@ -310,7 +311,8 @@ mod tests {
         regions
     }
 
-    /// What the documentation promises: a region that a probe meets is complete, also one that is narrower than a pixel.
+    /// What the documentation promises: a region that a probe meets is complete, also one that is narrower
+    /// than a pixel.
     #[test]
     fn regions_that_a_probe_meets_are_exact() {
         let mut missed = 0;

@@ -35,7 +35,8 @@ pub struct MapReport {
     pub points: usize,
     /// What can have been missed, in words.
     pub guarantee: String,
-    /// Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels it has on end.
+    /// Rows of pixels from bottom to top: each as pairs of a class, counted from 0, and the number of pixels
+    /// it has on end.
     pub rows: Vec<Vec<[usize; 2]>>,
 }
 

@@ -136,11 +136,13 @@ pub struct Slider<T = f64> {
     pub contacts: Vec<ContactId>,
 }
 
-/// A couple may exceed |N| L / 2 by this multiple of the greatest of its terms before a guided slider counts as tipping.
+/// A couple may exceed |N| L / 2 by this multiple of the greatest of its terms before a guided slider counts
+/// as tipping.
 pub(crate) const COUPLE_TOLERANCE: f64 = 1e-9;
 
 impl Slider {
-    /// The couple beyond which a guided slider tips under a normal force: |C| <= |N| L / 2 (theory, section 1).
+    /// The couple beyond which a guided slider tips under a normal force: |C| <= |N| L / 2 (theory, section
+    /// 1).
     pub(crate) fn greatest_couple(&self, normal_force: f64) -> f64 {
         normal_force.abs() * self.length / 2.0
     }
@@ -157,8 +159,9 @@ pub struct Contact<T = f64> {
     pub offset: T,
     /// What it travels with.
     pub carried_by: CarriedBy,
-    /// Kinetic friction coefficient where the normal force is positive, and where it is negative: at the sliding speed
-    /// zero, or at that of the last call of [`Configuration::put_friction`](crate::configuration::Configuration::put_friction).
+    /// Kinetic friction coefficient where the normal force is positive, and where it is negative: at the
+    /// sliding speed zero, or at that of the last call of
+    /// [`Configuration::put_friction`](crate::configuration::Configuration::put_friction).
     pub mu: [T; 2],
     /// The formulas of those that depend on the sliding speed.
     pub law: [Option<FormulaId>; 2],
@@ -354,7 +357,8 @@ impl<T> CoordinateKind<T> {
 }
 
 impl Slider {
-    /// The least and the greatest displacement that are permitted (m), infinite where nothing limits it: a pad yields.
+    /// The least and the greatest displacement that are permitted (m), infinite where nothing limits it: a
+    /// pad yields.
     pub fn limits(&self) -> [f64; 2] {
         let limit = |end: usize| {
             let yields = self.stops[end].is_some_and(|stop| stop.pad().is_some());
@@ -424,8 +428,8 @@ impl Mechanism {
 }
 
 impl Mechanism<Interval> {
-    /// Intervals that hold the numbers of the mechanism that a model describes, which `nominal` has rounded. The
-    /// parameters in `given` have their values from there.
+    /// Intervals that hold the numbers of the mechanism that a model describes, which `nominal` has rounded.
+    /// The parameters in `given` have their values from there.
     ///
     /// # Errors
     /// Every formula that has no finite or allowed value for some of the numbers within bounds.
@@ -455,15 +459,16 @@ impl<T: Real> Mechanism<T> {
         *preload_line == PreloadLine::Pressed && has_two_faces && *preload != [T::zero(); 2]
     }
 
-    /// Whether the friction of a contact's preload is another one when the contact changes its side: another force, or
-    /// one at another face. Only then may the contact rest between its faces (theory, section 3: preload gap).
+    /// Whether the friction of a contact's preload is another one when the contact changes its side: another
+    /// force, or one at another face. Only then may the contact rest between its faces (theory, section 3:
+    /// preload gap).
     pub fn preload_jumps(&self, contact: ContactId) -> bool {
         let [positive, negative] = &self.contacts[contact.index()].preload;
         positive != negative || self.preload_changes_face(contact)
     }
 
-    /// Kinetic friction coefficients of a contact at a sliding velocity (m/s), for both sides: they are even, as the
-    /// formulas know its absolute value alone.
+    /// Kinetic friction coefficients of a contact at a sliding velocity (m/s), for both sides: they are even,
+    /// as the formulas know its absolute value alone.
     ///
     /// # Errors
     /// A fault that names the speed if a coefficient is not finite or is negative there.
@@ -471,8 +476,8 @@ impl<T: Real> Mechanism<T> {
         self.friction_of(contact, velocity.abs(), None)
     }
 
-    /// The formulas of [`Self::friction_at`] with a number in place of the sliding speed, with every relation on its piece, if
-    /// pieces are given.
+    /// The formulas of [`Self::friction_at`] with a number in place of the sliding speed, with every relation
+    /// on its piece, if pieces are given.
     ///
     /// # Errors
     /// As there.

@@ -5,8 +5,9 @@ use crate::ids::{FormulaId, JointId};
 use crate::interval::Real;
 use std::sync::LazyLock;
 
-/// The force of a pad over its depth `d`, without and with damping. Without, there is one kink; with it the force jumps to
-/// `c d'` where the block arrives, and has a kink where the pad lets go, before `d` is zero again.
+/// The force of a pad over its depth `d`, without and with damping. Without, there is one kink; with it the
+/// force jumps to `c d'` where the block arrives, and has a kink where the pad lets go, before `d` is zero
+/// again.
 static LAWS: LazyLock<[Expression; 2]> = LazyLock::new(|| {
     let mut names = Names::new();
     names.parameter("k");
@@ -15,8 +16,8 @@ static LAWS: LazyLock<[Expression; 2]> = LazyLock::new(|| {
     ["max(0, k*d)", "step(d)*max(0, k*d + c*rate(d))"].map(|law| parse(law, &names).unwrap_or_default())
 });
 
-/// A pad at an end of the travel of a sliding joint: at the depth d beyond it the block is pushed back along the centre line of
-/// the guide with max(0, k d + c d'), and the guide the other way.
+/// A pad at an end of the travel of a sliding joint: at the depth d beyond it the block is pushed back along
+/// the centre line of the guide with max(0, k d + c d'), and the guide the other way.
 #[derive(Debug, Clone, Copy)]
 pub struct Pad<T = f64> {
     /// The joint.
@@ -32,7 +33,8 @@ pub struct Pad<T = f64> {
 }
 
 impl<T: Real> Pad<T> {
-    /// 1 at the greatest displacement, -1 at the least: the sense in which the depth grows with the displacement.
+    /// 1 at the greatest displacement, -1 at the least: the sense in which the depth grows with the
+    /// displacement.
     pub fn sense(&self) -> T {
         T::exactly(if self.greatest { 1.0 } else { -1.0 })
     }

@@ -63,7 +63,8 @@ impl Mechanism {
         })
     }
 
-    /// The relations in the formulas of loads, drives and friction, in the order of these formulas, then those of pads.
+    /// The relations in the formulas of loads, drives and friction, in the order of these formulas, then
+    /// those of pads.
     pub(crate) fn relations(&self) -> Vec<Relation> {
         let loads = self.loads.iter().flat_map(|load| {
             quantities(&load.kind).into_iter().map(|quantity| (&load.name, quantity)).collect::<Vec<_>>()

@@ -69,7 +69,8 @@ impl Model {
         faults.or(values.into_iter().map(Option::unwrap_or_default).collect())
     }
 
-    /// The parameters that are computed from some of these, in an order in which each uses only those before it.
+    /// The parameters that are computed from some of these, in an order in which each uses only those before
+    /// it.
     pub(crate) fn following(&self, parameters: &[usize]) -> Vec<usize> {
         let follows = |index: &usize| {
             let own = parameters.contains(index);
@@ -78,8 +79,8 @@ impl Model {
         self.evaluation_order.iter().copied().filter(follows).collect()
     }
 
-    /// Intervals that hold the exact values of all formulas that do not depend on the motion, 0 for the others;
-    /// `given` has the values of the parameters whose own formulas do not count.
+    /// Intervals that hold the exact values of all formulas that do not depend on the motion, 0 for the
+    /// others; `given` has the values of the parameters whose own formulas do not count.
     ///
     /// # Errors
     /// A fault for each formula that has no finite or allowed value for some of the numbers within bounds.
@@ -94,7 +95,8 @@ impl Model {
         self.parameters.iter().map(|parameter| constants[parameter.value.index()]).collect()
     }
 
-    /// The SI unit of a parameter: empty for pure numbers and where its dimension does not follow from the model.
+    /// The SI unit of a parameter: empty for pure numbers and where its dimension does not follow from the
+    /// model.
     pub fn parameter_unit(&self, parameter: &str) -> String {
         let index = self.parameters.iter().position(|other| &*other.name == parameter);
         index.and_then(|index| self.parameter_dimension(index)).map_or_else(String::new, Dimension::unit)
@@ -108,7 +110,8 @@ impl Model {
         self.contacts().flat_map(|contact| contact.mu).any(|mu| self.uses(mu, wanted))
     }
 
-    /// Whether some coefficient of friction is this parameter itself, so that its negative values make no sense.
+    /// Whether some coefficient of friction is this parameter itself, so that its negative values make no
+    /// sense.
     pub(crate) fn is_itself_friction(&self, parameter: &str) -> bool {
         let wanted = self.parameters.iter().position(|other| &*other.name == parameter);
         let mut coefficients =
@@ -198,7 +201,8 @@ impl Model {
         for &index in &self.evaluation_order {
             let of = |symbol| self.inferred(symbol, &inferred);
             let formula = self.formula(self.parameters[index].value);
-            // A setting keeps the dimension of what it replaces: if it has another one, that is its fault alone.
+            // A setting keeps the dimension of what it replaces: if it has another one, that is its fault
+            // alone.
             if let Some(wanted) = formula.wanted {
                 inferred[index] = Inferred::Known(wanted);
                 continue;
@@ -251,7 +255,8 @@ impl Model {
         }
     }
 
-    /// The values of all formulas that have one without the motion; the parameters in `given` have theirs from there.
+    /// The values of all formulas that have one without the motion; the parameters in `given` have theirs
+    /// from there.
     fn allowed_values<T: Real>(&self, given: &[(usize, T)], faults: &mut Faults) -> Vec<Option<T>> {
         let mut parameters = vec![T::zero(); self.parameters.len()];
         let mut values = vec![None; self.formulas.len()];

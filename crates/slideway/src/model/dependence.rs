@@ -1,7 +1,7 @@
 //! On what the mode problem depends, decided from the formulas and from where they stand in the mechanism.
 //!
-//! The numbers of the mode problem, eq. (6), are affine in a parameter where it stands in these places only, each formula
-//! being affine in it while all others keep their values:
+//! The numbers of the mode problem, eq. (6), are affine in a parameter where it stands in these places only,
+//! each formula being affine in it while all others keep their values:
 //!
 //! | place | what is affine |
 //! |---|---|
@@ -10,7 +10,8 @@
 //! | forces, moments, gravity, springs, dampers, prescribed accelerations | the right-hand side `N(0)` |
 //! | masses and moments of inertia, if every coordinate is driven | the right-hand side: all accelerations are prescribed |
 //!
-//! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is constant.
+//! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is
+//! constant.
 
 use super::{ForceValue, Gravity, Inertia, JointKind, LoadKind, Model, Moment, Slider, Stop};
 use crate::expression::{Degree, Symbol, Values};
@@ -29,7 +30,8 @@ pub(crate) struct Dependence {
 }
 
 impl Model {
-    /// How the mode problem depends on a parameter in a fixed state, the parameter itself having a value of its own.
+    /// How the mode problem depends on a parameter in a fixed state, the parameter itself having a value of
+    /// its own.
     pub(crate) fn dependence(&self, parameter: usize) -> Dependence {
         let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
         let affine = places.friction().max(places.loads()).max(places.weights()).max(places.accelerations());
@@ -39,8 +41,8 @@ impl Model {
         Dependence { problem: affine.max(elsewhere), conditions, at_rest: at_rest != Degree::Constant }
     }
 
-    /// The constant and the slope of a formula that does not depend on the motion and is affine in a parameter `p`,
-    /// `constant + slope p`; none if it is not affine.
+    /// The constant and the slope of a formula that does not depend on the motion and is affine in a
+    /// parameter `p`, `constant + slope p`; none if it is not affine.
     pub(crate) fn line_of(&self, formula: FormulaId, parameter: usize) -> Option<[f64; 2]> {
         let mut places = Places { model: self, parameters: self.degrees(parameter), seen: BTreeSet::new() };
         if places.degree(formula) == Degree::Other {
@@ -51,7 +53,8 @@ impl Model {
         Some([constant, at_one? - constant])
     }
 
-    /// The value that a formula of parameters would have with a value of one of them, whether or not it is allowed.
+    /// The value that a formula of parameters would have with a value of one of them, whether or not it is
+    /// allowed.
     fn value_at(&self, formula: FormulaId, parameter: usize, value: f64) -> Option<f64> {
         let mut parameters = vec![0.0; self.parameters.len()];
         let evaluate = |id: FormulaId, parameters: &[f64]| {

@@ -1,7 +1,7 @@
 //! The shape of a model file: one type for each table, from which both the reader and the JSON Schema come.
 //!
-//! The doc comments of this file, and those of `schema.rs`, are what an editor shows for each key. `schema.json` is
-//! what they give; a test holds it to them.
+//! The doc comments of this file, and those of `schema.rs`, are what an editor shows for each key.
+//! `schema.json` is what they give; a test holds it to them.
 
 use super::quantity::{Components, Direction, Name, PerSide, Place, Quantity, Span};
 #[cfg(test)]
@@ -12,7 +12,8 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct TableTable {
-    /// The arguments, numbers with or without a unit, which must not fall; the value jumps where two are equal.
+    /// The arguments, numbers with or without a unit, which must not fall; the value jumps where two are
+    /// equal.
     pub(super) argument: Vec<Quantity>,
     /// The value at each argument.
     pub(super) value: Vec<Quantity>,
@@ -125,7 +126,8 @@ pub(super) struct BlockSliderTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = .. }. Default: the motion ends there.
+    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
+    /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
     /// The contact at the end in the direction of `along`.
     pub(super) front: Option<EndTable>,
@@ -181,7 +183,8 @@ pub(super) struct GuidedSliderTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = .. }. Default: the motion ends there.
+    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
+    /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
 }
 
@@ -207,7 +210,8 @@ pub(super) struct PinInSlotTable {
     pub(super) stiffness: Option<Quantity>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
-    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = .. }. Default: the motion ends there.
+    /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
+    /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
 }
 
@@ -215,7 +219,8 @@ pub(super) struct PinInSlotTable {
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct StopTable {
-    /// Coefficient of restitution at both ends, from 0 to 1: the part of the velocity with which the block comes back.
+    /// Coefficient of restitution at both ends, from 0 to 1: the part of the velocity with which the block
+    /// comes back.
     pub(super) restitution: Option<Quantity>,
     /// Stiffness of the pads at both ends (N/m), in place of `restitution`.
     pub(super) stiffness: Option<Quantity>,

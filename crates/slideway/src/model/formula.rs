@@ -100,7 +100,8 @@ impl Formula {
         self.value_on(values, &[])
     }
 
-    /// Its value in a state with every relation on its piece; relations without a piece follow their arguments.
+    /// Its value in a state with every relation on its piece; relations without a piece follow their
+    /// arguments.
     ///
     /// # Errors
     /// As [`Self::value`].
@@ -135,7 +136,8 @@ impl Formula {
         self.expression.symbols().any(|(symbol, _)| symbol == Symbol::SlidingSpeed)
     }
 
-    /// Its value at a sliding speed (m/s), with every relation on its piece; relations without a piece follow their arguments.
+    /// Its value at a sliding speed (m/s), with every relation on its piece; relations without a piece follow
+    /// their arguments.
     ///
     /// # Errors
     /// A fault that names the speed if the value is not finite or not allowed.

@@ -31,9 +31,10 @@
 //! ```
 //!
 //! # Files
-//! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what both
-//! give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs` deserializes entry by entry, `read/` resolves names,
-//! `check.rs` judges the whole, `value.rs` is what is given, `settings.rs` applies changes.
+//! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
+//! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
+//! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `value.rs` is what is
+//! given, `settings.rs` applies changes.
 
 mod check;
 mod dependence;

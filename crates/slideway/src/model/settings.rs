@@ -165,8 +165,8 @@ impl Model {
         Ok(())
     }
 
-    /// The value that a parameter, coordinate, rate or the time would have by a setting (SI units), whether or not the model makes sense
-    /// with it.
+    /// The value that a parameter, coordinate, rate or the time would have by a setting (SI units), whether
+    /// or not the model makes sense with it.
     ///
     /// # Errors
     /// An expression that cannot be read or has no value, or one of another dimension than it has now.

@@ -55,7 +55,8 @@ impl<'s> StructureCheck<'s> {
         self.table(document, &(0..0), self.root, "");
     }
 
-    /// Puts stand-ins for what is missing or faulty in the value at the end of `path`; whether it can be read then.
+    /// Puts stand-ins for what is missing or faulty in the value at the end of `path`; whether it can be read
+    /// then.
     pub(super) fn mend(&self, path: &[&str], value: &mut Spanned<DeValue<'_>>) -> bool {
         let within = |mend: &&Mend| mend.path.iter().zip(path).all(|(key, wanted)| key == wanted);
         self.mends.iter().filter(within).all(|mend| match mend.path.get(path.len()..) {

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// A value as it is given: a number in SI units, or a text with a unit or an expression of parameters, such as `25 mm` or
-/// `2*l*cos(alpha)`.
+/// A value as it is given: a number in SI units, or a text with a unit or an expression of parameters, such
+/// as `25 mm` or `2*l*cos(alpha)`.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Value {

@@ -1,16 +1,18 @@
 //! Motion in time, with the contact mode as part of the state (theory, section 8).
 //!
-//! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is smooth: an explicit
-//! Runge-Kutta method of order 5 follows positions and velocities of all bodies, and every step is projected back on the
-//! joints. An event ends the phase; a [decision](Decisions) says how the motion goes on. Energy is accounted for: work and
-//! dissipation are integrated beside the motion, and the error of the balance is told.
+//! Between events every sliding joint and contact keeps what it does, its [`Phase`], and the motion is
+//! smooth: an explicit Runge-Kutta method of order 5 follows positions and velocities of all bodies, and
+//! every step is projected back on the joints. An event ends the phase; a [decision](Decisions) says how the
+//! motion goes on. Energy is accounted for: work and dissipation are integrated beside the motion, and the
+//! error of the balance is told.
 //!
 //! # What is watched
-//! Within a phase: normal forces, shares in preload gaps, sliding velocities, the determinant of the mode, couples of
-//! guided sliders, how much friction is left to joints that stick, overlaps, travel limits, functions of the user. They
-//! are evaluated at both ends of each step and at its thirds, and where the cubic through these values has a minimum near
-//! zero; where one has fallen below zero its zero is found on the solution within the step. A function that swings faster than
-//! that, so that no cubic shows it, can be missed: [`SimulateOptions::longest_step`] bounds that.
+//! Within a phase: normal forces, shares in preload gaps, sliding velocities, the determinant of the mode,
+//! couples of guided sliders, how much friction is left to joints that stick, overlaps, travel limits,
+//! functions of the user. They are evaluated at both ends of each step and at its thirds, and where the cubic
+//! through these values has a minimum near zero; where one has fallen below zero its zero is found on the
+//! solution within the step. A function that swings faster than that, so that no cubic shows it, can be
+//! missed: [`SimulateOptions::longest_step`] bounds that.
 //!
 //! ```
 //! use slideway::model::{Model, Settings};
@@ -25,8 +27,9 @@
 //! ```
 //!
 //! # Files
-//! `moving/` is what moves: equations, steps, what is watched. `decision/` says how the motion goes on at an event. `record/` is what is
-//! remembered, `following/` the loop of phases, events and decisions, `told/` what is told. Each uses only those before it.
+//! `moving/` is what moves: equations, steps, what is watched. `decision/` says how the motion goes on at an
+//! event. `record/` is what is remembered, `following/` the loop of phases, events and decisions, `told/`
+//! what is told. Each uses only those before it.
 
 pub mod decision;
 mod following;

@@ -12,11 +12,13 @@ use crate::model::CrossingDirection;
 pub struct SimulateOptions {
     /// How long the mechanism is followed (s).
     pub duration: f64,
-    /// Relative error of each step: of positions against the size of the mechanism, of velocities against the greatest.
+    /// Relative error of each step: of positions against the size of the mechanism, of velocities against the
+    /// greatest.
     pub tolerance: f64,
-    /// The longest step (s); a thousandth of the duration if nothing is given. What passes zero and returns within a third
-    /// of a step is found where the cubic through four values in the step shows it. Steps are shorter where loads or drives change faster
-    /// than that by themselves, and the rest of bodies that stand still is proven whatever the steps are.
+    /// The longest step (s); a thousandth of the duration if nothing is given. What passes zero and returns
+    /// within a third of a step is found where the cubic through four values in the step shows it. Steps are
+    /// shorter where loads or drives change faster than that by themselves, and the rest of bodies that stand
+    /// still is proven whatever the steps are.
     pub longest_step: Option<f64>,
     /// Steps after which the simulation ends.
     pub most_steps: usize,
@@ -29,11 +31,11 @@ pub struct SimulateOptions {
     pub events: Vec<UserEvent>,
     /// The phase to begin with, as its [pattern](super::Phase::pattern).
     pub initial: Option<String>,
-    /// Which of the possible phases is taken at each branching, in their order, counted from 0; the first where the
-    /// list ends. A branching is an event after which several phases are possible.
+    /// Which of the possible phases is taken at each branching, in their order, counted from 0; the first
+    /// where the list ends. A branching is an event after which several phases are possible.
     pub branches: Vec<usize>,
-    /// Whether at a branching behind the list the phase is taken in which the fewest joints stick, instead of the first: what could
-    /// wedge itself at rest then slides on as long as it can.
+    /// Whether at a branching behind the list the phase is taken in which the fewest joints stick, instead of
+    /// the first: what could wedge itself at rest then slides on as long as it can.
     pub prefers_sliding: bool,
 }
 
@@ -103,7 +105,8 @@ impl SimulateOptions {
         self
     }
 
-    /// Whether at a branching behind those that are given the phase is taken in which the fewest joints stick.
+    /// Whether at a branching behind those that are given the phase is taken in which the fewest joints
+    /// stick.
     #[must_use]
     pub fn prefers_sliding(mut self, prefers: bool) -> Self {
         self.prefers_sliding = prefers;

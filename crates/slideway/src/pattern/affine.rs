@@ -85,8 +85,8 @@ impl AffineSet {
         Self { particular: DVector::zeros(0), directions: DMatrix::zeros(0, 0) }
     }
 
-    /// The solutions of `matrix` x = `right_hand_side`, by Gauss-Jordan elimination with complete pivoting; nothing
-    /// where the equations contradict each other.
+    /// The solutions of `matrix` x = `right_hand_side`, by Gauss-Jordan elimination with complete pivoting;
+    /// nothing where the equations contradict each other.
     pub(crate) fn of(mut matrix: DMatrix<f64>, mut right_hand_side: DVector<f64>) -> Option<Self> {
         let pivots = reduce(&mut matrix, &mut right_hand_side);
         if right_hand_side.rows(pivots.len(), matrix.nrows() - pivots.len()).amax() > CONSISTENT {

@@ -1,4 +1,5 @@
-//! Friction of one contact: Coulomb's law at rest and while sliding, with preloads (theory, sections 1, 3 and 8).
+//! Friction of one contact: Coulomb's law at rest and while sliding, with preloads (theory, sections 1, 3 and
+//! 8).
 
 use super::{ContactPhase, Expression, JointPhase};
 use crate::ids::ContactId;
@@ -6,7 +7,8 @@ use crate::mechanism::{Contact, Mechanism};
 use crate::model::PreloadLine;
 use crate::modes::Side;
 
-/// What Coulomb's law says of a contact, in units in which forces are of order one; two numbers are those of both sides.
+/// What Coulomb's law says of a contact, in units in which forces are of order one; two numbers are those of
+/// both sides.
 #[derive(Debug, Clone)]
 pub(crate) struct Law {
     /// Kinetic friction coefficients.
@@ -47,7 +49,8 @@ pub(crate) enum Bound {
 }
 
 impl Law {
-    /// The law of a contact, which may have other coefficients than in the mechanism, with this unit of force; without preload for impulses.
+    /// The law of a contact, which may have other coefficients than in the mechanism, with this unit of
+    /// force; without preload for impulses.
     pub(crate) fn new(
         mechanism: &Mechanism,
         (k, contact): (usize, &Contact),
@@ -63,8 +66,8 @@ impl Law {
         }
     }
 
-    /// `F = (mu |N| + F_0) s` of a contact that slides with the sign `s` against a side, eq. (2): at both faces the factor of |N| and
-    /// the constant.
+    /// `F = (mu |N| + F_0) s` of a contact that slides with the sign `s` against a side, eq. (2): at both
+    /// faces the factor of |N| and the constant.
     pub(crate) fn kinetic(&self, side: Side, sign: f64) -> [[f64; 2]; 2] {
         let mut faces = [[0.0; 2]; 2];
         faces[face(side)][0] = self.mu[face(side)] * sign;
@@ -82,7 +85,8 @@ impl Law {
         }
     }
 
-    /// `(share F_0^+ W^+ + (1 - share) F_0^- W^-) s` in a preload gap: at both faces the factor of the share and the constant.
+    /// `(share F_0^+ W^+ + (1 - share) F_0^- W^-) s` in a preload gap: at both faces the factor of the share
+    /// and the constant.
     pub(crate) fn in_gap(&self, sign: f64) -> [[f64; 2]; 2] {
         let [plus, minus] = [0, 1].map(|side| self.of_preload(side, sign));
         [0, 1].map(|at| [plus[at] - minus[at], minus[at]])
@@ -90,7 +94,8 @@ impl Law {
 }
 
 impl Friction {
-    /// The friction of a contact whose joint and which itself does this, with this |N|; unknowns are made where they are needed.
+    /// The friction of a contact whose joint and which itself does this, with this |N|; unknowns are made
+    /// where they are needed.
     pub(crate) fn new(
         law: Law,
         (joint, contact): (JointPhase, ContactPhase),
@@ -154,8 +159,8 @@ impl Friction {
         }
     }
 
-    /// Every inequality `slack >= 0` of the contact, with these static friction coefficients. The friction of a joint that is to stick only
-    /// at the end of an impulse opposes this sign of the sliding velocity.
+    /// Every inequality `slack >= 0` of the contact, with these static friction coefficients. The friction of
+    /// a joint that is to stick only at the end of an impulse opposes this sign of the sliding velocity.
     pub(crate) fn bounds(&self, mu_static: [f64; 2], opposes: Option<f64>) -> Vec<(Bound, Expression)> {
         let mut all = Vec::new();
         if self.contact != ContactPhase::PreloadGap {

@@ -1,5 +1,5 @@
-//! What every sliding joint and contact does, as linear equations and inequalities: the description that standstill and the decisions of
-//! motions share.
+//! What every sliding joint and contact does, as linear equations and inequalities: the description that
+//! standstill and the decisions of motions share.
 //!
 //! ```text
 //! slides   F_k = (mu_k |N_k| + F_k0) s_k
@@ -7,8 +7,9 @@
 //! in both  |N_k| >= 0,  |C| <= |N| L/2 of guided sliders, 0 <= share <= 1 in a preload gap
 //! ```
 //!
-//! [`Friction`] has the friction of one contact as expressions of unknowns, and what bounds it; whoever asks adds the equations, of
-//! statics or of motion. [`AffineSet`] solves these, [`Region`] asks the linear programs of what they leave open.
+//! [`Friction`] has the friction of one contact as expressions of unknowns, and what bounds it; whoever asks
+//! adds the equations, of statics or of motion. [`AffineSet`] solves these, [`Region`] asks the linear
+//! programs of what they leave open.
 //!
 //! # Files
 //! `pattern` is what `standstill` and `motion` share: what joints and contacts do (`phase.rs`), as linear

@@ -14,8 +14,8 @@ pub struct Phase {
 }
 
 impl Phase {
-    /// One character for each contact: `+` or `-` for the sign of its normal force, `0` in its preload gap, `=` where its
-    /// joint sticks.
+    /// One character for each contact: `+` or `-` for the sign of its normal force, `0` in its preload gap,
+    /// `=` where its joint sticks.
     pub fn pattern(&self, mechanism: &Mechanism) -> String {
         let sliders = sliding_joints(mechanism);
         let contacts = mechanism.contacts.iter().zip(&self.contacts);

@@ -34,7 +34,8 @@ impl Region {
         Self { dimension, slacks }
     }
 
-    /// The point at which the least slack is greatest, but no more than 1, and that slack; negative if the region is empty.
+    /// The point at which the least slack is greatest, but no more than 1, and that slack; negative if the
+    /// region is empty.
     ///
     /// # Errors
     /// If the linear program, which has a solution, was not solved.
@@ -73,10 +74,11 @@ impl Region {
         self
     }
 
-    /// Least and greatest value of a function in the region, which must not be empty; nothing where it is unbounded.
+    /// Least and greatest value of a function in the region, which must not be empty; nothing where it is
+    /// unbounded.
     ///
-    /// It is unbounded where the cone of recession reaches in the direction of the function, which is judged with
-    /// [`RECESSION`], so that a cone which rounding has closed counts as open.
+    /// It is unbounded where the cone of recession reaches in the direction of the function, which is judged
+    /// with [`RECESSION`], so that a cone which rounding has closed counts as open.
     ///
     /// # Errors
     /// If a linear program was not solved.
@@ -104,8 +106,9 @@ impl Region {
         Ok(Some(without_noise).filter(|least| least.abs() < UNBOUNDED))
     }
 
-    /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function falls:
-    /// the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d <= -1` is not positive.
+    /// Whether there is a direction in which every constraint stays satisfied and `sign` times the function
+    /// falls: the least `t` with `coefficients . d >= -t` for all slacks and `sign function . d <= -1` is not
+    /// positive.
     fn recedes(&self, function: &Affine, sign: f64) -> Result<bool, Unsolved> {
         let homogeneous = |slack: &Affine| Affine { coefficients: slack.coefficients.clone(), constant: 0.0 };
         let falls = Affine {
@@ -140,7 +143,8 @@ fn last(dimension: usize, value: f64) -> Vec<f64> {
     values
 }
 
-/// One unknown: the optimum is where a rising and a falling function meet, or a rising one reaches the greatest value.
+/// One unknown: the optimum is where a rising and a falling function meet, or a rising one reaches the
+/// greatest value.
 fn of_one(functions: &[Affine]) -> Option<f64> {
     let line = |f: &Affine| (f.coefficients[0], f.constant);
     let cap = std::iter::once((0.0, GREATEST));

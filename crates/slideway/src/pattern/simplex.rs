@@ -4,9 +4,9 @@
 //! minimise cost . x   subject to   slack_i(x) = a_i . x + c_i >= 0
 //! ```
 //!
-//! from a point at which every slack is at least zero. A vertex is where as many slacks are zero as there are unknowns;
-//! unknowns and the other slacks are kept as functions of these. So the table has as many columns as unknowns, however many
-//! slacks there are.
+//! from a point at which every slack is at least zero. A vertex is where as many slacks are zero as there are
+//! unknowns; unknowns and the other slacks are kept as functions of these. So the table has as many columns
+//! as unknowns, however many slacks there are.
 
 use super::Affine;
 use super::program::Unsolved;
@@ -36,7 +36,8 @@ enum Column {
 struct Table<'a> {
     slacks: &'a [Affine],
     columns: Vec<Column>,
-    /// What each slack is, and how it grows with each column; those that are columns are zero and grow with themselves.
+    /// What each slack is, and how it grows with each column; those that are columns are zero and grow with
+    /// themselves.
     rows: Vec<Affine>,
     /// The unknowns likewise.
     point: Vec<Affine>,
@@ -50,7 +51,8 @@ struct Table<'a> {
 /// If rounding kept it from an end, or the end misses a slack.
 pub(super) fn least(cost: &[f64], slacks: &[Affine], start: &[f64]) -> Result<Optimum, Unsolved> {
     let mut table = Table::new(cost, slacks, start);
-    // By the rule of the first index no vertex comes twice; there is no telling how many there are, and they are few.
+    // By the rule of the first index no vertex comes twice; there is no telling how many there are, and they
+    // are few.
     let most = 50 * (slacks.len() + cost.len());
     for _ in 0..most {
         let Some((column, direction)) = table.entering() else { return table.end().map(Optimum::At) };
@@ -76,7 +78,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The column along which the cost falls, and in which direction: unknowns first, then the first slack (Bland).
+    /// The column along which the cost falls, and in which direction: unknowns first, then the first slack
+    /// (Bland).
     fn entering(&self) -> Option<(usize, f64)> {
         let falls = |&at: &usize| match self.columns[at] {
             Column::Unknown => self.cost[at].abs() > FLAT,
@@ -160,8 +163,8 @@ mod tests {
         Affine { coefficients: coefficients.to_vec(), constant }
     }
 
-    /// Beale's example (1955), on which the rule of the greatest fall goes round for ever; its least cost is -1/20, at
-    /// x_1 = 1/25, x_3 = 1 (Chvatal, Linear Programming, 1983, chapter 3).
+    /// Beale's example (1955), on which the rule of the greatest fall goes round for ever; its least cost is
+    /// -1/20, at x_1 = 1/25, x_3 = 1 (Chvatal, Linear Programming, 1983, chapter 3).
     #[test]
     fn it_does_not_go_round() {
         let cost = [-0.75, 150.0, -0.02, 6.0];

@@ -27,15 +27,16 @@ pub struct Attainability {
     /// Why it is undecided or not computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// Finite nonzero eigenvalues lambda of the fast motion `x'' = -lambda x`: real and imaginary parts, ascending. Those
-    /// of `n` rigid motions (`n - d` with drives), which are zero, and of motions without mass are left out.
+    /// Finite nonzero eigenvalues lambda of the fast motion `x'' = -lambda x`: real and imaginary parts,
+    /// ascending. Those of `n` rigid motions (`n - d` with drives), which are zero, and of motions without
+    /// mass are left out.
     pub eigenvalues: Vec<[f64; 2]>,
     /// "1/s^2" if the model gives the stiffness of every contact; else "1/kg", for 1 N/m at every contact.
     pub eigenvalue_unit: &'static str,
     /// Number of motions without mass that elastic guides allow; their masses tend to zero from above.
     pub massless_motions: usize,
-    /// Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent if not
-    /// tried.
+    /// Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent
+    /// if not tried.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depends_on_stiffness: Option<bool>,
     /// Whether the verdict depends on the ratios of the vanishing masses.

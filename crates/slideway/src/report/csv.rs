@@ -5,8 +5,8 @@ use super::{Solution, SolveReport};
 impl SolveReport {
     /// The report as CSV with the columns `status`, `solution`, `kind`, `name`, `quantity`, `value`, `unit`.
     ///
-    /// `solution` counts from 1; the states of preload gaps are "gap 1", "gap 2", ... A report without solutions has
-    /// one row, whose `status` says why.
+    /// `solution` counts from 1; the states of preload gaps are "gap 1", "gap 2", ... A report without
+    /// solutions has one row, whose `status` says why.
     pub fn csv(&self) -> String {
         let mut rows = Rows { writer: csv::Writer::from_writer(Vec::new()), status: status_word(self) };
         rows.write(["status", "solution", "kind", "name", "quantity", "value", "unit"]);

@@ -24,7 +24,8 @@ pub enum ModeEndCause {
     GreatestReaction,
     /// Sliding reverses.
     Reversal,
-    /// Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the model is not allowed.
+    /// Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the model is not
+    /// allowed.
     NoModeProblem,
 }
 

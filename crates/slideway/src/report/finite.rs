@@ -20,8 +20,8 @@ pub fn finite<T: Serialize>(report: T) -> Result<T, Faults> {
     }
 }
 
-/// The number of a cell of a table; nothing where it is not defined, which is an empty cell (CSV), null (Parquet) or NaN (NumPy).
-/// An infinite number is none.
+/// The number of a cell of a table; nothing where it is not defined, which is an empty cell (CSV), null
+/// (Parquet) or NaN (NumPy). An infinite number is none.
 pub fn defined(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

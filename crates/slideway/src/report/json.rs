@@ -3,8 +3,8 @@
 use crate::printable;
 use serde::Serialize;
 
-/// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped. All JSON is written here: a
-/// number that is not finite, for which there would be `null`, is refused.
+/// Any report as indented JSON, ending in a line end. Characters that are not seen are escaped. All JSON is
+/// written here: a number that is not finite, for which there would be `null`, is refused.
 pub(crate) fn indented<T: Serialize>(report: &T) -> String {
     let report = super::finite(report).unwrap_or_else(|faults| panic!("{faults}"));
     let text = serde_json::to_string_pretty(report).expect("a report holds only plain data with text keys");

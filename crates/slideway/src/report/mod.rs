@@ -43,7 +43,8 @@ pub trait Report: Serialize {
     /// As indented JSON, ending in a line end; the version of its layout is in `schema`.
     ///
     /// # Panics
-    /// If a number of the report is not finite, which no function that makes reports lets through ([`finite`]).
+    /// If a number of the report is not finite, which no function that makes reports lets through
+    /// ([`finite`]).
     fn json(&self) -> String
     where
         Self: Sized,
@@ -83,8 +84,8 @@ pub struct SolveReport {
     pub state: Vec<CoordinateState>,
     /// Time of the state (s).
     pub time: f64,
-    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
-    /// if they are those of the drawing.
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    /// branch; absent if they are those of the drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
     /// The outcome of all sign patterns; absent if there are so many that not each was tried by itself.
@@ -98,20 +99,22 @@ pub struct SolveReport {
     pub continua: Vec<Continuum>,
     /// Modes on the boundary within rounding: whether they have a solution cannot be told.
     pub undecided_modes: Vec<UndecidedMode>,
-    /// Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern was tried.
+    /// Modes with a vanishing determinant that admit none: these modes are locked. Only where every pattern
+    /// was tried.
     pub locked_modes: Vec<LockedMode>,
     /// Solutions of the equations that a guided slider rejects, because it would tip.
     pub rejected: Vec<Rejection>,
-    /// Where there is no solution: the modes with the smallest determinants. Only where every pattern was tried.
+    /// Where there is no solution: the modes with the smallest determinants. Only where every pattern was
+    /// tried.
     pub closest_modes: Vec<ClosestMode>,
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
-    /// By which factors all friction may grow; absent if that was not computed: there are too many modes, or a guided
-    /// slider is between its faces, which is no mode that could be followed.
+    /// By which factors all friction may grow; absent if that was not computed: there are too many modes, or
+    /// a guided slider is between its faces, which is no mode that could be followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins: Option<Margins>,
-    /// What parameters known within bounds leave certain; absent if there are none. Everything else in the report
-    /// holds for the middle of their ranges.
+    /// What parameters known within bounds leave certain; absent if there are none. Everything else in the
+    /// report holds for the middle of their ranges.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<Uncertainty>,
     /// Accelerations and normal forces without friction, and the influence coefficients.
@@ -190,7 +193,8 @@ pub struct Solution {
     pub on_boundary: bool,
     /// What is proven of it.
     pub certificate: CertificateKind,
-    /// By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at once.
+    /// By which factor all friction may grow before the mode ends; absent if not computed, or if it ends at
+    /// once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<ModeMargin>,
     /// Determinant D of the mode's equations, eq. (6).
@@ -277,7 +281,8 @@ pub struct UndecidedMode {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Margins {
-    /// Up to this factor there is the same number of solutions (and of gap states); absent if it never changes.
+    /// Up to this factor there is the same number of solutions (and of gap states); absent if it never
+    /// changes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub another_count: Option<f64>,
     /// Just beyond this factor there is no solution, so that nothing moves; absent if there always is one.
@@ -286,8 +291,9 @@ pub struct Margins {
     /// From this greater factor on there are solutions again; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
-    /// Up to this factor every load has exactly one solution (below 1: some other load has none or several already);
-    /// absent if that is never lost, or was not computed because preloads jump with the side of contact.
+    /// Up to this factor every load has exactly one solution (below 1: some other load has none or several
+    /// already); absent if that is never lost, or was not computed because preloads jump with the side of
+    /// contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniqueness: Option<f64>,
     /// The contact whose friction alone changes the number of solutions first; absent if none does.
@@ -361,7 +367,8 @@ pub struct UncertainMode {
     pub joints: Vec<JointMode>,
     /// For which values it has a solution.
     pub persistence: Persistence,
-    /// Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are none.
+    /// Proven bounds of the normal force of each contact, where the mode exists (N); absent where there are
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normal_force_bounds: Option<Vec<[f64; 2]>>,
 }
@@ -465,8 +472,8 @@ pub struct Drive {
     pub effort: f64,
 }
 
-/// Infinitely many solutions of one mode: all convex combinations of the vertices plus all non-negative multiples
-/// of the directions.
+/// Infinitely many solutions of one mode: all convex combinations of the vertices plus all non-negative
+/// multiples of the directions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Continuum {

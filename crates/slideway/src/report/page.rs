@@ -7,8 +7,8 @@ use std::fmt::Write;
 
 /// A report, and what has been written of it.
 ///
-/// Colours come in here and nowhere else, and all other text becomes [`printable`] before: so whatever a model holds, the text
-/// has no escape sequences but those of its own style.
+/// Colours come in here and nowhere else, and all other text becomes [`printable`] before: so whatever a
+/// model holds, the text has no escape sequences but those of its own style.
 pub(crate) struct Page<'r, R> {
     pub(crate) report: &'r R,
     style: Style,

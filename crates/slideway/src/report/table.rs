@@ -3,8 +3,8 @@
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 
-/// Rows under a header, indented by two blanks; the first `words` columns are words (left), the others numbers
-/// (right).
+/// Rows under a header, indented by two blanks; the first `words` columns are words (left), the others
+/// numbers (right).
 pub(crate) fn table(header: &[&str], rows: &[Vec<String>], words: usize) -> String {
     let mut table = Table::new();
     table.load_style(NOTHING).set_header(header.iter().map(|title| (*title).to_owned()));

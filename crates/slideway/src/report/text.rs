@@ -496,7 +496,8 @@ pub fn followed(steps: usize) -> String {
     format!("followed from the drawing in {steps}, proven to stay on its assembly branch")
 }
 
-/// What it means that there is no solution: of a mechanism with guided sliders these have no state in which they are tipped.
+/// What it means that there is no solution: of a mechanism with guided sliders these have no state in which
+/// they are tipped.
 pub(crate) fn locked(has_guided_sliders: bool) -> &'static str {
     if has_guided_sliders { "friction locks it or a guided slider tips" } else { "friction locks it" }
 }

@@ -28,8 +28,8 @@ pub(super) enum Margin {
 }
 
 impl Margin {
-    /// Wanted over present margin: 1 where it is just met, below where it is exceeded. Continuous where margins become
-    /// infinite.
+    /// Wanted over present margin: 1 where it is just met, below where it is exceeded. Continuous where
+    /// margins become infinite.
     pub(super) fn demand(self, wanted: f64) -> f64 {
         match self {
             Self::Infinite => 0.0,
@@ -105,7 +105,8 @@ impl MarginQuestion<'_> {
     }
 }
 
-/// States with a guided slider between its faces are no modes that could be followed: where there is one there is no answer.
+/// States with a guided slider between its faces are no modes that could be followed: where there is one
+/// there is no answer.
 fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
     let margin = locking_margin(&varied.growing_friction(value)?, work)?;
     let is_between = |rougher: f64| !varied.states_between_faces((value, rougher), None, work).is_empty();
@@ -119,8 +120,8 @@ fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin
     Ok(margin)
 }
 
-/// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where there is none
-/// as it is, the factor to which it has to fall.
+/// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where
+/// there is none as it is, the factor to which it has to fall.
 fn locking_margin(line: &ModeProblemLine, work: Work<'_>) -> Result<Margin, Faults> {
     Ok(match covered(&existence(line, GROWING, work)?) {
         Some(end) if end.is_infinite() => Margin::Infinite,
@@ -145,7 +146,8 @@ fn existence(line: &ModeProblemLine, range: [f64; 2], work: Work<'_>) -> Result<
     }
 }
 
-/// Up to where some mode exists without interruption, from the friction of the model on; nothing if none exists there.
+/// Up to where some mode exists without interruption, from the friction of the model on; nothing if none
+/// exists there.
 fn covered(existence: &Existence) -> Option<f64> {
     let mut modes: Vec<[f64; 2]> = existence.modes.iter().map(|mode| [mode.from.at, mode.to.at]).collect();
     modes.sort_by(|one, other| one[0].total_cmp(&other[0]));

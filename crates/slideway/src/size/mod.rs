@@ -1,10 +1,11 @@
 //! Design: the value of a parameter at which a wanted margin against locking is just met.
 //!
-//! The margin against locking is the factor by which all kinetic coefficients of friction may grow before there is no
-//! solution (`margins.no_solution` of [`mod@crate::solve`]). Where there is none already, it is the factor to which they
-//! have to fall, below 1. At one value it is known in closed form ([`crate::modes::existence`]); over a parameter it is
-//! bracketed. The margin against self-locking is the factor by which all static coefficients may grow before a load is
-//! held however great it is; the margin of holding is its inverse, the factor by which they may be smaller.
+//! The margin against locking is the factor by which all kinetic coefficients of friction may grow before
+//! there is no solution (`margins.no_solution` of [`mod@crate::solve`]). Where there is none already, it is
+//! the factor to which they have to fall, below 1. At one value it is known in closed form
+//! ([`crate::modes::existence`]); over a parameter it is bracketed. The margin against self-locking is the
+//! factor by which all static coefficients may grow before a load is held however great it is; the margin of
+//! holding is its inverse, the factor by which they may be smaller.
 //!
 //! ```
 //! use slideway::model::Model;
@@ -69,8 +70,9 @@ pub enum Against {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SizeOptions {
-    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to twice its value, but
-    /// at least to 1, any other parameter that is not zero from a fifth of its value to five times it.
+    /// What is varied. Usual ranges: the factor of friction from 0 to 10, a coefficient of friction from 0 to
+    /// twice its value, but at least to 1, any other parameter that is not zero from a fifth of its value to
+    /// five times it.
     pub vary: Vary,
     /// The wanted margin, positive: a factor of friction.
     pub margin: f64,
@@ -103,12 +105,14 @@ impl SizeOptions {
 
 /// The values of a parameter at which a wanted margin is just met, and the intervals in which it is met.
 ///
-/// Evenly spaced values are tried, and what changes between them is bisected to neighbouring floating-point numbers; dips
-/// and humps between them are followed to their extremum. The report says what such a search can miss.
+/// Evenly spaced values are tried, and what changes between them is bisected to neighbouring floating-point
+/// numbers; dips and humps between them are followed to their extremum. The report says what such a search
+/// can miss.
 ///
 /// # Errors
-/// An unknown name, a range that is empty, reversed, or needed and absent; a load that is unknown or zero; too many contact modes or states at rest. Values at which the mechanism cannot be assembled or
-/// solved are no error but part of the report.
+/// An unknown name, a range that is empty, reversed, or needed and absent; a load that is unknown or zero;
+/// too many contact modes or states at rest. Values at which the mechanism cannot be assembled or solved are
+/// no error but part of the report.
 pub fn size(model: &Model, options: &SizeOptions) -> Result<SizeReport, Faults> {
     undisturbed(|work| size_of(model, options, work))
 }

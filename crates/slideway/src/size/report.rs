@@ -49,7 +49,8 @@ pub struct SizeReport {
     pub present: Sample,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
-    /// Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces, which is no locking.
+    /// Ranges in which the mechanism cannot be assembled or solved, or a guided slider is between its faces,
+    /// which is no locking.
     pub without_position: Vec<RangeWithoutPosition>,
     /// The margin at evenly spaced values, and where the wanted one is just met.
     pub samples: Vec<Sample>,
@@ -116,7 +117,8 @@ pub struct Sample {
     pub margin: Option<f64>,
 }
 
-/// A range without an answer: the mechanism cannot be assembled or solved, or a guided slider is between its faces.
+/// A range without an answer: the mechanism cannot be assembled or solved, or a guided slider is between its
+/// faces.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RangeWithoutPosition {

@@ -1,4 +1,5 @@
-//! The values at which a margin is just met: evenly spaced values, and bisection of what changes between them.
+//! The values at which a margin is just met: evenly spaced values, and bisection of what changes between
+//! them.
 
 use super::margin::{Margin, MarginQuestion};
 use crate::fault::Faults;
@@ -103,7 +104,8 @@ impl MarginSearch<'_> {
         places.sort_by(|one, other| one.at.total_cmp(&other.at));
     }
 
-    /// A value between three neighbours on the other side of the wanted margin, sought where the middle one comes nearest.
+    /// A value between three neighbours on the other side of the wanted margin, sought where the middle one
+    /// comes nearest.
     fn extremum(&self, three: &[Tried]) -> Option<Tried> {
         let is_met = self.is_met(&three[1]);
         let [before, middle, after] =

@@ -1,4 +1,5 @@
-//! From the solutions of the mode problem back to the mechanism: every force and acceleration of each solution.
+//! From the solutions of the mode problem back to the mechanism: every force and acceleration of each
+//! solution.
 
 use super::attainability::not_computed;
 use super::distinct::distinct;
@@ -111,7 +112,8 @@ impl<'a> Answer<'a> {
         })
     }
 
-    /// Files the states of the mechanism that a state of the mode problem stands for, unless a guided slider would tip.
+    /// Files the states of the mechanism that a state of the mode problem stands for, unless a guided slider
+    /// would tip.
     fn keep(&self, state: &State<'_>, states: &mut States, tipping: &mut Tipped) {
         for faces in self.faces(state) {
             let kept = self.kept(&faces.state(state), tipping);
@@ -135,7 +137,8 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Whether bounds of the exact numbers prove that a guided slider tips; where there are none it is not their fault.
+    /// Whether bounds of the exact numbers prove that a guided slider tips; where there are none it is not
+    /// their fault.
     fn certainly_tips(&self, state: &State<'_>) -> bool {
         let bounds = self.enclosed.zip(state.certificate.unknowns());
         bounds.is_none_or(|(enclosed, unknowns)| enclosed.tipping(state.pattern, unknowns) == Tipping::Always)

@@ -7,8 +7,9 @@ use crate::model::Model;
 use crate::progress::Callback;
 use crate::report::Solution;
 
-/// The states with `N = 0` and `C = 0` at a guided slider, whose preload then rubs on both faces, in a model and its
-/// stages with all coefficients of friction multiplied by a factor. Those with a normal force above `greatest` (N) do not count.
+/// The states with `N = 0` and `C = 0` at a guided slider, whose preload then rubs on both faces, in a model
+/// and its stages with all coefficients of friction multiplied by a factor. Those with a normal force above
+/// `greatest` (N) do not count.
 ///
 /// # Errors
 /// Whatever `solve` refuses.

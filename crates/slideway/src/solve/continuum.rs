@@ -15,8 +15,8 @@ const POINT: f64 = 1e-6;
 impl Answer<'_> {
     /// A singular mode with its continuum cut to where |C| <= |N| L / 2 holds for every guided slider.
     ///
-    /// In one mode the sign of N is fixed and everything is affine, so that both bounds on C cut a segment or ray
-    /// at one point each. Continua of more dimensions are left as they are; see [`Self::tipping_in`].
+    /// In one mode the sign of N is fixed and everything is affine, so that both bounds on C cut a segment or
+    /// ray at one point each. Continua of more dimensions are left as they are; see [`Self::tipping_in`].
     pub(super) fn without_tipping(&self, mode: &SingularMode) -> SingularMode {
         let (from, step, end) = match &mode.set {
             SolutionSet::Segment { from, to } => (from, to - from, 1.0),
@@ -45,8 +45,8 @@ impl Answer<'_> {
         clipped
     }
 
-    /// The values of t from 0 to `end` for which no couple at `from + t step` exceeds its limit; empty if the first
-    /// is greater than the last.
+    /// The values of t from 0 to `end` for which no couple at `from + t step` exceeds its limit; empty if the
+    /// first is greater than the last.
     fn slack_interval(
         &self,
         mode: &SingularMode,

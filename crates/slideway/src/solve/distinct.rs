@@ -5,8 +5,8 @@ use crate::report;
 /// Forces and accelerations that differ by less than this multiple of the greatest are the same.
 const SAME_STATE: f64 = 1e-11;
 
-/// Merges states of the same forces and accelerations, which differ only in how a preload is shared between faces
-/// where that has no effect; those that are among `known` already are left out.
+/// Merges states of the same forces and accelerations, which differ only in how a preload is shared between
+/// faces where that has no effect; those that are among `known` already are left out.
 pub(super) fn distinct(states: Vec<report::Solution>, known: &[report::Solution]) -> Vec<report::Solution> {
     let mut distinct: Vec<report::Solution> = Vec::new();
     for state in states {

@@ -1,7 +1,7 @@
 //! An independent check of a solution: force and moment balance of every body, from the forces themselves.
 //!
-//! Nothing of the kinetic equations' matrix is used: the forces are placed at their points, and their moments are
-//! taken about the origin of the world frame.
+//! Nothing of the kinetic equations' matrix is used: the forces are placed at their points, and their moments
+//! are taken about the origin of the world frame.
 
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};

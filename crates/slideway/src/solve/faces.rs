@@ -1,15 +1,16 @@
 //! Contacts without normal force whose preload rubs on a face that the mode problem does not tell.
 //!
-//! Where the friction of a preload changes no normal force, both sides of its contact are the same solution of the mode
-//! problem once `N = 0`. In the mechanism they are not, and between them lie the states of a preload gap. A guided slider
-//! in such a gap transmits no couple, `|C| <= |N| L/2 = 0`: that is the equation of its share,
+//! Where the friction of a preload changes no normal force, both sides of its contact are the same solution
+//! of the mode problem once `N = 0`. In the mechanism they are not, and between them lie the states of a
+//! preload gap. A guided slider in such a gap transmits no couple, `|C| <= |N| L/2 = 0`: that is the equation
+//! of its share,
 //!
 //! ```text
 //! C_j(lambda) = C_j(0) + sum_k (C_j(e_k) - C_j(0)) lambda_k = 0
 //! ```
 //!
-//! for all guided sliders `j`, `k` without normal force together. For other joints nothing tells the share, and the ends of
-//! its range are two states.
+//! for all guided sliders `j`, `k` without normal force together. For other joints nothing tells the share,
+//! and the ends of its range are two states.
 
 use super::answer::Answer;
 use super::mode_problem::has_free_face;
@@ -62,7 +63,8 @@ impl Answer<'_> {
         has_free_face(self.mechanism, &self.jumps, contact)
     }
 
-    /// The states of the mechanism that a solution of the mode problem stands for, by the faces at which preloads rub.
+    /// The states of the mechanism that a solution of the mode problem stands for, by the faces at which
+    /// preloads rub.
     pub(super) fn faces(&self, state: &State<'_>) -> Vec<Faces> {
         let is_free = |&k: &usize| {
             state.signs[k] == 0 && state.pattern[k] != ContactState::Gap && self.has_free_face(k)
@@ -103,7 +105,8 @@ impl Answer<'_> {
         (0..1_usize << others.len()).map(on_faces).collect()
     }
 
-    /// Whether the friction of the contact's preload changes the couple of its guided slider when it changes the face.
+    /// Whether the friction of the contact's preload changes the couple of its guided slider when it changes
+    /// the face.
     fn couple_tells_share(&self, contact: usize) -> bool {
         let Some(row) = self.couple_of(contact) else { return false };
         let of_unit = [0, 1].map(|side| self.influence.columns[contact][side][row]);
@@ -121,8 +124,8 @@ impl Answer<'_> {
         self.influence.layout().reaction(Reaction::Couple(joint))
     }
 
-    /// The shares with which these guided sliders, in their gaps, transmit no couple; beyond 0 to 1 where there are none.
-    /// Where nothing tells them they are 1.
+    /// The shares with which these guided sliders, in their gaps, transmit no couple; beyond 0 to 1 where
+    /// there are none. Where nothing tells them they are 1.
     fn shares_without_couple(
         &self,
         state: &State<'_>,

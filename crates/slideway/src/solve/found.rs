@@ -43,8 +43,8 @@ impl SearchFound<'_> {
         search.into_iter().chain(rounded).collect()
     }
 
-    /// The numbers of solutions and of gap states: those that are left of the lists if they are complete, else those
-    /// that were found.
+    /// The numbers of solutions and of gap states: those that are left of the lists if they are complete,
+    /// else those that were found.
     pub(super) fn counts(&self, lists: &StateLists, left: [usize; 2]) -> [String; 2] {
         if lists.all_listed {
             return left.map(|count| count.to_string());

@@ -6,8 +6,8 @@ use crate::model::PreloadLine;
 use crate::modes::ContactState;
 use nalgebra::DVector;
 
-/// The friction of every contact, split by the face where it acts; `shares` has the share of the positive face of each
-/// contact in its gap.
+/// The friction of every contact, split by the face where it acts; `shares` has the share of the positive
+/// face of each contact in its gap.
 pub(crate) fn friction(
     mechanism: &Mechanism,
     velocity_signs: &DVector<f64>,

@@ -28,7 +28,8 @@ pub(super) fn add(
 ) {
     let friction = Friction { mechanism, influence, velocity_signs };
     let Some(all) = friction.along(&|_| true) else { return };
-    // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no mode that could be followed.
+    // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no
+    // mode that could be followed.
     let is_free = |k: usize| has_free_face(mechanism, &all.line.has_jump, k);
     let hangs =
         |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
@@ -92,7 +93,8 @@ impl Friction<'_> {
 }
 
 impl Growth {
-    /// The factor up to which every load has exactly one solution; none if there is no such factor, or with jumps.
+    /// The factor up to which every load has exactly one solution; none if there is no such factor, or with
+    /// jumps.
     fn uniqueness(&self) -> Option<f64> {
         if self.line.has_jump.iter().any(|&jump| jump) {
             return None;

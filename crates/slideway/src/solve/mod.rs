@@ -104,8 +104,9 @@ impl SolveOptions {
 
 /// All solutions of the kinetic problem of a model in its state, with their contact modes.
 ///
-/// The list is proven complete for the exact mechanism that the model describes, unless [`SolveReport::complete`] says
-/// otherwise: the search holds for rigorous bounds of the influence coefficients ([`crate::enclosure`]).
+/// The list is proven complete for the exact mechanism that the model describes, unless
+/// [`SolveReport::complete`] says otherwise: the search holds for rigorous bounds of the influence
+/// coefficients ([`crate::enclosure`]).
 ///
 /// # Errors
 /// Whatever makes no sense in the model or its state. That there is no solution is no error, but
@@ -114,7 +115,8 @@ pub fn solve(model: &Model) -> Result<SolveReport, Faults> {
     solve_with(model, &SolveOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
-/// [`solve`] with options, and a callback that is called at every node of the search and ends it when it breaks.
+/// [`solve`] with options, and a callback that is called at every node of the search and ends it when it
+/// breaks.
 ///
 /// # Errors
 /// As [`solve`].
@@ -155,8 +157,8 @@ pub fn solve_with(
     finite(report)
 }
 
-/// The search for bounds of the exact numbers, else for rounded ones; and for each contact whether the right-hand side
-/// jumps with its side.
+/// The search for bounds of the exact numbers, else for rounded ones; and for each contact whether the
+/// right-hand side jumps with its side.
 ///
 /// # Errors
 /// Numbers beyond the range of floating point.

@@ -85,8 +85,9 @@ pub(crate) fn influence_coefficients(
     }
 }
 
-/// Both versions of eta, without the rounding that would stand where friction has no influence; equal where the theory says so, which rounding would hide: for guided sliders, whose
-/// couple takes up the moment of friction, and wherever the moment of friction has no influence.
+/// Both versions of eta, without the rounding that would stand where friction has no influence; equal where
+/// the theory says so, which rounding would hide: for guided sliders, whose couple takes up the moment of
+/// friction, and wherever the moment of friction has no influence.
 pub(crate) fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
     let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
     let positive = influence.eta(0).map(without_rounding);
@@ -134,8 +135,8 @@ pub(crate) fn check_size(mechanism: &Mechanism) -> Result<(), Faults> {
     Ok(())
 }
 
-/// Whether the preload of a contact rubs on a face that the mode problem does not tell: its friction jumps with the side of the
-/// contact, but no normal force with it, as `has_jump` says of each contact.
+/// Whether the preload of a contact rubs on a face that the mode problem does not tell: its friction jumps
+/// with the side of the contact, but no normal force with it, as `has_jump` says of each contact.
 pub(super) fn has_free_face(mechanism: &Mechanism, has_jump: &[bool], contact: usize) -> bool {
     mechanism.preload_jumps(ContactId(contact)) && !has_jump[contact]
 }

@@ -14,7 +14,8 @@ use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
 use nalgebra::{DMatrix, DVector};
 
-/// A load that changes by less than this share of it does not change: each of its numbers has rounding errors of its own.
+/// A load that changes by less than this share of it does not change: each of its numbers has rounding errors
+/// of its own.
 const SAME: f64 = 1e-13;
 
 /// Columns, jumps and right-hand side of eq. (6); below them those of the couples of guided sliders.
@@ -195,7 +196,8 @@ impl Parts {
         }
     }
 
-    /// The sum of others with these weights, of which there is at least one; none if they are not of one size.
+    /// The sum of others with these weights, of which there is at least one; none if they are not of one
+    /// size.
     pub(crate) fn mixture(weighted: &[(f64, &Self)]) -> Option<Self> {
         let ((weight, first), others) = weighted.split_first()?;
         let mut sum = (*first).clone();
@@ -246,8 +248,8 @@ impl Parts {
         )
     }
 
-    /// Whether a guided slider would tip in a state: |C| > |N| L / 2 (theory, section 1); `shares` are those of contacts in
-    /// their gaps.
+    /// Whether a guided slider would tip in a state: |C| > |N| L / 2 (theory, section 1); `shares` are those
+    /// of contacts in their gaps.
     pub(crate) fn tips(
         &self,
         pattern: &[ContactState],
@@ -275,8 +277,8 @@ impl Parts {
         })
     }
 
-    /// Whether elimination excludes that a normal force vanishes, or nearly, in a solution of some pattern: then no contact is between
-    /// its faces but in a pattern that says so.
+    /// Whether elimination excludes that a normal force vanishes, or nearly, in a solution of some pattern:
+    /// then no contact is between its faces but in a pattern that says so.
     pub(crate) fn is_off_boundaries(&self, accuracy: Accuracy) -> bool {
         let contacts = self.columns.positive.ncols();
         if contacts > MOST_CONTACTS {
@@ -297,8 +299,9 @@ impl Parts {
         Screen::new(contacts).states(&problem, accuracy.part).is_ok()
     }
 
-    /// The contacts of guided sliders with a free face ([`has_free_face`](super::mode_problem::has_free_face)) at which their preload
-    /// changes the couple: only with one of these may there be a state between its faces that no sign pattern tells.
+    /// The contacts of guided sliders with a free face
+    /// ([`has_free_face`](super::mode_problem::has_free_face)) at which their preload changes the couple:
+    /// only with one of these may there be a state between its faces that no sign pattern tells.
     pub(crate) fn with_free_faces(&self) -> Vec<usize> {
         let contacts = self.columns.positive.ncols();
         let BySide { positive, negative } = &self.jumps;
@@ -309,8 +312,9 @@ impl Parts {
         self.bounds.iter().filter(is_free).map(|bound| bound.contact).collect()
     }
 
-    /// How far a line from these numbers to others leads before they are changed by as much as they are: the share of the
-    /// way at which a column, or the loads and jumps together, has become as great as its change. None if nothing changes.
+    /// How far a line from these numbers to others leads before they are changed by as much as they are: the
+    /// share of the way at which a column, or the loads and jumps together, has become as great as its
+    /// change. None if nothing changes.
     pub(crate) fn scale_of_change(&self, end: &Self) -> Option<f64> {
         let share = |start: f64, change: f64| (change > 0.0).then(|| start / change);
         let columns = [

@@ -13,8 +13,8 @@ pub(crate) struct Trail {
 }
 
 impl Trail {
-    /// The configuration of a mechanism, and its answers to loads and to unit friction forces: from those of the last points
-    /// if these are near.
+    /// The configuration of a mechanism, and its answers to loads and to unit friction forces: from those of
+    /// the last points if these are near.
     ///
     /// # Errors
     /// Whatever `solve` refuses, but for contacts at rest.

@@ -1,8 +1,8 @@
 //! Which solutions exist for all values of parameters that are known within bounds only.
 //!
-//! The box of the parameters is searched as a whole, with bounds of the mode problem for all its values. Where that
-//! leaves a mode open the box is halved, and so on: a parameter counts as independent in each number that uses it, and
-//! smaller boxes lose less by that.
+//! The box of the parameters is searched as a whole, with bounds of the mode problem for all its values.
+//! Where that leaves a mode open the box is halved, and so on: a parameter counts as independent in each
+//! number that uses it, and smaller boxes lose less by that.
 
 use super::SolveOptions;
 use super::answer::Answer;
@@ -105,8 +105,8 @@ impl Answer<'_> {
         Ok(modes)
     }
 
-    /// A mode in which guided sliders tip, with those in their preload gap that may be without normal force (see
-    /// [`super::faces`]); none if some slider tips all the same.
+    /// A mode in which guided sliders tip, with those in their preload gap that may be without normal force
+    /// (see [`super::faces`]); none if some slider tips all the same.
     fn in_gap(
         &self,
         enclosed: &EnclosedModeProblem,
@@ -204,8 +204,8 @@ fn halves(part: &[Interval], whole: &[Interval]) -> Option<[Vec<Interval>; 2]> {
     Some([half(part[longest].lower(), middle)?, half(middle, part[longest].upper())?])
 }
 
-/// The numbers of solutions and of preload-gap states, where they are proven to be the same for all values within the
-/// bounds; states in which a normal force exceeds `greatest` do not count.
+/// The numbers of solutions and of preload-gap states, where they are proven to be the same for all values
+/// within the bounds; states in which a normal force exceeds `greatest` do not count.
 pub(crate) fn certain_counts(
     enclosed: &EnclosedModeProblem,
     result: &SearchResult,

@@ -12,8 +12,8 @@ use crate::model::Model;
 use crate::progress::Callback;
 use crate::report::{SolveReport, finite};
 
-/// The answer of [`super::solve`] for a model and its stages with all coefficients of friction multiplied by a factor, without
-/// margins and uncertainty.
+/// The answer of [`super::solve`] for a model and its stages with all coefficients of friction multiplied by
+/// a factor, without margins and uncertainty.
 ///
 /// # Errors
 /// Whatever `solve` refuses.

@@ -1,7 +1,7 @@
 //! Contact modes in words: which face of its guide a slider touches, and where.
 //!
-//! Faces are named by where they lie as one looks at the drawing: lower and upper for a guide that is nearer to
-//! the horizontal, left and right for one that is nearer to the vertical.
+//! Faces are named by where they lie as one looks at the drawing: lower and upper for a guide that is nearer
+//! to the horizontal, left and right for one that is nearer to the vertical.
 
 use crate::mechanism::Slider;
 use crate::model::SliderKind;

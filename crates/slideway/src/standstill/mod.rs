@@ -1,18 +1,19 @@
 //! Standstill: whether a mechanism stays at rest under its loads, and how it begins to move.
 //!
-//! At zero sliding velocity friction is not a number but takes what is needed within its limit. Each sliding joint,
-//! the two ends of a block together, sticks or begins to slip one way or the other:
+//! At zero sliding velocity friction is not a number but takes what is needed within its limit. Each sliding
+//! joint, the two ends of a block together, sticks or begins to slip one way or the other:
 //!
 //! ```text
 //! sticks   |F_k| <= mu_static_k |N_k| + F_k0        sliding acceleration = 0
 //! slips    F_k = (mu_k |N_k| + F_k0) s_k            s_k = sign of the sliding acceleration
 //! ```
 //!
-//! Together with the side of every contact, and `|C| <= |N| L/2` for guided sliders, each state is a system of linear
-//! equations and inequalities; all states are tried (theory, section 8). Friction at rest is statically
-//! indeterminate, so that "holds" means that some admissible state exists, and reactions are ranges. Each end of a
-//! range is the optimum of a linear program. Programs are solved with an accuracy of about 1e-12 of the greatest force;
-//! a state that misses its inequalities by less than 1e-9 of it counts as possible.
+//! Together with the side of every contact, and `|C| <= |N| L/2` for guided sliders, each state is a system
+//! of linear equations and inequalities; all states are tried (theory, section 8). Friction at rest is
+//! statically indeterminate, so that "holds" means that some admissible state exists, and reactions are
+//! ranges. Each end of a range is the optimum of a linear program. Programs are solved with an accuracy of
+//! about 1e-12 of the greatest force; a state that misses its inequalities by less than 1e-9 of it counts as
+//! possible.
 //!
 //! ```
 //! use slideway::model::{Model, Settings};
@@ -61,8 +62,8 @@ use rest::Over;
 use setup::Setup;
 use state::side_options;
 
-/// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations below
-/// this as none.
+/// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations
+/// below this as none.
 const TOLERANCE: f64 = 1e-9;
 /// More states of joints and contacts are refused.
 const MOST_STATES: u64 = 100_000;
@@ -75,8 +76,8 @@ const NO_INERTIA: f64 = 1e-12;
 pub struct HoldOptions {
     /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m.
     pub load: Option<String>,
-    /// The parameter of static friction that is varied for the threshold of self-locking; without it all static
-    /// coefficients are multiplied by a factor.
+    /// The parameter of static friction that is varied for the threshold of self-locking; without it all
+    /// static coefficients are multiplied by a factor.
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.
     pub hold_drives: bool,
@@ -108,8 +109,8 @@ impl HoldOptions {
 /// Whether a mechanism stays at rest in its position; the rates of the model are set to zero.
 ///
 /// # Errors
-/// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is zero, a
-/// parameter on which more than friction depends, and more states than are tried.
+/// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is
+/// zero, a parameter on which more than friction depends, and more states than are tried.
 pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> {
     undisturbed(|work| hold_of(model, options, work))
 }
@@ -167,8 +168,8 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
     })
 }
 
-/// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no factor
-/// suffices. Beside it the number of patterns that could not be decided.
+/// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no
+/// factor suffices. Beside it the number of patterns that could not be decided.
 ///
 /// # Errors
 /// As [`hold`].

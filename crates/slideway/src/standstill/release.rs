@@ -16,7 +16,8 @@ const SAME: f64 = 1e-7;
 
 /// All states in which something begins to move, with a factor of the varied load.
 ///
-/// Without `at_rest` the state in which all joints stick is tried, too: bodies may begin to move in hinges alone.
+/// Without `at_rest` the state in which all joints stick is tried, too: bodies may begin to move in hinges
+/// alone.
 pub(super) fn releases(setup: &Setup, factor: f64, at_rest: bool, work: Work<'_>) -> Over<Vec<Release>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
     let states = sliding_states(setup.sliders.len());

@@ -13,7 +13,8 @@ pub enum HoldVerdict {
     Holds,
     /// It stays at rest, but once pushed it goes on sliding, as kinetic friction is below static friction.
     HoldsUntilPushed,
-    /// Friction may hold it, and yet it may begin to slide even against static friction (Painleve's paradox at rest).
+    /// Friction may hold it, and yet it may begin to slide even against static friction (Painleve's paradox
+    /// at rest).
     HoldsOrSlips,
     /// It cannot stay at rest, and begins to move.
     Moves,
@@ -55,8 +56,8 @@ pub struct HoldReport {
     pub holds: bool,
     /// Values of the chosen coordinates.
     pub state: Vec<CoordinateValue>,
-    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly branch; absent
-    /// where they are those of the drawing.
+    /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
+    /// branch; absent where they are those of the drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
     /// Whether the model gives rates that were taken as zero.
@@ -69,7 +70,8 @@ pub struct HoldReport {
     pub load: Option<LoadReport>,
     /// The states of rest, if there is one.
     pub at_rest: Option<AtRest>,
-    /// Every state in which it begins to move; empty also where motions without inertia kept them from being sought.
+    /// Every state in which it begins to move; empty also where motions without inertia kept them from being
+    /// sought.
     pub releases: Vec<Release>,
     /// Motions of the joints without inertia; if there are any, `releases` was not sought.
     pub motions_without_inertia: Vec<String>,
@@ -115,7 +117,8 @@ pub struct LoadReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Threshold {
-    /// What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter.
+    /// What is varied: "static friction" for a factor on every static coefficient, or the name of a
+    /// parameter.
     pub varied: String,
     /// Its value in the model: 1 for the factor.
     pub present: f64,

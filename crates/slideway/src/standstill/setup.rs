@@ -1,5 +1,5 @@
-//! A mechanism at rest, as the analysis of standstill sees it: its equations at zero velocity, the load that is
-//! varied apart from all others, and units in which forces, lengths and accelerations are of order one.
+//! A mechanism at rest, as the analysis of standstill sees it: its equations at zero velocity, the load that
+//! is varied apart from all others, and units in which forces, lengths and accelerations are of order one.
 
 use super::HoldOptions;
 use crate::configuration::Configuration;
@@ -29,7 +29,8 @@ pub(super) struct SlidingJoint {
     pub(super) joint: JointId,
     /// Its contacts.
     pub(super) contacts: Vec<usize>,
-    /// Place of its couple among the unknowns, and half the length of the pressed face, if it is a guided slider.
+    /// Place of its couple among the unknowns, and half the length of the pressed face, if it is a guided
+    /// slider.
     pub(super) couple: Option<(usize, f64)>,
 }
 
@@ -107,7 +108,8 @@ impl Setup {
     }
 }
 
-/// The mechanism without velocities: the rates of the model count as zero, and drives that hold do not accelerate.
+/// The mechanism without velocities: the rates of the model count as zero, and drives that hold do not
+/// accelerate.
 fn at_rest(mut mechanism: Mechanism) -> Mechanism {
     for coordinate in &mut mechanism.coordinates {
         coordinate.rate = 0.0;

@@ -1,4 +1,5 @@
-//! One state of the sliding joints and contacts as linear equations and inequalities: those of statics, or of the first instant of a motion.
+//! One state of the sliding joints and contacts as linear equations and inequalities: those of statics, or of
+//! the first instant of a motion.
 
 use super::setup::{Setup, SlidingJoint};
 use crate::ids::{ContactId, DriveId};
@@ -238,8 +239,8 @@ impl State<'_> {
         positive.clone().plus(1.0, negative)
     }
 
-    /// Acceleration of sliding of the block of a joint against its guide: along u in the middle between the faces,
-    /// which is -(W^+ + W^-)/2 . a.
+    /// Acceleration of sliding of the block of a joint against its guide: along u in the middle between the
+    /// faces, which is -(W^+ + W^-)/2 . a.
     pub(super) fn sliding_acceleration(&self, slider: usize) -> Expression {
         let Some(&k) = self.setup.sliders[slider].contacts.first() else { return Expression::default() };
         let [positive, negative] = &self.setup.assembled.friction[k];

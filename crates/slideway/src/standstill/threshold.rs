@@ -1,15 +1,16 @@
 //! From which static friction on a load alone, however great, is held.
 //!
-//! The load can grow without bound where the cone of recession of the states of rest reaches in its direction:
+//! The load can grow without bound where the cone of recession of the states of rest reaches in its
+//! direction:
 //!
 //! ```text
 //! -G^T lambda - B u - sum_k W_k F_k = load     |F_k| <= mu_static_k |N_k|     |C_j| <= |N_j| L_j / 2
 //! ```
 //!
-//! without weights, other loads and preloads, which are negligible beside a load that is great enough. More static
-//! friction only widens this cone, so that there is one threshold, found by bisection of the linear programs'
-//! feasibility and polished by a secant: self-locking from there on, free below. The accuracy is about 1e-12, and 1e-11
-//! where a block wedges in its guide, as the reactions grow without bound there.
+//! without weights, other loads and preloads, which are negligible beside a load that is great enough. More
+//! static friction only widens this cone, so that there is one threshold, found by bisection of the linear
+//! programs' feasibility and polished by a secant: self-locking from there on, free below. The accuracy is
+//! about 1e-12, and 1e-11 where a block wedges in its guide, as the reactions grow without bound there.
 
 use super::HoldOptions;
 use super::report::{Coefficients, Threshold};
@@ -132,8 +133,8 @@ fn least_of(
     Ok(Some(polished(above, &mut margin)?))
 }
 
-/// The root near `value` from the secant through two points below it, where the margin is well above rounding. The
-/// bisection ends where the margin falls below [`ROUNDING`], not at its root.
+/// The root near `value` from the secant through two points below it, where the margin is well above
+/// rounding. The bisection ends where the margin falls below [`ROUNDING`], not at its root.
 fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Unsolved>) -> Result<f64, Unsolved> {
     let [first, second] = SECANT.map(|distance| value * (1.0 - distance));
     let (at_first, at_second) = (margin(first)?, margin(second)?);
@@ -141,8 +142,8 @@ fn polished(value: f64, margin: &mut impl FnMut(f64) -> Result<f64, Unsolved>) -
     Ok(if (root - value).abs() <= NEAR * value { root } else { value })
 }
 
-/// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is not negative,
-/// which their formulas tell, and nothing else but friction may depend on it.
+/// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is
+/// not negative, which their formulas tell, and nothing else but friction may depend on it.
 fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults> {
     let known = || model.parameters.iter().map(|parameter| &*parameter.name);
     let Some(parameter) = known().position(|other| other == name) else {

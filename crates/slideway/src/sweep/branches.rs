@@ -1,8 +1,8 @@
 //! Branches: which state of a point continues which state of its neighbour.
 //!
-//! A state continues another one if it has the same pattern and its determinant the same sign. Where contacts have changed side
-//! in between, it does if the oriented determinants `D prod sigma` have the same sign (theory, section 8) and the forces differ
-//! little. A normal force that is zero goes with either side.
+//! A state continues another one if it has the same pattern and its determinant the same sign. Where contacts
+//! have changed side in between, it does if the oriented determinants `D prod sigma` have the same sign
+//! (theory, section 8) and the forces differ little. A normal force that is zero goes with either side.
 
 use super::rows::{RowKind, Rows};
 use serde::{Deserialize, Serialize};
@@ -53,8 +53,9 @@ impl Branches {
         self.last
     }
 
-    /// Numbers the states of all rows of points that follow one another along a single axis. Only where something else than
-    /// the numbers changes from one point to the next is it looked at what continues what.
+    /// Numbers the states of all rows of points that follow one another along a single axis. Only where
+    /// something else than the numbers changes from one point to the next is it looked at what continues
+    /// what.
     pub(super) fn number_line(&mut self, rows: &mut Rows) {
         let mut before: Option<Range<usize>> = None;
         let mut first = 0;
@@ -82,8 +83,8 @@ impl Branches {
         }
     }
 
-    /// Numbers the states of a point: `rows` are its rows, `varied` numbers stand before the normal forces. `place` is that of
-    /// the point on each axis.
+    /// Numbers the states of a point: `rows` are its rows, `varied` numbers stand before the normal forces.
+    /// `place` is that of the point on each axis.
     pub(super) fn number(&mut self, rows: &mut Rows, range: Range<usize>, place: &[u64]) {
         // The neighbour on the last axis on which the point is not the first.
         let moved = place.iter().rposition(|&index| index > 0);
@@ -199,7 +200,8 @@ fn remember(list: &mut Vec<Tracked>, rows: &Rows, range: Range<usize>) {
     list.truncate(count);
 }
 
-/// Number of contacts with opposite sides, and distance of the forces; none if the one cannot continue the other.
+/// Number of contacts with opposite sides, and distance of the forces; none if the one cannot continue the
+/// other.
 fn cost(known: &Tracked, next: Next<'_>) -> Option<Cost> {
     if !is_state(next.kind) {
         return None;

@@ -40,7 +40,8 @@ pub(super) struct Columns {
     pub(super) all: bool,
 }
 
-/// Names of the columns that are no numbers of a state: a varied quantity of such a name bears the prefix `vary.`.
+/// Names of the columns that are no numbers of a state: a varied quantity of such a name bears the prefix
+/// `vary.`.
 const RESERVED: [&str; 9] =
     ["point", "breakpoint", "status", "solutions", "gap_states", "rejected", "kind", "branch", "pattern"];
 
@@ -94,7 +95,8 @@ impl Columns {
         }
     }
 
-    /// Whether the preload of a guided slider is another one on its other side: the slider may be between its faces.
+    /// Whether the preload of a guided slider is another one on its other side: the slider may be between its
+    /// faces.
     pub(super) fn may_be_between_faces(&self, mechanism: &Mechanism) -> bool {
         self.couples.iter().any(|(_, contact, _)| mechanism.preload_jumps(ContactId(*contact)))
     }

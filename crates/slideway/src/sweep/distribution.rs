@@ -1,7 +1,7 @@
 //! Distributions by their quantiles, and the points of the unit cube at which samples are drawn.
 
-/// Constants of the pseudo-random numbers: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number
-/// generators, OOPSLA 2014 (SplitMix64).
+/// Constants of the pseudo-random numbers: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom
+/// number generators, OOPSLA 2014 (SplitMix64).
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// How samples are spread.
@@ -10,8 +10,8 @@ pub enum Spread {
     /// Independent of one another.
     #[default]
     Random,
-    /// The sequence of J. H. Halton (Numerische Mathematik 2, 1960), shifted by a random vector: it fills the ranges more
-    /// evenly, so that mean values converge faster.
+    /// The sequence of J. H. Halton (Numerische Mathematik 2, 1960), shifted by a random vector: it fills the
+    /// ranges more evenly, so that mean values converge faster.
     Halton,
 }
 
@@ -140,8 +140,8 @@ pub(super) fn normal_probability(x: f64) -> f64 {
     0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
 }
 
-/// The inverse of [`normal_probability`], to about 16 digits: M. J. Wichura, Algorithm AS 241, Applied Statistics 37 (1988),
-/// routine PPND16.
+/// The inverse of [`normal_probability`], to about 16 digits: M. J. Wichura, Algorithm AS 241, Applied
+/// Statistics 37 (1988), routine PPND16.
 pub(super) fn normal_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -244,7 +244,8 @@ mod tests {
         }
     }
 
-    /// The first numbers of SplitMix64 for the state 0 (as published with the algorithm) are those of the mixer.
+    /// The first numbers of SplitMix64 for the state 0 (as published with the algorithm) are those of the
+    /// mixer.
     #[test]
     fn the_generator_is_the_published_one() {
         assert_eq!(mix(GOLDEN), 0xE220_A839_7B1D_CDAF);

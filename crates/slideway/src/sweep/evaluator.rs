@@ -212,7 +212,8 @@ impl<'p> Evaluator<'p> {
         flow
     }
 
-    /// Adds the rows of a point that was solved together with others; nothing, and `false`, if it was left in doubt.
+    /// Adds the rows of a point that was solved together with others; nothing, and `false`, if it was left in
+    /// doubt.
     fn write_found(
         &mut self,
         found: &PointsFound<'_>,
@@ -311,8 +312,8 @@ impl<'p> Evaluator<'p> {
     }
 }
 
-/// Adds the rows of the states of a point, with their attainability if that is asked for; nothing, and `false`, if a
-/// guided slider is about to tip, or a number overflows.
+/// Adds the rows of the states of a point, with their attainability if that is asked for; nothing, and
+/// `false`, if a guided slider is about to tip, or a number overflows.
 fn write(
     plan: &Plan,
     mechanism: &Mechanism,

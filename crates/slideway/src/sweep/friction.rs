@@ -1,4 +1,5 @@
-//! The coefficients of friction and preloads that follow from varied parameters, without the rest of the model.
+//! The coefficients of friction and preloads that follow from varied parameters, without the rest of the
+//! model.
 
 use super::quantity::Kind;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -46,8 +47,8 @@ struct ContactFormulas {
 }
 
 impl FrictionFormulas {
-    /// The formulas of friction that the varied parameters change; none if they change something else, too, or if friction
-    /// depends on sliding speeds.
+    /// The formulas of friction that the varied parameters change; none if they change something else, too,
+    /// or if friction depends on sliding speeds.
     ///
     /// # Errors
     /// Values of the model that are not allowed.
@@ -83,7 +84,8 @@ impl FrictionFormulas {
         Ok(Some(Self { given, following, contacts, parameters }))
     }
 
-    /// The contacts whose coefficient varies; none if some coefficient differs between the faces, or a preload varies.
+    /// The contacts whose coefficient varies; none if some coefficient differs between the faces, or a
+    /// preload varies.
     pub(super) fn contacts_with_one_coefficient(&self) -> Option<Vec<usize>> {
         let one = |formulas: &ContactFormulas| {
             let is_one = formulas.mu[0] == formulas.mu[1] && formulas.preload == [None; 2];

@@ -1,4 +1,5 @@
-//! Sweeps: all solutions at every point of a grid, or of random samples, of parameters, coordinates and rates.
+//! Sweeps: all solutions at every point of a grid, or of random samples, of parameters, coordinates and
+//! rates.
 //!
 //! ```
 //! use slideway::model::{Model, Settings};
@@ -14,29 +15,31 @@
 //! ```
 //!
 //! # Method
-//! Each point goes through the stages of [`mod@crate::solve`] without the proof. What the varied quantities leave as it is, is
-//! not computed anew: where only coefficients of friction and preloads change, the influence coefficients stay; a position is
-//! reached from those of the last points ([`crate::configuration::Follower`]). Up to 8 contacts all patterns are tried
-//! by elimination. Where that leaves a pattern in doubt, because it is close to a boundary between modes or to locking, and for
-//! more contacts, the point is left to [`mod@crate::solve`] itself (with a common factor of friction to its search, with bounds of
-//! rounding that are assumed, not proven). Contacts of one block that both have a preload at the pressed face have
-//! dependent gap states, so that each of their points is one of these.
+//! Each point goes through the stages of [`mod@crate::solve`] without the proof. What the varied quantities
+//! leave as it is, is not computed anew: where only coefficients of friction and preloads change, the
+//! influence coefficients stay; a position is reached from those of the last points
+//! ([`crate::configuration::Follower`]). Up to 8 contacts all patterns are tried by elimination. Where that
+//! leaves a pattern in doubt, because it is close to a boundary between modes or to locking, and for more
+//! contacts, the point is left to [`mod@crate::solve`] itself (with a common factor of friction to its
+//! search, with bounds of rounding that are assumed, not proven). Contacts of one block that both have a
+//! preload at the pressed face have dependent gap states, so that each of their points is one of these.
 //!
-//! Where the points differ in coefficients of friction alone, one for each contact, and no preload acts at a pressed face, their
-//! solutions are found together ([`crate::modes::batch`]); points near a boundary are left to elimination.
+//! Where the points differ in coefficients of friction alone, one for each contact, and no preload acts at a
+//! pressed face, their solutions are found together ([`crate::modes::batch`]); points near a boundary are
+//! left to elimination.
 //!
 //! # Order
-//! Points are numbered with the last quantity varying fastest. They are computed in chunks whose size hangs on the model and on
-//! what is varied alone, so that nothing depends on the number of threads.
+//! Points are numbered with the last quantity varying fastest. They are computed in chunks whose size hangs
+//! on the model and on what is varied alone, so that nothing depends on the number of threads.
 //!
 //! # Files
-//! `sweep` evaluates points one after another: `options.rs` is what is asked for, `axis.rs`, `quantity.rs` and `distribution.rs` what is
-//! varied, `friction.rs` the formulas that only change friction, `stages.rs` all else about a point,
-//! `evaluator.rs` solves it, `together.rs` many points that differ in friction alone (`modes::batch`),
-//! `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`, `branches.rs`
-//! numbers what continues what, `breakpoints.rs` asks `limits`, `line.rs` is what plots need to know of an
-//! axis. `modes::screen` is its enumeration, `configuration::Follower` and `kinetics::influences` are the
-//! stages for neighbouring states. Files are the command line's (`table/`).
+//! `sweep` evaluates points one after another: `options.rs` is what is asked for, `axis.rs`, `quantity.rs`
+//! and `distribution.rs` what is varied, `friction.rs` the formulas that only change friction, `stages.rs`
+//! all else about a point, `evaluator.rs` solves it, `together.rs` many points that differ in friction alone
+//! (`modes::batch`), `writer.rs` has the rows of what was found, `told.rs` those from a report of `solve`,
+//! `branches.rs` numbers what continues what, `breakpoints.rs` asks `limits`, `line.rs` is what plots need to
+//! know of an axis. `modes::screen` is its enumeration, `configuration::Follower` and `kinetics::influences`
+//! are the stages for neighbouring states. Files are the command line's (`table/`).
 
 mod axis;
 mod branches;
@@ -79,8 +82,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Points that are computed one after another: the unit of parallel work, and of what is lost where a sweep is ended. So
-/// that this is little, there are fewer where a point takes longer: points that are solved together, by elimination, by a search.
+/// Points that are computed one after another: the unit of parallel work, and of what is lost where a sweep
+/// is ended. So that this is little, there are fewer where a point takes longer: points that are solved
+/// together, by elimination, by a search.
 const CHUNKS: [u64; 3] = [1024, 128, 1];
 /// Chunks of which each thread may hold the rows at a time.
 const CHUNKS_PER_THREAD: usize = 4;
@@ -198,7 +202,8 @@ impl Sweep {
         self.without_breakpoints.as_deref()
     }
 
-    /// Distributions that were cut off at zero because friction is never negative: name, and the part that was left out.
+    /// Distributions that were cut off at zero because friction is never negative: name, and the part that
+    /// was left out.
     pub fn cut_off(&self) -> impl Iterator<Item = (&str, f64)> {
         self.axes.iter().filter_map(|axis| match axis.values {
             Values::Drawn(distribution) if distribution.left_out() > NEGLIGIBLE => {
@@ -220,9 +225,9 @@ impl Sweep {
         state.tally
     }
 
-    /// Computes the points that are not done yet, in parallel. `encode` makes of neighbouring rows what is wanted, in
-    /// parallel, too. `take` gets that in the order of the points, with the state behind it, and ends the sweep when it breaks;
-    /// from that state it can be continued.
+    /// Computes the points that are not done yet, in parallel. `encode` makes of neighbouring rows what is
+    /// wanted, in parallel, too. `take` gets that in the order of the points, with the state behind it, and
+    /// ends the sweep when it breaks; from that state it can be continued.
     pub fn run<E: Send>(
         &self,
         state: &mut SweepState,
@@ -232,8 +237,8 @@ impl Sweep {
         self.run_while(&|| true, state, encode, take);
     }
 
-    /// [`Sweep::run`] that also ends once `goes_on`, which is asked by any thread before points that take long and within them,
-    /// says so: with the chunks of points that are done by then.
+    /// [`Sweep::run`] that also ends once `goes_on`, which is asked by any thread before points that take
+    /// long and within them, says so: with the chunks of points that are done by then.
     pub fn run_while<E: Send>(
         &self,
         goes_on: &(dyn Fn() -> bool + Sync),
@@ -259,7 +264,8 @@ impl Sweep {
         }
     }
 
-    /// The rows of some chunks of points, from this one on; fewer, or none, where they were not all to be computed.
+    /// The rows of some chunks of points, from this one on; fewer, or none, where they were not all to be
+    /// computed.
     fn compute(&self, from: u64, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Rows> {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
         let size = self.plan.chunk();

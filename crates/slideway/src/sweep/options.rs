@@ -21,7 +21,8 @@ pub struct SweepOptions {
 }
 
 impl SweepOptions {
-    /// A grid over these axes, the last one varying fastest, with the exact ends of modes if there is one axis.
+    /// A grid over these axes, the last one varying fastest, with the exact ends of modes if there is one
+    /// axis.
     pub fn grid(axes: impl IntoIterator<Item = GridAxis>) -> Self {
         Self::over(SweepPoints::Grid(axes.into_iter().collect()))
     }
@@ -89,7 +90,8 @@ impl SweepPoints {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct GridAxis {
-    /// The name of a parameter or coordinate, `COORDINATE.rate`, `friction` for the common factor of all coefficients, or `time`.
+    /// The name of a parameter or coordinate, `COORDINATE.rate`, `friction` for the common factor of all
+    /// coefficients, or `time`.
     pub name: String,
     /// Its values.
     pub values: GridValues,
@@ -242,8 +244,8 @@ impl fmt::Display for SampledAxis {
     }
 }
 
-/// From "NAME=FROM..TO", "NAME=uniform(FROM, TO)", "NAME=normal(MEAN, DEVIATION)" or "NAME=lognormal(MEDIAN, DEVIATION OF THE
-/// LOGARITHM)".
+/// From "NAME=FROM..TO", "NAME=uniform(FROM, TO)", "NAME=normal(MEAN, DEVIATION)" or "NAME=lognormal(MEDIAN,
+/// DEVIATION OF THE LOGARITHM)".
 impl FromStr for SampledAxis {
     type Err = Faults;
 

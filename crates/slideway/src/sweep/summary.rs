@@ -86,9 +86,9 @@ impl Tally {
         self.statuses.iter().filter(|(status, _)| status.is_solved()).map(|(_, count)| count).sum()
     }
 
-    /// The probability that friction locks the mechanism, among the points that were solved, if these are independent
-    /// samples: the interval is that of E. B. Wilson (Journal of the American Statistical Association 22, 1927). None without
-    /// points.
+    /// The probability that friction locks the mechanism, among the points that were solved, if these are
+    /// independent samples: the interval is that of E. B. Wilson (Journal of the American Statistical
+    /// Association 22, 1927). None without points.
     pub fn probability_of_jamming(&self) -> Option<Probability> {
         let count = self.solved();
         (count > 0).then(|| wilson(self.with_status(PointStatus::None), count))

@@ -6,7 +6,8 @@ use crate::report::page::Page;
 use crate::report::{Style, locked};
 
 impl Sweep {
-    /// What the points that are done come to, as text for people. With samples also the probability that it jams.
+    /// What the points that are done come to, as text for people. With samples also the probability that it
+    /// jams.
     pub fn text(&self, state: &SweepState, style: Style) -> String {
         let mut text = Page::new(state, style);
         text.points(self);

@@ -9,8 +9,8 @@ use crate::modes::batch::{BatchSolutions, BatchState, FrictionBatch};
 use crate::modes::screen::{MOST_CONTACTS, SLACK, SmallState};
 use crate::solve::influence_coefficients;
 
-/// What solves points together: one mode problem for all of them, without jumps, whose coefficients of friction are the same
-/// at both faces of each contact.
+/// What solves points together: one mode problem for all of them, without jumps, whose coefficients of
+/// friction are the same at both faces of each contact.
 #[derive(Debug, Clone)]
 pub(super) struct Together {
     batch: FrictionBatch,

@@ -40,8 +40,8 @@ impl Counts {
 }
 
 impl Writer<'_> {
-    /// Adds the rows of a point, solutions before gap states; nothing, and `false`, if a guided slider is about to tip or a
-    /// number overflows: `solve` then says so.
+    /// Adds the rows of a point, solutions before gap states; nothing, and `false`, if a guided slider is
+    /// about to tip or a number overflows: `solve` then says so.
     pub(super) fn write(&self, states: &[SmallState], point: Point<'_>, rows: &mut Rows) -> bool {
         let first = rows.len();
         let contacts = self.plan.columns.contacts;
@@ -67,7 +67,8 @@ impl Writer<'_> {
         true
     }
 
-    /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told, or a number overflows.
+    /// Writes the row of a state unless a guided slider rejects it; none if that cannot be told, or a number
+    /// overflows.
     fn row(&self, state: &SmallState, point: Point<'_>, rows: &mut Rows, counts: &mut Counts) -> Option<()> {
         let columns = &self.plan.columns;
         let contacts = columns.contacts;
@@ -136,7 +137,8 @@ impl Writer<'_> {
         [share * pressure + preload[0], (1.0 - share) * pressure + preload[1]]
     }
 
-    /// Whether all guided sliders stay flat: |C| <= |N| L / 2 (theory, section 1); none if one is about to tip.
+    /// Whether all guided sliders stay flat: |C| <= |N| L / 2 (theory, section 1); none if one is about to
+    /// tip.
     fn keeps(&self, state: &SmallState, outputs: &[f64]) -> Option<bool> {
         let columns = &self.plan.columns;
         if columns.couples.is_empty() {

@@ -9,8 +9,8 @@ use slideway::motion::decision::{PhaseState, Standing, phase_state, successors};
 use slideway::motion::{ContactPhase, JointPhase, Phase};
 use slideway::report::Verdict;
 
-/// A gallery model with a force F(t) that goes through a whole range within a short time, and the moment at which it
-/// begins.
+/// A gallery model with a force F(t) that goes through a whole range within a short time, and the moment at
+/// which it begins.
 fn swept(name: &str, load: &str, parameters: &[(&str, &str)]) -> Model {
     let text = slideway::gallery::find(name).expect("in the gallery").text;
     let text = format!("{text}\n{load}\n");
@@ -102,8 +102,8 @@ fn by_brute_force(state: &State, step: f64) -> Vec<String> {
     found
 }
 
-/// Times from 0 to 1 s at which a normal force or a share of some admissible phase vanishes while everything else
-/// stands still, with that phase.
+/// Times from 0 to 1 s at which a normal force or a share of some admissible phase vanishes while everything
+/// else stands still, with that phase.
 fn crossings(model: &Model) -> Vec<(State, Phase)> {
     let mut found = Vec::new();
     let base = State::of(model);

@@ -16,8 +16,9 @@ fn the_apparatus_of_klein_stops() {
     let Jam::Stops(impulses) = jam(&state.mechanism, &state.configuration).unwrap() else {
         panic!("it stops")
     };
-    // Only the upper guide is rough: T sin(phi) = N and mu N - T cos(phi) = m_1 dv for the upper slider, T cos(phi) = m_2 dv
-    // for the lower one give N = m_2 v tan(phi) and a friction impulse (m_1 + m_2) v within mu N.
+    // Only the upper guide is rough: T sin(phi) = N and mu N - T cos(phi) = m_1 dv for the upper slider, T
+    // cos(phi) = m_2 dv for the lower one give N = m_2 v tan(phi) and a friction impulse (m_1 + m_2) v within
+    // mu N.
     let [impulse] = &impulses[..] else { panic!("one: {}", impulses.len()) };
     assert_close(impulse.normal_impulses[0].abs(), f64::to_radians(30.0).tan(), 0.0, 1e-10);
     assert_close(impulse.friction_impulses[0].total(), 2.0, 0.0, 1e-10);
@@ -34,7 +35,8 @@ fn below_the_threshold_friction_is_not_great_enough_for_an_impulse() {
     assert!(matches!(jam(&state.mechanism, &state.configuration).unwrap(), Jam::AtRest));
 }
 
-/// The apparatus of Klein whose upper slider carries a block of 0.5 kg that slides on it with little friction.
+/// The apparatus of Klein whose upper slider carries a block of 0.5 kg that slides on it with little
+/// friction.
 fn carrying(velocity: f64, mu_block: f64) -> State {
     let text = slideway::gallery::find("painleve-klein").unwrap().text;
     let text = text.replace(
@@ -65,8 +67,8 @@ rate = {velocity}
 
 #[test]
 fn with_two_degrees_of_freedom_what_is_not_jammed_slides_on() {
-    // The carried block has neither weight nor normal impulse: it keeps its own velocity, 1.5 m/s, while the apparatus
-    // stops, and slides with that.
+    // The carried block has neither weight nor normal impulse: it keeps its own velocity, 1.5 m/s, while the
+    // apparatus stops, and slides with that.
     let state = carrying(0.5, 0.1);
     assert!(state.successors(&[false; 3], None).list.is_empty());
     let impulse = the_impulse(&state);

@@ -31,8 +31,8 @@ fn moving_to_the_left_it_jams_above_the_locking_value() {
     }
 }
 
-/// The impulses stop a bar of 1 kg that moves with -1 m/s: forces along and across, moments about the bar's middle
-/// and about the middle of the massless lower block.
+/// The impulses stop a bar of 1 kg that moves with -1 m/s: forces along and across, moments about the bar's
+/// middle and about the middle of the massless lower block.
 fn balanced(impulse: &slideway::motion::decision::Impulse) {
     let [one, two, three] = impulse.normal_impulses[..] else { panic!("three contacts") };
     let frictions: Vec<f64> = impulse.friction_impulses.iter().map(|friction| friction.total()).collect();
@@ -69,9 +69,10 @@ fn after_the_jam_it_rests() {
 
 #[test]
 fn it_cannot_start_its_return_stroke_above_the_locking_value() {
-    // A force P at the mass centre has no influence on the reactions, so that a great enough one overcomes the friction of
-    // the weight: at mu_1 = 0.45 that is about 0.5/(1 - 0.45/mu_1*) times mu_1 m g, 38 m g. At mu_1 > mu_1* none does:
-    // self-locking. (It may also hold below, with friction that acts against each other at rest.)
+    // A force P at the mass centre has no influence on the reactions, so that a great enough one overcomes
+    // the friction of the weight: at mu_1 = 0.45 that is about 0.5/(1 - 0.45/mu_1*) times mu_1 m g, 38 m g.
+    // At mu_1 > mu_1* none does: self-locking. (It may also hold below, with friction that acts against each
+    // other at rest.)
     for (mu, starts) in [("0.45", true), ("0.46", false)] {
         for pull in ["-100*m*g", "-1000*m*g"] {
             let state = example(&[("F_20", "0"), ("direction", "0"), ("mu_1", mu), ("P", pull)]);
@@ -115,8 +116,9 @@ fn a_preload_gap_is_followed() {
 
 #[test]
 fn both_lower_contacts_change_at_the_double_boundary() {
-    // At mu_1 = cot(alpha) = 0.17632698 N_2 and N_3 vanish together (theory, section 9): below it the block lies on the
-    // lower side of its guide, above it on the upper one (reference/klepp-2002.toml, N_3 upwards).
+    // At mu_1 = cot(alpha) = 0.17632698 N_2 and N_3 vanish together (theory, section 9): below it the block
+    // lies on the lower side of its guide, above it on the upper one (reference/klepp-2002.toml, N_3
+    // upwards).
     for (mu, expected) in [("0.1763269", "+++"), ("0.1763271", "+--")] {
         let state = example(&[("F_20", "0"), ("direction", "-1"), ("mu_1", mu)]);
         let found = state.successors(&[false, false], None);
@@ -127,7 +129,8 @@ fn both_lower_contacts_change_at_the_double_boundary() {
     let state = example(&[("F_20", "0"), ("direction", "-1"), ("mu_1", &at)]);
     let before = phase(&[Sliding(-1.0), Sliding(-1.0)], &[PLUS; 3]);
     let found = state.successors(&[false, false], Some(&before));
-    // Nothing changes with time: all that differ by these two contacts are the same state, the present one first.
+    // Nothing changes with time: all that differ by these two contacts are the same state, the present one
+    // first.
     assert!(found.list[0].is_present);
     for one in &found.list {
         assert_close(one.state.normal_forces[0], 9.81, 0.0, 1e-9);

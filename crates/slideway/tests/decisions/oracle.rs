@@ -1,5 +1,5 @@
-//! Every phase that is told satisfies the laws of mechanics and of friction, computed from forces at their points; and
-//! where friction is small there is exactly one.
+//! Every phase that is told satisfies the laws of mechanics and of friction, computed from forces at their
+//! points; and where friction is small there is exactly one.
 
 use crate::agreement::Random;
 use crate::set_up::State;

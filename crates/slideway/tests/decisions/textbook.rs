@@ -158,7 +158,8 @@ fn a_block_rides_on_a_belt_until_the_spring_pulls_it_off() {
     for x in [0.0, 0.03, 0.07, -0.05] {
         let state = belt(x, 0.4, 0.4, 0.3, 0.5);
         let found = sticking(&state.mechanism, &state.configuration, &stuck).unwrap().unwrap();
-        // Both contacts share the friction so that both have the same slack, unless the spring turns the block more.
+        // Both contacts share the friction so that both have the same slack, unless the spring turns the
+        // block more.
         let force = (200.0 * x).abs();
         let greatest = 30.0;
         assert_close(found.margin * greatest, (0.5 * 30.0 - force) / 2.0, 1.0, 1e-9);
@@ -248,7 +249,8 @@ rate = {block}
 fn two_blocks_stick_and_slide_apart_and_together() {
     // Limits of friction: 20 between both, 50 on the ground, times mu.
     let cases = [
-        // P, mu on the ground, mu between, what follows, accelerations of the slab and of the block against it
+        // P, mu on the ground, mu between, what follows, accelerations of the slab and of the block against
+        // it
         (5.0, 0.2, 0.4, "oo", [0.0, 0.0]),
         (9.0, 0.2, 0.4, "o+", [0.0, (9.0 - 8.0) / 2.0]),
         (-9.0, 0.2, 0.4, "o-", [0.0, -(9.0 - 8.0) / 2.0]),
@@ -268,7 +270,8 @@ fn two_blocks_stick_and_slide_apart_and_together() {
 
 #[test]
 fn one_of_two_blocks_stops_while_the_other_slides_on() {
-    // Both slide with 1 m/s; friction on the ground takes 3 from the slab's velocity, if the block rides on it.
+    // Both slide with 1 m/s; friction on the ground takes 3 from the slab's velocity, if the block rides on
+    // it.
     let both = phase(&[Sliding(1.0), Sliding(1.0)], &[PLUS; 4]);
     let found = stacked(0.0, 0.3, 0.4, [1.0, 0.0]).successors(&[false, true], Some(&both));
     // The block would need 2 kg 3 m/s^2 = 6 N <= 8 N: it sticks to the slab.

@@ -105,7 +105,8 @@ fn extreme(random: &mut Random) -> f64 {
     random.integer(5) * half.exp2() * (exponent - half).exp2()
 }
 
-/// Jumps that differ by a few units in the last place, and loads near them, so that some unknowns are in between.
+/// Jumps that differ by a few units in the last place, and loads near them, so that some unknowns are in
+/// between.
 fn nearly_equal_jumps(random: &mut Random) -> RawProblem {
     let n = usize::try_from(1 + random.below(3)).unwrap_or(1);
     let eighths: fn(&mut Random) -> f64 = |random| random.integer(16) / 8.0;
@@ -124,7 +125,8 @@ fn nearly_equal_jumps(random: &mut Random) -> RawProblem {
     RawProblem::Modes(ModeProblem::new(columns, negative, up, down, load).expect("finite numbers"))
 }
 
-/// Absolute value equations whose `A + B` and `B - A` are no floating-point numbers, often with whole solutions.
+/// Absolute value equations whose `A + B` and `B - A` are no floating-point numbers, often with whole
+/// solutions.
 fn sums_that_round(random: &mut Random) -> RawProblem {
     let n = size(random, 1);
     let large = 2.0_f64.powi(i32::try_from(40 + random.below(80)).unwrap_or(60));
@@ -144,7 +146,8 @@ fn sums_that_round(random: &mut Random) -> RawProblem {
     RawProblem::AbsoluteValue { a, b, right_hand_side: load }
 }
 
-/// Complementarity problems of 7 unknowns, each acting on later ones only, so that they are solved one after the other.
+/// Complementarity problems of 7 unknowns, each acting on later ones only, so that they are solved one after
+/// the other.
 fn triangular(random: &mut Random) -> RawProblem {
     let n = 7;
     let m = DMatrix::from_fn(n, n, |row, k| match row.cmp(&k) {

@@ -63,8 +63,8 @@ impl Equations {
     }
 }
 
-/// A state: the signed values, and of each unknown that is zero the share of its positive jump (0 if it has none).
-/// The same state of several patterns is the same here.
+/// A state: the signed values, and of each unknown that is zero the share of its positive jump (0 if it has
+/// none). The same state of several patterns is the same here.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct State {
     pub(crate) signed: Vec<RBig>,
@@ -89,8 +89,8 @@ pub(crate) struct Truth {
     pub(crate) continuum: bool,
 }
 
-/// All states; none if some singular pattern is more than this oracle describes: equations that leave more than one
-/// unknown free, or a share.
+/// All states; none if some singular pattern is more than this oracle describes: equations that leave more
+/// than one unknown free, or a share.
 pub(crate) fn truth(raw: &RawProblem) -> Option<Truth> {
     let equations = Equations::of(raw);
     let n = equations.load.len();
@@ -200,7 +200,8 @@ fn examine(equations: &Equations, has_jump: &[bool], pattern: &[usize], truth: &
     }
 }
 
-/// Gauss-Jordan elimination: the unknowns without a pivot. Row `k` has the pivot 1 of the `k`-th other unknown.
+/// Gauss-Jordan elimination: the unknowns without a pivot. Row `k` has the pivot 1 of the `k`-th other
+/// unknown.
 fn reduce(rows: &mut [Vec<RBig>], n: usize) -> Vec<usize> {
     let mut free = Vec::new();
     let mut done = 0;

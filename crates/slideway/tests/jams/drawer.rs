@@ -1,7 +1,8 @@
 //! Jams in mid-motion, and stops just before a place where friction locks.
 //!
-//! The drawer of the gallery in closed form. With c = 2 mu e, the spring's push P = k (x_s - x), the friction F = 2 mu |N| and
-//! N = N_rear = -N_front, moments about the mass centre give N (L - x) = e (P - F). While it opens
+//! The drawer of the gallery in closed form. With c = 2 mu e, the spring's push P = k (x_s - x), the friction
+//! F = 2 mu |N| and N = N_rear = -N_front, moments about the mass centre give N (L - x) = e (P - F). While it
+//! opens
 //!
 //! ```text
 //! P > 0   N > 0    N (L - x + c) = e P     m x'' = W + P (L - x)/(L - x + c)
@@ -76,9 +77,9 @@ fn energy_lost(event: &Event) -> Option<f64> {
     })
 }
 
-/// The spring is slack at 0.3 m, beyond L - c = 0.256 m. There the normal forces are zero; pressed the other way they would be
-/// negative. The impulse has m v = Phi and Lambda (L - x) = e Phi; where it has stopped, the weight holds it by wedging, as
-/// W e/(L - x) 2 mu > W.
+/// The spring is slack at 0.3 m, beyond L - c = 0.256 m. There the normal forces are zero; pressed the other
+/// way they would be negative. The impulse has m v = Phi and Lambda (L - x) = e Phi; where it has stopped,
+/// the weight holds it by wedging, as W e/(L - x) 2 mu > W.
 #[test]
 fn the_drawer_jams_where_its_spring_is_slack() {
     let history = opened("0.3 m");
@@ -114,7 +115,8 @@ fn the_impulse_on_the_drawer_is_that_of_its_derivation() {
     }
 }
 
-/// `limits`, which knows nothing of time: the mode that locks begins at L - c, and both end where the spring is slack.
+/// `limits`, which knows nothing of time: the mode that locks begins at L - c, and both end where the spring
+/// is slack.
 #[test]
 fn limits_tell_where_the_drawer_locks_and_jams() {
     let report =
@@ -138,7 +140,8 @@ fn limits_tell_where_the_drawer_locks_and_jams() {
     close(&[[braked.from.unwrap(), braked.to.unwrap()]], [0.2, LOCKS]);
 }
 
-/// Slack at 0.2 m: from there on reactions grow with 1/(L - c - x), and stop it where they have taken its energy, before L - c.
+/// Slack at 0.2 m: from there on reactions grow with 1/(L - c - x), and stop it where they have taken its
+/// energy, before L - c.
 #[test]
 fn the_drawer_stops_regularly_before_it_locks() {
     let history = opened("0.2 m");
@@ -164,8 +167,9 @@ fn the_drawer_stops_regularly_before_it_locks() {
     }
 }
 
-/// Slack 1 mm before L - c: to take its energy the reactions would need to come within e^-265 of that millimetre. It counts as
-/// locked at a billionth; until there friction and spring have taken what the integral says, the impulse takes the rest.
+/// Slack 1 mm before L - c: to take its energy the reactions would need to come within e^-265 of that
+/// millimetre. It counts as locked at a billionth; until there friction and spring have taken what the
+/// integral says, the impulse takes the rest.
 #[test]
 fn the_drawer_reaches_the_place_where_it_locks() {
     let history = opened("0.255 m");
@@ -181,7 +185,8 @@ fn the_drawer_reaches_the_place_where_it_locks() {
     assert!(history.energy_error < 1e-4 * lost, "{:e}", history.energy_error);
 }
 
-/// The drawer in a carcass of 10 kg that rolls at 3 m/s on castors with a resistance of 2 N, on a level floor.
+/// The drawer in a carcass of 10 kg that rolls at 3 m/s on castors with a resistance of 2 N, on a level
+/// floor.
 const ROLLING: &str = r#"
 [parameters]
 e = "0.12 m"
@@ -232,9 +237,9 @@ slide = "guide"
 rate = "0.2 m/s"
 "#;
 
-/// Two degrees of freedom. With the reduced mass m = m_d m_c/(m_d + m_c) the drawer opens by
-/// m x'' = P (L - x)/(L - x + c) + m R/m_c. At the jam the relative velocity v is lost, m v^2/2, and both roll on together, with the momentum
-/// that the resistance R has left, until R stops them.
+/// Two degrees of freedom. With the reduced mass m = m_d m_c/(m_d + m_c) the drawer opens by m x'' = P (L -
+/// x)/(L - x + c) + m R/m_c. At the jam the relative velocity v is lost, m v^2/2, and both roll on together,
+/// with the momentum that the resistance R has left, until R stops them.
 #[test]
 fn a_jam_in_a_rolling_carcass_stops_the_drawer_alone() {
     let history = simulate(&Model::parse(ROLLING).unwrap(), &SimulateOptions::new(30.0)).unwrap();

@@ -1,15 +1,16 @@
 //! The example of Klepp (2002) between its guides at rest: when it wedges itself, and when it is set going.
 //!
-//! Pulled to the left by Q at its middle and pressed up by its upper slot with n, the bar presses its slider against the upper face
-//! of the lower slot with n - m g. The frictions F at the top and H at the foot act to the right: F + H = Q, and moments about the
-//! middle give F - H = (2 n - m g) cot(alpha). Both stay within their limits, F <= mu_1 n and -H <= mu_2 (n - m g), if
+//! Pulled to the left by Q at its middle and pressed up by its upper slot with n, the bar presses its slider
+//! against the upper face of the lower slot with n - m g. The frictions F at the top and H at the foot act to
+//! the right: F + H = Q, and moments about the middle give F - H = (2 n - m g) cot(alpha). Both stay within
+//! their limits, F <= mu_1 n and -H <= mu_2 (n - m g), if
 //!
 //! ```text
 //! 2 (cot(alpha) - mu_2) n - m g (cot(alpha) - 2 mu_2)  <=  Q  <=  2 (mu_1 - cot(alpha)) n + m g cot(alpha)
 //! ```
 //!
-//! For mu_1 >= 2 cot(alpha) - mu_2 there is such an n for every Q that is great enough; below it the greatest Q belongs to the n at
-//! which both bounds are equal.
+//! For mu_1 >= 2 cot(alpha) - mu_2 there is such an n for every Q that is great enough; below it the greatest
+//! Q belongs to the n at which both bounds are equal.
 
 use crate::model;
 use slideway::motion::{Cause, History, JointPhase, SimulateOptions, simulate};

@@ -55,8 +55,8 @@ fn klepp_with_preload_has_two_attainable_solutions() {
     assert!(fates.contains(&Fate::Jamming) && fates.iter().any(|fate| matches!(fate, Fate::Solution(1 | 2))));
 }
 
-/// Without approximations of small motions or separated masses: bodies on springs, small steps. One per cent to either
-/// side of the threshold its fate is the one that is reported.
+/// Without approximations of small motions or separated masses: bodies on springs, small steps. One per cent
+/// to either side of the threshold its fate is the one that is reported.
 #[rstest]
 #[case("0.6", "0", 0.0)]
 #[case("0.5", "0", 0.0)]

@@ -1,5 +1,5 @@
-//! A guided slider along a slope, without transverse load but for rounding: its states between the faces in sweeps, maps,
-//! tables of drives, sizes and limits.
+//! A guided slider along a slope, without transverse load but for rounding: its states between the faces in
+//! sweeps, maps, tables of drives, sizes and limits.
 
 use crate::answers::{assert_close, parameters};
 use slideway::drive::{DriveOptions, drive};
@@ -11,7 +11,8 @@ use slideway::solve::solve;
 use slideway::sweep::{PointStatus, Rows, Sweep, SweepOptions};
 use std::ops::ControlFlow;
 
-/// N = Q - T, and C = M + F h/2 (2 lambda - 1) where that is zero; the drive pushes with -P + F = -4 N as in the model.
+/// N = Q - T, and C = M + F h/2 (2 lambda - 1) where that is zero; the drive pushes with -P + F = -4 N as in
+/// the model.
 const SLOPE: &str = r#"
     [parameters]
     P = "10 N"
@@ -122,7 +123,8 @@ fn tables_of_drives_have_them() {
     }
 }
 
-/// How far friction may grow before a state between faces ends is not followed: no answer is better than "it is locked".
+/// How far friction may grow before a state between faces ends is not followed: no answer is better than "it
+/// is locked".
 #[test]
 fn sizes_have_no_answer_there() {
     for vary in ["M=-1..1", "friction=0.5..2"] {
@@ -147,7 +149,8 @@ fn limits_of(model: &Model, vary: &str) -> LimitsReport {
     limits(model, &options).unwrap_or_else(|faults| panic!("{vary}: {faults}"))
 }
 
-/// The transverse load passes through zero at T = Q: a single value with a state, in either direction, if |M| < 0.6 N m.
+/// The transverse load passes through zero at T = Q: a single value with a state, in either direction, if |M|
+/// < 0.6 N m.
 #[test]
 fn limits_tell_single_values() {
     let slope = slope();
@@ -180,8 +183,8 @@ fn limits_tell_single_values() {
     assert!(bracketed.guarantee.contains("are omitted"), "{}", bracketed.guarantee);
 }
 
-/// N = 0 along the slope, whatever the moment: the state exists for |M| < F h/2 = 0.6 N m, far less than the distance of the values
-/// that are tried.
+/// N = 0 along the slope, whatever the moment: the state exists for |M| < F h/2 = 0.6 N m, far less than the
+/// distance of the values that are tried.
 #[test]
 fn limits_find_a_narrow_interval_of_these_states() {
     let report = limits_of(&slope(), "M=-50..50");
@@ -194,8 +197,8 @@ fn limits_find_a_narrow_interval_of_these_states() {
     assert_eq!(states, [0, 1, 0]);
 }
 
-/// At |M| = 0.6 N m the preload rubs on one face, and still nothing presses: with more friction the same state goes on, whatever happens to the
-/// modes beside it, so that no margin is told.
+/// At |M| = 0.6 N m the preload rubs on one face, and still nothing presses: with more friction the same
+/// state goes on, whatever happens to the modes beside it, so that no margin is told.
 #[test]
 fn nothing_is_said_of_margins_where_nothing_presses() {
     for moment in ["-0.6 N m", "0 N m", "0.6 N m"] {

@@ -255,7 +255,8 @@ fn four_bar_keeps_the_branch_of_its_drawing(#[values(1.0, -1.0)] side: f64) {
 
 #[test]
 fn a_drawing_that_closes_only_roughly_is_closed_by_newton() {
-    // B is drawn a few millimetres off: rod and rocker keep their drawn lengths and hinge at drawn points of each.
+    // B is drawn a few millimetres off: rod and rocker keep their drawn lengths and hinge at drawn points of
+    // each.
     let text = four_bar(1.0);
     let exact = rocker_pin(50.0_f64.to_radians(), 1.0);
     let apart = format!("B2 = [{}, {}]\n        [bodies.crank]", exact[0] + 0.004, exact[1] - 0.003);

@@ -468,8 +468,9 @@ impl Drawing {
         reversed
     }
 
-    /// Block and guide of every block slider exchanged: what was inside is now around, a contact that travelled
-    /// with the block now travels with the guide. Normal force, sliding velocity and friction turn their signs.
+    /// Block and guide of every block slider exchanged: what was inside is now around, a contact that
+    /// travelled with the block now travels with the guide. Normal force, sliding velocity and friction turn
+    /// their signs.
     pub(crate) fn with_roles_exchanged(&self) -> Self {
         let mut exchanged = self.clone();
         for (index, joint) in exchanged.joints.iter_mut().enumerate() {

@@ -97,7 +97,8 @@ fn the_gallery_is_enclosed_to_many_digits() {
         let model = Model::parse(entry.text).unwrap();
         let (found, rounded) = (enclosed(&model), influence(&model).unwrap());
         assert!(influence_outside(&found, &rounded) <= 1e-13, "{}", entry.name);
-        // The tubes of the boom overlap by little beside their length, so that reactions are large differences.
+        // The tubes of the boom overlap by little beside their length, so that reactions are large
+        // differences.
         let narrow = if entry.name == "telescopic-boom" { 1e-10 } else { WIDTH };
         let influence = &found.influence;
         for bounds in [&influence.eta.positive, &influence.eta.negative, &influence.frictionless] {
@@ -221,7 +222,8 @@ fn what_cannot_be_enclosed_is_told() {
     assert_eq!(error, NotEnclosed::Positions);
 }
 
-/// Every parameter of every model varies a little; the rounded influence of the changed model lies within the bounds.
+/// Every parameter of every model varies a little; the rounded influence of the changed model lies within the
+/// bounds.
 #[test]
 fn changed_models_of_the_gallery_lie_within_the_bounds() {
     for entry in MODELS.iter().filter(|entry| entry.name != "bracket-on-pole") {

@@ -1,5 +1,6 @@
-//! Random chains of sliding bodies with preload: all patterns of sides and gaps by Newton's and Euler's equations in rational
-//! numbers, with normal forces and shares as unknowns. Nothing but the text of the model goes to the program.
+//! Random chains of sliding bodies with preload: all patterns of sides and gaps by Newton's and Euler's
+//! equations in rational numbers, with normal forces and shares as unknowns. Nothing but the text of the
+//! model goes to the program.
 //!
 //! Body `b` slides on body `b - 1`, the first one on the ground. No guide turns, so that bodies only shift:
 //!
@@ -7,8 +8,9 @@
 //! m a = sum of forces,      0 = sum of moments about the centre of mass,      a_b = sum of s''_j t_j for j <= b
 //! ```
 //!
-//! Unknowns are `s''_j`, for a block slider `|N|` or the share of both contacts, for a guided slider those of its contact
-//! and its couple. A friction force acts at the face that is pressed, the preload perhaps at the centre line.
+//! Unknowns are `s''_j`, for a block slider `|N|` or the share of both contacts, for a guided slider those of
+//! its contact and its couple. A friction force acts at the face that is pressed, the preload perhaps at the
+//! centre line.
 
 use dashu_ratio::RBig;
 use slideway::model::Model;
@@ -178,7 +180,8 @@ impl<'c> Equations<'c> {
         equations
     }
 
-    /// A force on a body: as a known one on the right (the last column), as an unknown one to be brought to the left.
+    /// A force on a body: as a known one on the right (the last column), as an unknown one to be brought to
+    /// the left.
     fn add(&mut self, column: usize, body: Option<usize>, at: &Place, force: &Place, factor: &RBig) {
         let Some(b) = body else { return };
         let centre = place(self.chain[b].centre, [1, 0, 1], [0, 0]);
@@ -228,7 +231,8 @@ impl<'c> Equations<'c> {
         }
     }
 
-    /// Gauss and Jordan; none where the matrix is singular, with whether the equations have a solution all the same.
+    /// Gauss and Jordan; none where the matrix is singular, with whether the equations have a solution all
+    /// the same.
     fn solved(mut self) -> Result<Vec<RBig>, bool> {
         let n = self.rows.len();
         let mut pivots = 0;

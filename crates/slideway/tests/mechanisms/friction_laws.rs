@@ -1,6 +1,7 @@
 //! Friction that depends on the sliding speed, in states: the drawer of the gallery with mu = 0.3 + c v.
 //!
-//! Its push is V = Q/(1 - 2 mu a/L) with L = 0.4 m, a = 0.3 m, Q = 20 N (reference/README.md), and it locks at mu = 2/3.
+//! Its push is V = Q/(1 - 2 mu a/L) with L = 0.4 m, a = 0.3 m, Q = 20 N (reference/README.md), and it locks
+//! at mu = 2/3.
 
 use crate::answers::{assert_close, contact, parameters, report_on, try_report_on};
 use slideway::drive::{DriveOptions, drive};
@@ -60,7 +61,8 @@ fn solve_takes_friction_at_the_speed_of_the_state_in_both_directions() {
     assert_eq!(solve(&fast).unwrap().status, Status::None);
 }
 
-/// It locks where 0.3 + c v = 2/3: over c in closed form, over the velocity by bracketing, over the factor of friction.
+/// It locks where 0.3 + c v = 2/3: over c in closed form, over the velocity by bracketing, over the factor of
+/// friction.
 #[test]
 fn limits_follow_friction_over_whatever_changes_it() {
     let locks = |vary: &str| {

@@ -169,8 +169,8 @@ fn modes_over_a_turn(name: &str, list: &[(&str, &str)], coordinate: &str, joint:
 
 #[test]
 fn the_piston_lies_flat_or_tips() {
-    // The rod is hinged to the middle of the piston, so flat on one side (N_f - N_r) L/2 = mu (N_f + N_r) h/2 up to
-    // sign: both ends press the same side for mu < L/h (skirt/bore = 0.75), opposite ones beyond.
+    // The rod is hinged to the middle of the piston, so flat on one side (N_f - N_r) L/2 = mu (N_f + N_r) h/2
+    // up to sign: both ends press the same side for mu < L/h (skirt/bore = 0.75), opposite ones beyond.
     let modes = |mu| modes_over_a_turn("slider-crank", &[("mu", mu)], "phi", "cylinder");
     for mu in ["0.1", "0.749"] {
         assert_eq!(Vec::from_iter(modes(mu)), ["flat on the lower guide", "flat on the upper guide"]);

@@ -1,4 +1,5 @@
-//! Preload gaps of all kinds of joint: known answers, all patterns by brute force, and what `hold` and motions say.
+//! Preload gaps of all kinds of joint: known answers, all patterns by brute force, and what `hold` and
+//! motions say.
 
 use crate::answers::{acceleration, assert_close, report_on, try_report_on};
 use crate::brute_force::{unreachable, velocity_signs};
@@ -51,8 +52,8 @@ const PLATE: &str = r#"
 
 /// Share, normal force of s1 and the plate's accelerations with `N_0 = 0`, by Newton's and Euler's equations.
 ///
-/// The plate is the guide, so that at either pin it is pushed by `-N n` and dragged by `+F u`, at the pin. The velocity is so
-/// small that its points at the pins accelerate along `u` alone:
+/// The plate is the guide, so that at either pin it is pushed by `-N n` and dragged by `+F u`, at the pin.
+/// The velocity is so small that its points at the pins accelerate along `u` alone:
 ///
 /// ```text
 /// m a = m g + F_0 u_0 + F_1 u_1 - N_1 n_1,      J alpha = moments about the centre of mass,      n_k . (a + alpha x r_k) = 0
@@ -154,8 +155,9 @@ fn drawer(rate: f64, load: [f64; 2]) -> SolveReport {
 
 #[test]
 fn both_ends_are_not_in_their_gaps_under_a_transverse_load() {
-    // Nothing but N_f + N_r = 8 N can carry the load, so one end at least is pressed. With the other one, 6 N between its
-    // faces: moments about the centre of mass, friction of the pressed end (mu N + F_0) s = 14 N s at the lower face,
+    // Nothing but N_f + N_r = 8 N can carry the load, so one end at least is pressed. With the other one, 6 N
+    // between its faces: moments about the centre of mass, friction of the pressed end (mu N + F_0) s = 14 N
+    // s at the lower face,
     //     rate 1:  N_f l/2 - 14 h/2 + (1 - 2 share) 6 h/2 - 0.1 = 0:   1.2 - 1.4 + 0.6 (1 - 2 share) - 0.1 = 0, share 1/4
     //     rate -1: -N_r l/2 + 14 h/2 - (1 - 2 share) 6 h/2 - 0.1 = 0:  -1.2 + 1.4 - 0.6 (1 - 2 share) - 0.1 = 0, share 5/12
     for (rate, pattern, share, acceleration_x) in [(1.0, "+0", 0.25, -19.0), (-1.0, "0+", 5.0 / 12.0, 21.0)] {
@@ -222,8 +224,8 @@ fn guided(preload: &str, height: f64, couple: f64, across: &str) -> SolveReport 
 
 #[test]
 fn a_guided_slider_without_normal_force_transmits_no_couple() {
-    // Friction F = share F^+ + (1 - share) F^- against x; its moment about the centre line is that of F^- at the upper
-    // less that of F^+ at the lower face, and has to balance the torque T alone:
+    // Friction F = share F^+ + (1 - share) F^- against x; its moment about the centre line is that of F^- at
+    // the upper less that of F^+ at the lower face, and has to balance the torque T alone:
     //     [(1 - share) F^- - share F^+] h/2 + T = 0
     for (preload, faces, couple) in [
         ("6", [6.0, 6.0], 0.0),
@@ -284,8 +286,8 @@ fn friction_at_coinciding_faces_may_be_that_of_either_side() {
 
 #[test]
 fn whether_a_slider_pressed_against_its_other_face_tips_is_proven() {
-    // N = -10 N, friction mu N = 3 N at the upper face, h/2 = 0.1 m above the centre of mass: C = -0.3 N m, and 10 N times
-    // half the length is 1.5 N m.
+    // N = -10 N, friction mu N = 3 N at the upper face, h/2 = 0.1 m above the centre of mass: C = -0.3 N m,
+    // and 10 N times half the length is 1.5 N m.
     let report = guided("0", 0.2, 0.0, "10 N");
     let state = &report.solutions[0];
     assert_eq!((state.pattern.as_str(), state.certificate), ("-", CertificateKind::Proven));
@@ -412,8 +414,8 @@ fn numbers(drawing: &Drawing, report: &SolveReport) -> Numbers {
     Numbers { eta, preload, load: DVector::from_row_slice(&report.influence.normal_forces), jumps }
 }
 
-/// All patterns of sides and gaps with a state, each by the singular values of its own matrix; nothing where something is so
-/// close to a boundary that rounding decides.
+/// All patterns of sides and gaps with a state, each by the singular values of its own matrix; nothing where
+/// something is so close to a boundary that rounding decides.
 fn by_brute_force(numbers: &Numbers) -> Option<BTreeSet<String>> {
     let r = numbers.jumps.len();
     let mut found = BTreeSet::new();
@@ -462,7 +464,8 @@ fn admits(mut matrix: DMatrix<f64>, right: &DVector<f64>, digits: &[usize]) -> O
     }
     let unknowns = svd.solve(right, 1e-8 * greatest).ok()?;
     if small > 0 {
-        // Columns that depend on each other exactly: either nothing solves the equations, or a continuum does.
+        // Columns that depend on each other exactly: either nothing solves the equations, or a continuum
+        // does.
         let left = (&matrix * &unknowns - right).amax();
         return (left > NEAR * right.amax()).then_some(false);
     }

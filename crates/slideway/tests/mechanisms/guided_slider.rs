@@ -60,8 +60,8 @@ impl Sledge {
 }
 
 impl Sledge {
-    /// The normal forces of all solutions of the block slider, from its balance by hand: with the centre of mass
-    /// at (d, c) from the middle, along and across the guide, h' the height, negative around the guide,
+    /// The normal forces of all solutions of the block slider, from its balance by hand: with the centre of
+    /// mass at (d, c) from the middle, along and across the guide, h' the height, negative around the guide,
     ///     N_f + N_r = -P_n,
     ///     N_f (L/2 - d) - N_r (L/2 + d) - F_f (sigma_f h'/2 + c) - F_r (sigma_r h'/2 + c) + T = 0,  F = mu |N| s.
     fn by_hand(&self) -> Vec<[f64; 2]> {
@@ -185,8 +185,8 @@ proptest! {
                 prop_assert!(rejection.couple.abs() > rejection.limit);
                 prop_assert_eq!(guided.status, Status::None);
                 prop_assert_eq!(flat(&block), 0);
-                // It tips, unless its own friction drives the tipping: then it may jam (textbook.rs, a sledge too
-                // high for its friction).
+                // It tips, unless its own friction drives the tipping: then it may jam (textbook.rs, a sledge
+                // too high for its friction).
                 if sledge.has_short_levers() {
                     prop_assert!(tipped(&block) > 0, "{:?}", block.status);
                 }
@@ -209,8 +209,8 @@ proptest! {
 
 #[test]
 fn the_line_of_the_preload_shows_in_the_couple() {
-    // Preload friction of 6 N on a level sledge whose centre of mass is on the centre line: at the pressed face,
-    // h/2 below, it needs the couple 6 N h/2; on the centre line it needs none.
+    // Preload friction of 6 N on a level sledge whose centre of mass is on the centre line: at the pressed
+    // face, h/2 below, it needs the couple 6 N h/2; on the centre line it needs none.
     for (line, couple) in [("pressed", 0.6), ("centre", 0.0)] {
         let report = report_on(&format!(
             r#"

@@ -1,5 +1,6 @@
 //! The example of Klepp (2002), sections 6 and 7, from its model file: every printed number, every count, the
-//! exact intervals. The paper counts the normal force of contact 3 positive downwards, the model file upwards.
+//! exact intervals. The paper counts the normal force of contact 3 positive downwards, the model file
+//! upwards.
 
 use crate::answers::{assert_close, coordinate_acceleration, mode, model, only, report, report_with};
 use nalgebra::DVector;
@@ -308,14 +309,16 @@ fn kappa(mechanism: &Mechanism) -> Vec<f64> {
 
 #[test]
 fn the_words_of_section_7() {
-    // mu_1 = 0.6: "the upper and the lower sliders are in contact with the corresponding lower guiding surfaces",
-    // then "the upper slider is in contact with the upper guiding surface and the lower slider touches the lower".
+    // mu_1 = 0.6: "the upper and the lower sliders are in contact with the corresponding lower guiding
+    // surfaces", then "the upper slider is in contact with the upper guiding surface and the lower slider
+    // touches the lower".
     let report = solved(EARTH, 0.6, [0.0; 3], 1.0);
     let modes =
         |solution: &Solution| [mode(solution, "upper").to_owned(), mode(solution, "lower").to_owned()];
     assert_eq!(modes(&report.solutions[0]), ["on the lower side of the slot", "flat on the lower guide"]);
     assert_eq!(modes(&report.solutions[1]), ["on the upper side of the slot", "flat on the lower guide"]);
-    // mu_1 = 0.5, F_20 = m g: "right below and left above", "right above and left below", lower guiding surface.
+    // mu_1 = 0.5, F_20 = m g: "right below and left above", "right above and left below", lower guiding
+    // surface.
     let report = solved(EARTH, 0.5, [0.0, 1.0, 0.0], 1.0);
     let word_of = |pattern: &str| {
         let found = report.solutions.iter().find(|solution| signs(solution) == pattern);

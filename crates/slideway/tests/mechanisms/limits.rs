@@ -250,8 +250,9 @@ proptest! {
     }
 }
 
-/// Where every load scales with what is varied all normal forces vanish at zero, and the drawer goes over from one corner to the other: both
-/// modes are told with their ends, and efforts of drives on both sides are those of `solve`.
+/// Where every load scales with what is varied all normal forces vanish at zero, and the drawer goes over
+/// from one corner to the other: both modes are told with their ends, and efforts of drives on both sides are
+/// those of `solve`.
 #[test]
 fn modes_on_both_sides_of_a_load_that_vanishes() {
     let report = of("drawer", &[], "Q=-50 N..50 N");

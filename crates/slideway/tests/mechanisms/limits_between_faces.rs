@@ -1,4 +1,5 @@
-//! Guided sliders without transverse load: their states between the faces over a range, compared with `solve`.
+//! Guided sliders without transverse load: their states between the faces over a range, compared with
+//! `solve`.
 
 use crate::answers::parameters;
 use slideway::limits::{Known, LimitsOptions, LimitsReport, Vary, limits};
@@ -49,8 +50,8 @@ fn a_guided_slider_stays_between_its_faces_whatever_its_friction_and_its_drive()
     assert_eq!(with_state(&report), [[0.0, 3.0]]);
 }
 
-/// The share is one from 0 to 1 as long as |M| <= F h/2: 0.6 N m with F = 6 N and h = 0.2 m; F >= 3 N and h >= 0.1 m with
-/// M = 0.3 N m. Beyond it the slider tips.
+/// The share is one from 0 to 1 as long as |M| <= F h/2: 0.6 N m with F = 6 N and h = 0.2 m; F >= 3 N and
+/// h >= 0.1 m with M = 0.3 N m. Beyond it the slider tips.
 #[test]
 fn its_state_between_the_faces_ends_where_the_preload_cannot_balance_the_moment() {
     for (name, range, state) in

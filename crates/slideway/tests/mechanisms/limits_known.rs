@@ -1,5 +1,5 @@
-//! How limits are known: dependence that is decided from formulas, intervals that are examined inside, wide ranges, and words
-//! that are true.
+//! How limits are known: dependence that is decided from formulas, intervals that are examined inside, wide
+//! ranges, and words that are true.
 
 use crate::answers::{model, parameters};
 use slideway::fault::{AxisProblem, FaultKind};
@@ -30,8 +30,8 @@ fn at(report: &LimitsReport, value: f64) -> &CountLimits {
     report.counts.iter().find(|count| count.from < value && value < count.to).expect("an interval")
 }
 
-/// Three values at which `mu + 30 max(0, 0.05 - |mu - 0.42|)` equals `mu` do not make it affine. Without it the sledge has one
-/// solution throughout; with it the coefficient is 1.92 at mu = 0.42, and nothing moves.
+/// Three values at which `mu + 30 max(0, 0.05 - |mu - 0.42|)` equals `mu` do not make it affine. Without it
+/// the sledge has one solution throughout; with it the coefficient is 1.92 at mu = 0.42, and nothing moves.
 #[test]
 fn three_values_do_not_make_a_formula_affine() {
     let sledge = file("friction_with_a_bump");
@@ -46,12 +46,14 @@ fn three_values_do_not_make_a_formula_affine() {
 
 /// There the method decides; the places are those of the table in `model/dependence.rs`.
 ///
-/// The force of the damper presses on no guide, like P: it acts at S along the line from the wall to S, which is horizontal (both are
-/// at the height l/2 sin(alpha), and the bar, whose ends slide in horizontal slots, only translates along them). Let H be a horizontal force at S.
-/// Vertical balance of the bar and the block, `N_1 + N_2 + N_3 = m g`, and the couple of the massless block about A,
-/// `(N_2 - N_3) b/2 + (friction at its faces) h/2 = 0`, do not contain H; the balance of moments about S does not because H acts there,
-/// and the horizontal acceleration that it causes is that of S, whose inertia force has no moment about S either. So neither N(0) nor the
-/// columns, which are answers to unit friction forces, depend on H: "independent". The same normal forces at both ends confirm it.
+/// The force of the damper presses on no guide, like P: it acts at S along the line from the wall to S, which
+/// is horizontal (both are at the height l/2 sin(alpha), and the bar, whose ends slide in horizontal slots,
+/// only translates along them). Let H be a horizontal force at S. Vertical balance of the bar and the block,
+/// `N_1 + N_2 + N_3 = m g`, and the couple of the massless block about A,
+/// `(N_2 - N_3) b/2 + (friction at its faces) h/2 = 0`, do not contain H; the balance of moments about S does
+/// not because H acts there, and the horizontal acceleration that it causes is that of S, whose inertia force
+/// has no moment about S either. So neither N(0) nor the columns, which are answers to unit friction forces,
+/// depend on H: "independent". The same normal forces at both ends confirm it.
 #[test]
 fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
     let drawer = gallery::find("drawer").expect("in the gallery").text;
@@ -100,7 +102,8 @@ fn the_place_of_a_parameter_and_its_formula_decide_about_the_method() {
     assert_eq!(method(&both, "mu_1=0..0.8"), LimitsMethod::Bracketing);
 }
 
-/// Between the last value that was tried and the dead centre at 1 m contacts change side; there is a solution everywhere.
+/// Between the last value that was tried and the dead centre at 1 m contacts change side; there is a solution
+/// everywhere.
 #[test]
 fn intervals_beside_a_dead_centre_are_examined_inside() {
     let trammel = of(&file("trammel_near_dead_centre"), "x=0.01..1.2");
@@ -121,7 +124,8 @@ fn intervals_beside_a_dead_centre_are_examined_inside() {
     }
 }
 
-/// Between two ends that are nearer to each other than the values that were tried first, a preload-gap state goes on.
+/// Between two ends that are nearer to each other than the values that were tried first, a preload-gap state
+/// goes on.
 #[test]
 fn intervals_between_ends_are_examined_inside() {
     let model = file("whitworth").with(&parameters(&[("mu_b", "1")])).expect("sound");
@@ -166,8 +170,8 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     assert_eq!(of(&drawer, "mu=0..1").counts[0].known, Known::ClosedForm);
 }
 
-/// The solutions at 1e9 differ by the sign of N_1 alone, which is small beside the others. The screw locks where
-/// mu tan(lead angle) = 1: mu = pi d / lead.
+/// The solutions at 1e9 differ by the sign of N_1 alone, which is small beside the others. The screw locks
+/// where mu tan(lead angle) = 1: mu = pi d / lead.
 #[test]
 fn wide_ranges_have_the_ends_of_narrow_ones() {
     let klepp = model("klepp-2002").with(&parameters(&[("k", "0.001 N/m")])).expect("sound");
@@ -232,7 +236,8 @@ fn ranges_that_make_no_sense_are_refused() {
     let negative = fault("friction=-1..1");
     assert!(matches!(negative, FaultKind::Axis { problem: AxisProblem::NegativeFriction { .. }, .. }));
     assert!(matches!(fault("h=-1e308..1e308"), FaultKind::Overflow { .. }));
-    // The part that makes no sense is named; a coefficient that is computed from what is varied is refused where it is negative.
+    // The part that makes no sense is named; a coefficient that is computed from what is varied is refused
+    // where it is negative.
     let negative = AxisProblem::NegativeCoefficients { from: -1.0, to: 0.0 };
     for (vary, text) in [("mu=-1..1", "mu=-1..1"), ("mu = -1 .. 0", "mu=-1..0")] {
         assert_eq!(fault(vary), FaultKind::Axis { text: text.to_owned(), problem: negative.clone() });
@@ -245,7 +250,8 @@ fn ranges_that_make_no_sense_are_refused() {
     assert_eq!(report.counts[0].from, 0.0);
 }
 
-/// From a static coefficient of B / (2 x) on the bracket holds any load: here 0.25, the coefficient being p or 2 p + 0.05.
+/// From a static coefficient of B / (2 x) on the bracket holds any load: here 0.25, the coefficient being p
+/// or 2 p + 0.05.
 #[test]
 fn a_threshold_follows_the_formula_of_static_friction() {
     let text = gallery::find("bracket-on-pole").expect("in the gallery").text;

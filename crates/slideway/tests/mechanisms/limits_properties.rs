@@ -1,5 +1,5 @@
-//! Limits of random mechanisms against dense scanning, and as the physics demands under changes of units, mirror images
-//! and reversal.
+//! Limits of random mechanisms against dense scanning, and as the physics demands under changes of units,
+//! mirror images and reversal.
 
 use crate::answers::assert_close;
 use crate::drawing::{Drawing, Kind, Units};
@@ -151,7 +151,8 @@ fn inline(value: &Value) -> String {
     }
 }
 
-/// A mechanism, what is varied in it, and over which range: any number of the file, the value of a coordinate, or all friction.
+/// A mechanism, what is varied in it, and over which range: any number of the file, the value of a
+/// coordinate, or all friction.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn varied(drawing: &Drawing, choice: f64) -> Option<(Model, String)> {
     let mut file: Value = toml::from_str(&drawing.text()).expect("TOML");

@@ -138,7 +138,8 @@ fn forces(#[case] force: &str, #[case] expected: [f64; 2]) {
 /// Moment of inertia of the arm about its hinge (kg m^2).
 const INERTIA: f64 = 1.25;
 
-/// An arm, hinged at O, drawn along x and turned by 0.6 rad, with 2 rad/s; a wheel hinged to its tip at (1, 0).
+/// An arm, hinged at O, drawn along x and turned by 0.6 rad, with 2 rad/s; a wheel hinged to its tip at (1,
+/// 0).
 fn arm(loads: &str) -> SolveReport {
     report_on(&format!(
         r#"
@@ -176,7 +177,8 @@ fn arm(loads: &str) -> SolveReport {
     ))
 }
 
-/// Torques on arm and wheel, from their angular accelerations; the masses of 1e-9 kg are within the tolerance.
+/// Torques on arm and wheel, from their angular accelerations; the masses of 1e-9 kg are within the
+/// tolerance.
 #[track_caller]
 fn assert_torques(loads: &str, expected: [f64; 2]) {
     let report = arm(loads);
@@ -218,8 +220,8 @@ fn the_reaction_of_a_force_acts_at_the_same_place() {
     // On the wheel at its centre, back on the arm: nothing is left for the arm but what its hinge passes on.
     let force = "[loads.f]\ntype = \"force\"\nat = \"wheel.tip\"\ncomponents = [0, 8]\nreaction = \"arm\"";
     assert_torques(force, [0.0, 0.0]);
-    // From the arm at M, back on the wheel: moments about O of the arm with the wheel cancel, about the tip the
-    // wheel gets -(M - tip) x F.
+    // From the arm at M, back on the wheel: moments about O of the arm with the wheel cancel, about the tip
+    // the wheel gets -(M - tip) x F.
     let force = "[loads.f]\ntype = \"force\"\nat = \"arm.M\"\ncomponents = [0, 8]\nreaction = \"wheel\"";
     let (sin, cos) = 0.6_f64.sin_cos();
     let arm = 8.0 * (0.5 * cos - 0.2 * sin);
@@ -356,7 +358,8 @@ fn efforts_of_drives_on_an_arm() {
     let torque = INERTIA * 4.0;
     assert_close(arm_effort("torque = { body = \"arm\" }"), torque, 0.0, 1e-8);
     assert_close(arm_effort("torque = { body = \"wheel\", reaction = \"arm\" }"), -torque, 0.0, 1e-8);
-    // Across the arm in the drawing, at its tip: turned with the arm its lever is 1 m, fixed in space cos(0.6) m.
+    // Across the arm in the drawing, at its tip: turned with the arm its lever is 1 m, fixed in space
+    // cos(0.6) m.
     let force = |frame: &str| {
         arm_effort(&format!("force = {{ at = \"arm.tip\", direction = \"90 deg\", frame = \"{frame}\" }}"))
     };

@@ -30,7 +30,8 @@ fn with_friction(coefficients: [f64; 3], factor: f64, list: &[(&str, &str)]) -> 
     solve(&model("klepp-2002").with(&settings).expect("sound")).expect("sound")
 }
 
-/// Between the two factors nothing moves, beyond the second one it does again: the words must not say "none beyond".
+/// Between the two factors nothing moves, beyond the second one it does again: the words must not say "none
+/// beyond".
 #[test]
 fn where_solutions_come_back_the_margin_says_just_beyond() {
     let to_the_left = [("F_20", "0"), ("direction", "-1")];

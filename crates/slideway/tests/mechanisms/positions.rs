@@ -13,7 +13,8 @@ use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::{Model, Settings};
 use slideway::report::{ModeEndCause, Proof, Status};
 
-/// Two more solutions of its joints pass near the way from the drawing, and folds are at q0 = -0.2518 and 0.0091.
+/// Two more solutions of its joints pass near the way from the drawing, and folds are at q0 = -0.2518 and
+/// 0.0091.
 const BRANCH: &str = include_str!("branch.toml");
 
 fn at(model: &Model, values: &[(&str, f64)]) -> Mechanism {
@@ -36,7 +37,8 @@ fn first_value(state: &str) -> f64 {
     state.split_whitespace().nth(2).unwrap().parse().unwrap()
 }
 
-/// Centre of mass and angle of both bodies at q0: `reference/branch_positions.py`, 20,000 steps of Newton's method.
+/// Centre of mass and angle of both bodies at q0: `reference/branch_positions.py`, 20,000 steps of Newton's
+/// method.
 #[rstest]
 #[case(-0.0265, [0.415_464_128_621, 0.126_495_451_375, 0.369_495_206_304], [-0.457_614_639_629, 0.293_979_642_401, 0.339_142_259_041])]
 #[case(-0.0615, [0.218_444_536_198, 0.281_986_694_098, 0.699_097_841_393], [-0.689_759_368_463, 0.151_793_922_568, 0.627_921_609_177])]
@@ -77,7 +79,8 @@ fn in_the_drawing_nothing_is_followed() {
     assert_eq!(report_with(&model, &Settings::default()).steps_from_drawing, None);
 }
 
-/// A slider-crank with the stroke as coordinate, drawn at this angle of the crank; dead centres are at 0.06 m and 0.26 m.
+/// A slider-crank with the stroke as coordinate, drawn at this angle of the crank; dead centres are at 0.06 m
+/// and 0.26 m.
 fn driven_by_its_slide(degrees: f64) -> Model {
     let text = format!(
         r#"
@@ -130,7 +133,8 @@ fn a_crank_driven_by_its_slide_stays_on_its_side(
     }
 }
 
-/// A linkage of three bars between O and C: crank OA, coupler AB, rocker CB; the coordinate turns one of the bars.
+/// A linkage of three bars between O and C: crank OA, coupler AB, rocker CB; the coordinate turns one of the
+/// bars.
 fn linkage(places: [Vector2<f64>; 4], bar: &str) -> Model {
     let [o, a, b, c] = places.map(|place| format!("[{:e}, {:e}]", place.x, place.y));
     let text = format!(
@@ -156,7 +160,8 @@ fn polar(radius: f64, angle: f64) -> Vector2<f64> {
     Vector2::new(radius * angle.cos(), radius * angle.sin())
 }
 
-/// Where circles about two points meet, on the left of the way from the first to the second (`side` 1) or right.
+/// Where circles about two points meet, on the left of the way from the first to the second (`side` 1) or
+/// right.
 fn meeting([one, other]: [Vector2<f64>; 2], radii: [f64; 2], side: f64) -> Vector2<f64> {
     let between = other - one;
     let distance = between.norm();
@@ -166,8 +171,8 @@ fn meeting([one, other]: [Vector2<f64>; 2], radii: [f64; 2], side: f64) -> Vecto
     one + unit * along + Vector2::new(-unit.y, unit.x) * across
 }
 
-/// A rocker that turns its crank, drawn near its limit position, where crank and coupler are in line (|OB| = 0.38). The
-/// crank is found as the meeting of two circles.
+/// A rocker that turns its crank, drawn near its limit position, where crank and coupler are in line (|OB| =
+/// 0.38). The crank is found as the meeting of two circles.
 #[rstest]
 fn a_four_bar_linkage_near_its_limit_position(
     #[values(1.0, -1.0)] side: f64,
@@ -215,8 +220,8 @@ fn where_branches_meet_the_way_ends() {
     assert!(matches!(fault, FaultKind::SingularPosition { .. }), "{fault:?}");
 }
 
-/// Two cranks whose ends two rods join: a grid of both angles, from point to point and each from the drawing, against the
-/// meeting of two circles.
+/// Two cranks whose ends two rods join: a grid of both angles, from point to point and each from the drawing,
+/// against the meeting of two circles.
 #[test]
 fn a_grid_of_two_coordinates_is_what_each_way_gives() {
     let (o, c) = (Vector2::zeros(), Vector2::new(0.3, 0.0));
@@ -263,8 +268,9 @@ fn a_grid_of_two_coordinates_is_what_each_way_gives() {
     }
 }
 
-/// Around both folds of the branch, in an order that jumps: a follower refuses what the way from the drawing does not reach, and no
-/// more, whatever it has seen before. (Folds from `limits`, at -0.2518411567 and 0.0090867515.)
+/// Around both folds of the branch, in an order that jumps: a follower refuses what the way from the drawing
+/// does not reach, and no more, whatever it has seen before. (Folds from `limits`, at -0.2518411567 and
+/// 0.0090867515.)
 #[test]
 fn a_follower_ends_where_the_way_from_the_drawing_does() {
     let model = Model::parse(BRANCH).unwrap();
@@ -348,8 +354,8 @@ const STEPS: u32 = 100;
 proptest! {
     #![proptest_config(cases(60))]
 
-    /// A path of fine steps is continuous: neighbouring states differ as their velocities say. It ends where the way in as
-    /// few steps as can be shown ends, and back in the drawing.
+    /// A path of fine steps is continuous: neighbouring states differ as their velocities say. It ends where
+    /// the way in as few steps as can be shown ends, and back in the drawing.
     #[test]
     fn random_mechanisms_go_forth_and_back(drawing in mechanisms(), share in 0.2..1.5_f64) {
         let model = Model::parse(&drawing.text()).unwrap();
@@ -398,7 +404,8 @@ proptest! {
     }
 }
 
-/// Where a block turns round in its guide while the mechanism moves on, modes end because friction turns round, not for want of a position.
+/// Where a block turns round in its guide while the mechanism moves on, modes end because friction turns
+/// round, not for want of a position.
 #[test]
 fn modes_end_where_sliding_reverses() {
     let model = Model::parse(BRANCH).unwrap();

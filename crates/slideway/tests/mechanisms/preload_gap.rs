@@ -26,9 +26,9 @@ fn the_example_has_a_preload_gap() {
     assert_close(one.friction_force, 0.24 * one.normal_force.abs(), 0.0, 1e-12);
     assert_close(two.friction_force, 0.1 * two.normal_force.abs(), 0.0, 1e-12);
     assert_close(three.friction_force, 0.5 * weight, 0.0, 1e-12);
-    // The paper's equilibrium conditions (section 7), all normal forces upwards: forces across, moments about A
-    // of the bar, moments about the middle of the lower block, where contact 3 acts at the height
-    // (2 lambda - 1) h/2 below the middle.
+    // The paper's equilibrium conditions (section 7), all normal forces upwards: forces across, moments about
+    // A of the bar, moments about the middle of the lower block, where contact 3 acts at the height (2
+    // lambda - 1) h/2 below the middle.
     let total = one.friction_force + two.friction_force + three.friction_force;
     let (sin, cos) = f64::to_radians(80.0).sin_cos();
     assert_close(one.normal_force + two.normal_force, weight, 0.0, 1e-12);
@@ -127,8 +127,8 @@ fn preloaded_sledge(moment: f64, front: f64, rear: f64) -> SolveReport {
 #[test]
 fn both_ends_between_their_faces() {
     // N = 0 at both ends while the preloads balance the torque across the height: m a = -(F_f0 + F_r0), and
-    // (2 lambda_f - 1) F_f0 h/2 + (2 lambda_r - 1) F_r0 h/2 = T. One share remains free; the ends of its range
-    // are what is listed.
+    // (2 lambda_f - 1) F_f0 h/2 + (2 lambda_r - 1) F_r0 h/2 = T. One share remains free; the ends of its
+    // range are what is listed.
     for (moment, front, rear) in [(0.3, 10.0, 10.0), (0.3, 10.0, 4.0), (0.0, 10.0, 4.0), (1.5, 10.0, 10.0)] {
         let report = preloaded_sledge(moment, front, rear);
         assert!(!report.preload_gap_states.is_empty());
@@ -149,8 +149,8 @@ fn both_ends_between_their_faces() {
 
 #[test]
 fn friction_without_influence_makes_no_gap() {
-    // The friction of a pin in a straight slot has no influence on its own normal force, so that preloads that
-    // differ from side to side make no jump, whatever rounding says at odd angles.
+    // The friction of a pin in a straight slot has no influence on its own normal force, so that preloads
+    // that differ from side to side make no jump, whatever rounding says at odd angles.
     for along in [-0.158_145, 0.3, 1.234_567, 2.881_733] {
         let report = report_on(&format!(
             r#"

@@ -32,8 +32,8 @@ proptest! {
         }
     }
 
-    /// The accelerations of the bodies are the second derivatives of their positions as the coordinates move with
-    /// theirs; those of driven coordinates are as prescribed.
+    /// The accelerations of the bodies are the second derivatives of their positions as the coordinates move
+    /// with theirs; those of driven coordinates are as prescribed.
     #[test]
     fn accelerations_are_second_derivatives_of_positions(drawing in mechanisms()) {
         let Some(Solved { drawing, report, .. }) = Solved::new(drawing) else {
@@ -157,7 +157,8 @@ proptest! {
 proptest! {
     #![proptest_config(cases(100))]
 
-    /// Forces and torques added to the bodies so that given normal forces result: the whole way from the file.
+    /// Forces and torques added to the bodies so that given normal forces result: the whole way from the
+    /// file.
     #[test]
     fn planted_loads_are_answered(
         drawing in mechanisms(),

@@ -205,8 +205,8 @@ fn chain(with_pin: bool) -> impl Strategy<Value = Drawing> {
     })
 }
 
-/// As in Klepp's example: a bar hinged to a block at one end, its other end a pin in a slot or hinged to a second
-/// block.
+/// As in Klepp's example: a bar hinged to a block at one end, its other end a pin in a slot or hinged to a
+/// second block.
 fn hinged_sliders() -> impl Strategy<Value = Drawing> {
     (any::<bool>(), any::<bool>(), numbers(160)).prop_map(|(second_block, massless, numbers)| {
         let mut source = Source::new(numbers);

@@ -1,4 +1,5 @@
-//! Standstill: closed forms of statics, an independent linear program, symmetries, and input that makes no sense.
+//! Standstill: closed forms of statics, an independent linear program, symmetries, and input that makes no
+//! sense.
 
 use crate::answers::{assert_close, model, parameters};
 use rstest::rstest;
@@ -471,8 +472,8 @@ fn the_order_of_the_joints_does_not_matter() {
 
 #[test]
 fn the_painleve_klein_apparatus_can_hold_and_slip() {
-    // It slides without rotation, so that `solve` has the same accelerations at any velocity: those in the direction
-    // of the velocity begin a motion from rest.
+    // It slides without rotation, so that `solve` has the same accelerations at any velocity: those in the
+    // direction of the velocity begin a motion from rest.
     let settings = [("mu", "4"), ("P_1", "12 N")];
     let report = held("painleve-klein", &settings, &HoldOptions::default());
     assert_eq!(report.verdict, HoldVerdict::HoldsOrSlips);

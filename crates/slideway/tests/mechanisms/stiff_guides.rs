@@ -1,5 +1,5 @@
-//! Klepp's example with springs in place of guides, written from scratch: a bar and a light block as rigid bodies in
-//! the plane, small time steps. Nothing of the library enters.
+//! Klepp's example with springs in place of guides, written from scratch: a bar and a light block as rigid
+//! bodies in the plane, small time steps. Nothing of the library enters.
 
 /// The state: place of the hinge A, angle of the bar, angle of the block; then their rates.
 type State = [f64; 8];

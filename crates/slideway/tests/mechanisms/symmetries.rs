@@ -1,4 +1,5 @@
-//! The same physics seen otherwise: mirrored, turned, in other units, numbered otherwise, with roles exchanged.
+//! The same physics seen otherwise: mirrored, turned, in other units, numbered otherwise, with roles
+//! exchanged.
 
 use crate::answers::assert_close;
 use crate::brute_force::Solved;
@@ -251,8 +252,8 @@ proptest! {
         let image = Image {
             contact: Box::new(move |name| (name.to_owned(), if is_of_block(&blocks, name) { -1 } else { 1 })),
             friction: Box::new(move |name| if is_of_block(&friction, name) { -1.0 } else { 1.0 }),
-            // "flat on the lower guide" becomes "flat on the lower face of the guide": what touches is named by
-            // the guide, whose other part it now is.
+            // "flat on the lower guide" becomes "flat on the lower face of the guide": what touches is named
+            // by the guide, whose other part it now is.
             mode: Box::new(|_| None),
             ..Image::identity()
         };

@@ -219,8 +219,8 @@ fn single_slider_of_equation_9(#[values(1.0, -1.0)] direction: f64, #[values(0.0
 
 #[test]
 fn single_slider_locks_at_one_over_eta() {
-    // mu_l = 1/|eta_jj|, with eta read off the report: forwards the second solution appears, backwards the only
-    // one vanishes.
+    // mu_l = 1/|eta_jj|, with eta read off the report: forwards the second solution appears, backwards the
+    // only one vanishes.
     let limit = 1.0 / single(0.0, 0.0, 1.0).influence.eta_positive[0][0].abs();
     assert_close(limit, 2.0 / f64::to_radians(80.0).tan(), 0.0, 1e-12);
     assert_eq!(single(limit - 1e-9, 0.0, 1.0).solutions.len(), 1);
@@ -267,8 +267,9 @@ fn sledge(slope: f64, mu: f64, c: f64, rate: f64) -> SolveReport {
 #[case(35.0, 0.15, 0.2)]
 #[case(-25.0, 0.5, 0.3)]
 fn sledge_on_an_incline(#[case] slope: f64, #[case] mu: f64, #[case] c: f64, #[values(1.0, -1.0)] rate: f64) {
-    // u points along beta, h = 0. Along: m a = -m g sin(beta) - mu N s with N = N_f + N_r = m g cos(beta), both
-    // positive. About the centre of mass: (N_f - N_r) L/2 = c mu N s, so the sledge lies flat for c mu < L/2.
+    // u points along beta, h = 0. Along: m a = -m g sin(beta) - mu N s with N = N_f + N_r = m g cos(beta),
+    // both positive. About the centre of mass: (N_f - N_r) L/2 = c mu N s, so the sledge lies flat for c mu <
+    // L/2.
     let (sin, cos) = f64::to_radians(slope).sin_cos();
     assert!(c * mu < 0.25);
     let report = sledge(slope, mu, c, rate);
@@ -289,9 +290,10 @@ fn sledge_on_an_incline(#[case] slope: f64, #[case] mu: f64, #[case] c: f64, #[v
 
 #[test]
 fn a_sledge_too_high_for_its_friction_jams() {
-    // Beyond c mu = L/2 its trailing edge would lift off. Held down by the upper face of its guide it would bear
-    // N_f = m g cos(beta) + b, N_r = -b: then (N_f + b) L/2 = c mu (N_f + b), which only c mu = L/2 fulfils.
-    // So there is no solution at all, lying or tipped: it jams, whichever way it moves and however steep it is.
+    // Beyond c mu = L/2 its trailing edge would lift off. Held down by the upper face of its guide it would
+    // bear N_f = m g cos(beta) + b, N_r = -b: then (N_f + b) L/2 = c mu (N_f + b), which only c mu = L/2
+    // fulfils. So there is no solution at all, lying or tipped: it jams, whichever way it moves and however
+    // steep it is.
     for slope in [-30.0, 0.0, 10.0] {
         for rate in [1.0, -1.0] {
             let lying = sledge(slope, 0.5, 0.5 - 1e-9, rate);
@@ -358,8 +360,8 @@ fn wedge(theta: f64, mu_face: f64, mu_floor: f64, mu_wall: f64) -> SolveReport {
 #[case(25.0, 0.3, 0.25, 0.35)]
 #[case(40.0, 0.1, 0.6, 0.5)]
 fn wedge_lifts_its_follower(#[case] theta: f64, #[case] face: f64, #[case] floor: f64, #[case] wall: f64) {
-    // The wedge moves to +x, its face falls to the right with the slope theta, so the follower rises. The face
-    // presses the follower with R at the angle theta + phi from the vertical, phi = atan(mu_face):
+    // The wedge moves to +x, its face falls to the right with the slope theta, so the follower rises. The
+    // face presses the follower with R at the angle theta + phi from the vertical, phi = atan(mu_face):
     //     wall: H = R sin(theta + phi), friction mu_wall H downwards
     //     R cos(theta + phi) - mu_wall H = W
     //     floor: N = R cos(theta + phi), P = H + mu_floor N

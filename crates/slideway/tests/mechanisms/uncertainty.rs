@@ -85,8 +85,8 @@ fn the_rest_of_the_report_holds_for_the_middle() {
     assert!(middle.uncertainty.is_none());
 }
 
-/// A sledge with its centre of mass at the height c over the pressed face slows down with mu g: it needs the couple
-/// m mu g c, and its pressure gives m g L/2 at most. It tips from mu = L / (2 c) = 0.1 on.
+/// A sledge with its centre of mass at the height c over the pressed face slows down with mu g: it needs the
+/// couple m mu g c, and its pressure gives m g L/2 at most. It tips from mu = L / (2 c) = 0.1 on.
 #[test]
 fn a_guided_slider_tips_for_some_values() {
     let of = |range: &str| {

@@ -104,8 +104,8 @@ fn touching_place(angle: f64, height: f64, sign: i8, end: f64) -> Vector2<f64> {
 
 #[test]
 fn corners_are_named_by_where_they_lie() {
-    // Theory, section 1: friction acts at P - sign(N) (h/2) n. Each corner lies on the side that its words say,
-    // seen along the guide for its end and across it for its face.
+    // Theory, section 1: friction acts at P - sign(N) (h/2) n. Each corner lies on the side that its words
+    // say, seen along the guide for its end and across it for its face.
     for height in [0.1, -0.1] {
         for angle in (-180..180).step_by(5).filter(|angle| angle % 45 != 0 || angle % 90 == 0) {
             let angle = f64::from(angle);

@@ -1,7 +1,8 @@
-//! Tables as Parquet files: columns that are compressed by themselves, in groups of rows. What is absent is null.
+//! Tables as Parquet files: columns that are compressed by themselves, in groups of rows. What is absent is
+//! null.
 //!
-//! Words are dictionary-encoded. Parquet itself has no place for the unit of a column, so units stand in the metadata of the
-//! file. (The format: <https://parquet.apache.org/docs/file-format/>.)
+//! Words are dictionary-encoded. Parquet itself has no place for the unit of a column, so units stand in the
+//! metadata of the file. (The format: <https://parquet.apache.org/docs/file-format/>.)
 
 mod records;
 

@@ -10,7 +10,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
-/// Makes a Parquet file of so many bytes of records. `go_on` is told which part is done, and breaks to end it early.
+/// Makes a Parquet file of so many bytes of records. `go_on` is told which part is done, and breaks to end it
+/// early.
 ///
 /// # Errors
 /// If a file cannot be read or written.

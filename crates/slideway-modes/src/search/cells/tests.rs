@@ -188,7 +188,8 @@ fn steps_with_inaccurate_inverses_keep_the_solution() {
 
 #[test]
 fn steps_with_wrong_inverses_keep_all_solutions() {
-    // Rows that are parallel exactly, with all (t b, -t a) for solutions. Elimination in f64 finds an inverse for many.
+    // Rows that are parallel exactly, with all (t b, -t a) for solutions. Elimination in f64 finds an inverse
+    // for many.
     let mut inverted = 0;
     for seed in 0..200 {
         let mut number = numbers(5000 + seed);

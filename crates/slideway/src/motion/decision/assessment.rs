@@ -1,4 +1,5 @@
-//! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the mechanism.
+//! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the
+//! mechanism.
 
 use super::instant::Instant;
 use super::outputs::Group;
@@ -15,8 +16,8 @@ pub(super) const MOST_SIDES: usize = 4096;
 /// An inequality that decides, with its slack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slack {
-    /// What it is about; of inequalities that hang together through what statics leaves open, the friction of all
-    /// joints that stick.
+    /// What it is about; of inequalities that hang together through what statics leaves open, the friction of
+    /// all joints that stick.
     pub(super) subject: Decisive,
     /// In units; negative if it is violated.
     pub(super) value: f64,
@@ -31,8 +32,8 @@ pub(super) enum Decisive {
     Open(usize),
 }
 
-/// A phase, or what a group of joints does in it, with the sides of its sticking contacts and the reactions that leave most
-/// slack.
+/// A phase, or what a group of joints does in it, with the sides of its sticking contacts and the reactions
+/// that leave most slack.
 #[derive(Debug, Clone)]
 pub(super) struct Assessment {
     /// The phase; contacts that stick have the sides that leave most slack.
@@ -45,7 +46,8 @@ pub(super) struct Assessment {
     pub(super) slacks: Vec<Slack>,
     /// The least slack of what concerns the joints that stick; infinite if none does.
     pub(super) margin: f64,
-    /// Whether some of its equations follow from others, so that they could contradict each other at another instant.
+    /// Whether some of its equations follow from others, so that they could contradict each other at another
+    /// instant.
     pub(super) redundant: bool,
 }
 
@@ -107,9 +109,9 @@ thread_local! {
     pub(in crate::motion) static ASSESSED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
 }
 
-/// A phase at an instant, with the sides of its sticking contacts that leave most slack; nothing if its equations
-/// contradict each other for all of them. No further sides are tried in a group once an admissible state has a margin that is
-/// enough.
+/// A phase at an instant, with the sides of its sticking contacts that leave most slack; nothing if its
+/// equations contradict each other for all of them. No further sides are tried in a group once an admissible
+/// state has a margin that is enough.
 ///
 /// # Errors
 /// If a linear program was not solved.

@@ -13,8 +13,8 @@ const ROUNDS: usize = 30;
 const ENLARGED: f64 = 1.01;
 
 impl Instant<'_> {
-    /// The question for accelerations, with joints whose velocity is zero: about all phases, or one, in which sides are open only if a joint
-    /// sticks.
+    /// The question for accelerations, with joints whose velocity is zero: about all phases, or one, in which
+    /// sides are open only if a joint sticks.
     pub(super) fn question<'q>(&'q self, stopped: &'q [bool], phase: Option<&Phase>) -> Question<'q> {
         let slides = phase.filter(|phase| !phase.joints.contains(&JointPhase::Sticking));
         Question {
@@ -32,13 +32,15 @@ impl Instant<'_> {
     }
 }
 
-/// The sides that each contact can take: one alone where friction cannot turn the normal force, however joints stick or slide.
+/// The sides that each contact can take: one alone where friction cannot turn the normal force, however
+/// joints stick or slide.
 ///
 /// ```text
 /// |N_j - N_j(0)| <= sum_k |eta_jk| (mu_k |N_k| + F_k0)     with the greater mu and the greater |eta| of both faces
 /// ```
 ///
-/// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section 4).
+/// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section
+/// 4).
 fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     let contacts = 0..instant.mechanism.contacts.len();
     // A stop pushes with any force.

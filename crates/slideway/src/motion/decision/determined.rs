@@ -10,9 +10,9 @@ use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::pattern::Phase;
 
-/// The normal force of each contact in a phase (N); nothing where it hangs on how the joints that stick share their friction:
-/// where the equations leave it open for some admissible sides of the contacts that stick, or it differs from one choice of sides to
-/// another by more than what counts as zero in decisions.
+/// The normal force of each contact in a phase (N); nothing where it hangs on how the joints that stick share
+/// their friction: where the equations leave it open for some admissible sides of the contacts that stick, or
+/// it differs from one choice of sides to another by more than what counts as zero in decisions.
 ///
 /// # Errors
 /// As [`sticking_margin`](super::sticking_margin).

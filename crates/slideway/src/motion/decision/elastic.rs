@@ -19,8 +19,8 @@ const OUT_OF_RANGE: &str = "a coefficient is beyond the range of floating point"
 
 /// The attainability of a phase whose sides are known, without what an unattainable phase separates.
 ///
-/// Joints that stick are locked in the middle of the block, as far as the locks are independent, and their contacts
-/// are without friction there.
+/// Joints that stick are locked in the middle of the block, as far as the locks are independent, and their
+/// contacts are without friction there.
 pub(super) fn attainability(
     instant: &Instant<'_>,
     configuration: &Configuration,

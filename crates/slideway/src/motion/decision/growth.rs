@@ -18,8 +18,8 @@ const STEP: f64 = 1e-4;
 const NO_RATE: f64 = 1e-6;
 /// Second derivatives of slacks below this, likewise: they are accurate to about 1e-4.
 const NO_CURVATURE: f64 = 2e-3;
-/// A rate beyond this, per unit of that time, is told by one step: second derivatives, which one step counts as rates, are of the order
-/// of one in that unit, and would have to be 200 times that.
+/// A rate beyond this, per unit of that time, is told by one step: second derivatives, which one step counts
+/// as rates, are of the order of one in that unit, and would have to be 200 times that.
 const CLEAR_RATE: f64 = 1e-2;
 
 /// Accelerations of bodies and coordinates.
@@ -28,15 +28,16 @@ struct Accelerations {
     coordinates: Vec<f64>,
 }
 
-/// How a phase stands to its bounds; else those that it violates at once, or none if its equations contradict each other a
-/// little later.
+/// How a phase stands to its bounds; else those that it violates at once, or none if its equations contradict
+/// each other a little later.
 ///
-/// Something of the motion can change in the time in which accelerations or velocities go through the whole mechanism, or in that over
-/// which four samples show what the loads do.
+/// Something of the motion can change in the time in which accelerations or velocities go through the whole
+/// mechanism, or in that over which four samples show what the loads do.
 ///
-/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase: by the difference over one step
-/// where all rates are clear, else by one-sided differences over two steps, with constant accelerations, which tells rates as well as
-/// any, and by Heun's method where a rate is zero and the curvature is asked for.
+/// Slacks within [`BOUNDARY`] of zero are judged by their derivatives along the motion of the phase: by the
+/// difference over one step where all rates are clear, else by one-sided differences over two steps, with
+/// constant accelerations, which tells rates as well as any, and by Heun's method where a rate is zero and
+/// the curvature is asked for.
 pub(super) fn standing(
     configuration: &Configuration,
     (instant, question, assessment): (&Instant<'_>, &Question<'_>, &Assessment),

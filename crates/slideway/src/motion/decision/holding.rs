@@ -22,7 +22,8 @@ pub(crate) struct Holding<'m> {
     phase: Phase,
     stopped: Vec<bool>,
     amounts: Amounts<'m>,
-    /// The amounts at the time of the instant, and what one of each adds to what is asked of forces and accelerations.
+    /// The amounts at the time of the instant, and what one of each adds to what is asked of forces and
+    /// accelerations.
     first: Vec<f64>,
     responses: Vec<DVector<f64>>,
     base: DVector<f64>,
@@ -65,8 +66,8 @@ impl<'m> Holding<'m> {
         })
     }
 
-    /// [`sticking_margin`](super::sticking_margin) at a time, in the units of the first instant; sides that have left enough
-    /// at the last time are tried first.
+    /// [`sticking_margin`](super::sticking_margin) at a time, in the units of the first instant; sides that
+    /// have left enough at the last time are tried first.
     ///
     /// # Errors
     /// Loads without a value.
@@ -103,7 +104,8 @@ impl<'m> Holding<'m> {
         Ok(outlook)
     }
 
-    /// The same of a group of joints: a plan is followed as far as it goes, and replaced by the one that leaves most there.
+    /// The same of a group of joints: a plan is followed as far as it goes, and replaced by the one that
+    /// leaves most there.
     fn outlook_of(
         &mut self,
         group: &Group,
@@ -134,8 +136,9 @@ impl<'m> Holding<'m> {
         }
     }
 
-    /// Where the margin has fallen through zero before it was found to be negative: on the supporting plane of the margin, which is a
-    /// concave function of the amounts for given sides, and from there on if that was not enough.
+    /// Where the margin has fallen through zero before it was found to be negative: on the supporting plane
+    /// of the margin, which is a concave function of the amounts for given sides, and from there on if that
+    /// was not enough.
     fn zero_before(&mut self, group: &Group, plan: Plan, [from, end]: [f64; 2]) -> Result<f64, Faults> {
         let (mut plan, mut end) = (plan, end);
         loop {
@@ -149,7 +152,8 @@ impl<'m> Holding<'m> {
         }
     }
 
-    /// Forces of a group at a time, and how they go with the amounts; nothing if there are none, or a linear program was not solved.
+    /// Forces of a group at a time, and how they go with the amounts; nothing if there are none, or a linear
+    /// program was not solved.
     fn plan(&mut self, group: &Group, time: f64) -> Result<Option<Plan>, Faults> {
         let amounts = self.amounts.at(time)?;
         Ok(self.assess(group, &amounts).and_then(|found| {

@@ -32,31 +32,32 @@ pub struct Blow {
     pub energy_lost: f64,
 }
 
-/// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution `e`: its sliding
-/// velocity `v` becomes `-e v`.
+/// The impact of sliding joints that move towards end stops, each with Newton's coefficient of restitution
+/// `e`: its sliding velocity `v` becomes `-e v`.
 ///
-/// A stop pushes along the centre line of the guide, block against guide, with an impulse `P` that grows during the
-/// impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary Part, chapter IV). Loads and preloads are too small to count;
-/// on the way velocities change by
+/// A stop pushes along the centre line of the guide, block against guide, with an impulse `P` that grows
+/// during the impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary Part, chapter IV). Loads
+/// and preloads are too small to count; on the way velocities change by
 ///
 /// ```text
 /// M v' - G^T Lambda' - B U' - sum_k W_k Phi_k' = sum_i W_stop,i P_i'      G v' = 0      C v' = 0      P_i' >= 0
 /// Phi_k' = mu_k |Lambda_k'| s_k of joints that slide,    |Phi_k'| <= mu_static_k |Lambda_k'| of those at rest that stay so
 /// ```
 ///
-/// which is the mode problem of impulses. It is constant until a sliding velocity reaches zero; there it
-/// is decided anew. A joint slides against its stop first, and then away from it, so that its friction turns
-/// round within the impact. Of several possible answers the one with the greatest margin is taken. Coefficients of friction
-/// are those of the velocities before.
+/// which is the mode problem of impulses. It is constant until a sliding velocity reaches zero; there it is
+/// decided anew. A joint slides against its stop first, and then away from it, so that its friction turns
+/// round within the impact. Of several possible answers the one with the greatest margin is taken.
+/// Coefficients of friction are those of the velocities before.
 ///
-/// Stops that are reached together act together: the velocities `v_i` towards them go to `-e_i v_i` in proportion. A stop may also be
-/// without impulse, if the others take its joint away from it at least as fast: `P_i >= 0` and `-w_i >= e_i v_i` for the velocity
-/// `w_i` afterwards are complementary (J. J. Moreau). Without friction that is a linear complementarity problem with one
-/// outcome, which takes `sum_i P_i (1 - e_i) v_i/2` of kinetic energy. Every choice of the stops that push is tried.
+/// Stops that are reached together act together: the velocities `v_i` towards them go to `-e_i v_i` in
+/// proportion. A stop may also be without impulse, if the others take its joint away from it at least as
+/// fast: `P_i >= 0` and `-w_i >= e_i v_i` for the velocity `w_i` afterwards are complementary (J. J. Moreau).
+/// Without friction that is a linear complementarity problem with one outcome, which takes
+/// `sum_i P_i (1 - e_i) v_i/2` of kinetic energy. Every choice of the stops that push is tried.
 ///
 /// # Errors
-/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are tried, an impact
-/// in which friction leaves the stops no impulse, and one that can have several outcomes.
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, more states than are
+/// tried, an impact in which friction leaves the stops no impulse, and one that can have several outcomes.
 pub fn impact(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -180,8 +181,8 @@ impl Process<'_> {
         Ok(self.hits.iter().all(leaves).then_some(course))
     }
 
-    /// Follows an impact until joints have their velocities, in proportion; `false` if no impulse leads there. Every part but the last
-    /// brings another joint to rest.
+    /// Follows an impact until joints have their velocities, in proportion; `false` if no impulse leads
+    /// there. Every part but the last brings another joint to rest.
     fn follow(
         &self,
         course: &mut Outcome,
@@ -215,7 +216,8 @@ impl Process<'_> {
         Ok(true)
     }
 
-    /// The state in which the whole way from these sliding velocities to the targets could go; nothing if none is admissible.
+    /// The state in which the whole way from these sliding velocities to the targets could go; nothing if
+    /// none is admissible.
     fn state(
         &self,
         velocities: &[f64],
@@ -271,7 +273,8 @@ impl Process<'_> {
         first
     }
 
-    /// The impulse with which the stop of a joint pushes in a state (N s): at the face that is not pressed it is half of that alone.
+    /// The impulse with which the stop of a joint pushes in a state (N s): at the face that is not pressed it
+    /// is half of that alone.
     fn push(&self, state: &Assessment, joint: usize) -> f64 {
         let joint = &self.impulses.instant.joints[joint];
         let k = joint.contacts[0];

@@ -1,4 +1,5 @@
-//! Impulses: what jams and impacts have in common. Positions, loads and preloads do not count while velocities jump.
+//! Impulses: what jams and impacts have in common. Positions, loads and preloads do not count while
+//! velocities jump.
 
 use super::assessment::{Assessment, PRESSED, assess_group};
 use super::instant::Instant;
@@ -51,7 +52,8 @@ impl<'s> Impulses<'s> {
         self.speed / self.instant.units.acceleration
     }
 
-    /// What is asked of a state in which sliding velocities jump by so much (m/s) where joints stick or are pushed by their stops.
+    /// What is asked of a state in which sliding velocities jump by so much (m/s) where joints stick or are
+    /// pushed by their stops.
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
         let joints = self.instant.joints.iter().zip(jumps);
         Question {
@@ -65,7 +67,8 @@ impl<'s> Impulses<'s> {
         }
     }
 
-    /// What a joint with this sliding velocity can do during an impulse: what slides goes on, what rests may stay.
+    /// What a joint with this sliding velocity can do during an impulse: what slides goes on, what rests may
+    /// stay.
     pub(super) fn options(&self, joint: usize, velocity: f64) -> Vec<JointPhase> {
         if velocity != 0.0 {
             vec![JointPhase::Sliding(velocity.signum())]
@@ -97,8 +100,8 @@ impl<'s> Impulses<'s> {
         Ok(found)
     }
 
-    /// All states of a group in which its joints do one of these things each, with all sides of the contacts that slide; the
-    /// sides of contacts that stick are found later, and other groups do not matter.
+    /// All states of a group in which its joints do one of these things each, with all sides of the contacts
+    /// that slide; the sides of contacts that stick are found later, and other groups do not matter.
     fn states(&self, options: &[Vec<JointPhase>], group: &Group) -> Result<Vec<Phase>, Faults> {
         let inside = |joint: usize| group.joints.contains(&joint);
         let joints: Vec<Vec<JointPhase>> = options

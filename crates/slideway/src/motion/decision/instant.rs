@@ -58,7 +58,8 @@ impl<'m> Instant<'m> {
         Self::of(mechanism, (configuration, equations), Least::Now(rounding))
     }
 
-    /// The same in units of what the forces come to: those of the instant may vanish, and what they do next decides.
+    /// The same in units of what the forces come to: those of the instant may vanish, and what they do next
+    /// decides.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -70,8 +71,8 @@ impl<'m> Instant<'m> {
         Self::of(mechanism, (configuration, equations), Least::Now(scale))
     }
 
-    /// The same in units of at least this force (N): where all forces vanish at once, as at a dead centre without loads, what rounding has
-    /// left of them does not count.
+    /// The same in units of at least this force (N): where all forces vanish at once, as at a dead centre
+    /// without loads, what rounding has left of them does not count.
     ///
     /// # Errors
     /// As [`Self::new`].

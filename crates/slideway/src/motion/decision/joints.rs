@@ -19,7 +19,8 @@ pub(super) struct SlidingJoint {
     pub(super) id: JointId,
     /// Its contacts.
     pub(super) contacts: Vec<usize>,
-    /// Half the length of the pressed face of a guided slider, and the place of its couple among the unknowns.
+    /// Half the length of the pressed face of a guided slider, and the place of its couple among the
+    /// unknowns.
     pub(super) couple: Option<(f64, usize)>,
     /// Its acceleration of sliding.
     pub(super) row: SlidingRow,
@@ -84,8 +85,8 @@ fn touched_stop(mechanism: &Mechanism, configuration: &Configuration, slider: &S
     }
 }
 
-/// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a part in what is
-/// small; the units of the whole. Their least forces are found anew or remain.
+/// Gives the joints the units of the bodies that joints connect with them, so that nothing far away has a
+/// part in what is small; the units of the whole. Their least forces are found anew or remain.
 pub(super) fn set_units(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),

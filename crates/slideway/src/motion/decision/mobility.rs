@@ -1,4 +1,5 @@
-//! How joints accelerate under forces along their guides: whether others hold them, and in which senses they can begin to slide.
+//! How joints accelerate under forces along their guides: whether others hold them, and in which senses they
+//! can begin to slide.
 
 use super::instant::Instant;
 use nalgebra::DMatrix;
@@ -12,8 +13,9 @@ const NO_ACCELERATION: f64 = 1e-10;
 const GREATEST_FORCE: f64 = 1e8;
 
 impl Instant<'_> {
-    /// The sign of the acceleration of a joint that has no sliding velocity but passes: near a dead centre its acceleration comes
-    /// from the geometry of the motion (or from a drive), and no force along its guide that could occur would change it.
+    /// The sign of the acceleration of a joint that has no sliding velocity but passes: near a dead centre
+    /// its acceleration comes from the geometry of the motion (or from a drive), and no force along its guide
+    /// that could occur would change it.
     pub(super) fn passes(&self, joint: usize) -> Option<f64> {
         let acceleration = self.outputs.base[self.sliding_output(joint)];
         let holding_force = acceleration.abs() / self.mobility(joint, joint).abs();
@@ -23,9 +25,9 @@ impl Instant<'_> {
 
     /// Whether a joint does not accelerate while others are held, whatever forces act.
     ///
-    /// With `A_ij` the acceleration of joint i under a unit force along the guide of joint j (in the middle of the block)
-    /// and `a` those without friction this is `A_jj - A_jH A_HH^-1 A_Hj = 0` and `a_j - A_jH A_HH^-1 a_H = 0`, by elimination
-    /// with complete pivoting among the held joints H.
+    /// With `A_ij` the acceleration of joint i under a unit force along the guide of joint j (in the middle
+    /// of the block) and `a` those without friction this is `A_jj - A_jH A_HH^-1 A_Hj = 0` and
+    /// `a_j - A_jH A_HH^-1 a_H = 0`, by elimination with complete pivoting among the held joints H.
     pub(super) fn is_held(&self, joint: usize, held: &[usize]) -> bool {
         let joints: Vec<usize> = held.iter().copied().chain([joint]).collect();
         let last = held.len();
@@ -44,8 +46,8 @@ impl Instant<'_> {
         joints.len() - eliminate(&mut matrix, joints.len(), DEPENDENT * greatest)
     }
 
-    /// Whether two joints that begin to slide can do so with these signs: where the motion of one depends on that of the
-    /// other the signs must agree.
+    /// Whether two joints that begin to slide can do so with these signs: where the motion of one depends on
+    /// that of the other the signs must agree.
     pub(super) fn can_begin_together(&self, [one, other]: [(usize, f64); 2]) -> bool {
         let ratio = self.mobility(other.0, one.0) * self.mobility(one.0, one.0);
         !self.is_held(other.0, &[one.0]) || ratio * one.1 * other.1 >= 0.0

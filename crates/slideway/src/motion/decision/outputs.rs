@@ -1,4 +1,5 @@
-//! How normal forces, sliding accelerations and couples answer to friction, and which joints act on one another.
+//! How normal forces, sliding accelerations and couples answer to friction, and which joints act on one
+//! another.
 
 use super::joints::SlidingJoint;
 use crate::influence::Influence;
@@ -20,13 +21,14 @@ pub(super) struct Group {
     pub(super) contacts: Vec<usize>,
 }
 
-/// What is asked of all unknowns, as it answers to the friction forces: normal forces of the contacts, accelerations
-/// of the sliding joints, couples of the guided sliders, in units.
+/// What is asked of all unknowns, as it answers to the friction forces: normal forces of the contacts,
+/// accelerations of the sliding joints, couples of the guided sliders, in units.
 #[derive(Debug, Clone)]
 pub(super) struct Outputs {
     /// Without friction.
     pub(super) base: DVector<f64>,
-    /// Added by a unit of friction at the faces of positive and of negative normal force; a column for each contact.
+    /// Added by a unit of friction at the faces of positive and of negative normal force; a column for each
+    /// contact.
     pub(super) columns: [DMatrix<f64>; 2],
 }
 
@@ -105,8 +107,8 @@ pub(super) fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[Sl
     Outputs { base, columns }
 }
 
-/// Makes both versions of a column equal where they are so in theory: for guided sliders, whose couple takes up the
-/// moment of friction, and wherever that has no influence.
+/// Makes both versions of a column equal where they are so in theory: for guided sliders, whose couple takes
+/// up the moment of friction, and wherever that has no influence.
 fn make_equal(mechanism: &Mechanism, columns: &mut [DMatrix<f64>; 2]) {
     let [positive, negative] = columns;
     for (k, contact) in mechanism.contacts.iter().enumerate() {

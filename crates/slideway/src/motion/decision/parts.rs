@@ -43,7 +43,8 @@ pub(super) struct Part {
     pub(super) is_present: bool,
     /// Whether accelerations and normal forces are what they were.
     pub(super) continues: bool,
-    /// Whether it is attainable if all other groups are locked; not computed before its place in the order is asked for.
+    /// Whether it is attainable if all other groups are locked; not computed before its place in the order is
+    /// asked for.
     pub(super) verdict: Verdict,
 }
 
@@ -109,7 +110,8 @@ impl Search<'_> {
         assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
     }
 
-    /// Whether nothing happens in a group: no joint of it has just stopped or turned, and what it did is at no boundary.
+    /// Whether nothing happens in a group: no joint of it has just stopped or turned, and what it did is at
+    /// no boundary.
     fn is_undisturbed(&self, group: &Group, before: &Assessment) -> bool {
         let keeps = |joint: &usize| match before.phase.joints[*joint] {
             JointPhase::Sticking => self.event.signs[*joint] == 0.0,
@@ -161,8 +163,8 @@ impl Search<'_> {
         Ok(list)
     }
 
-    /// All states of the joints of a group with all sides of the contacts that slide, those in which most joints stick first;
-    /// contacts that stick have any side.
+    /// All states of the joints of a group with all sides of the contacts that slide, those in which most
+    /// joints stick first; contacts that stick have any side.
     fn patterns<'p>(&'p self, group: &'p Group) -> impl Iterator<Item = Phase> + 'p {
         let rests =
             |joint: &usize| self.event.signs[*joint] == 0.0 && self.instant.joints[*joint].has_friction;
@@ -193,8 +195,8 @@ impl Search<'_> {
         })
     }
 
-    /// Whether the joints that begin to slip can do so: none depends on joints that stick, and those that depend on one
-    /// another slip in the senses that belong together.
+    /// Whether the joints that begin to slip can do so: none depends on joints that stick, and those that
+    /// depend on one another slip in the senses that belong together.
     fn can_begin(&self, group: &Group, joints: &[JointPhase]) -> bool {
         let of_group = || group.joints.iter().copied();
         let held: Vec<usize> = of_group().filter(|&joint| joints[joint] == JointPhase::Sticking).collect();
@@ -226,7 +228,8 @@ impl Search<'_> {
         (!joints.is_empty()).then(|| Tipping { phase: phase.clone(), joints })
     }
 
-    /// What a group can do beside what it did before; what is continued is left out where a single phase can follow.
+    /// What a group can do beside what it did before; what is continued is left out where a single phase can
+    /// follow.
     fn compared(
         &self,
         group: &Group,
@@ -245,7 +248,8 @@ impl Search<'_> {
         list.into_iter().map(part).collect()
     }
 
-    /// Passes verdicts on what each group can do; for each group the places of its parts in the order of preference.
+    /// Passes verdicts on what each group can do; for each group the places of its parts in the order of
+    /// preference.
     pub(super) fn order(&self, parts: &mut [Vec<Part>]) -> Vec<Vec<usize>> {
         let groups = self.instant.groups.iter().zip(parts);
         groups.map(|(group, parts)| self.order_of(group, parts)).collect()
@@ -331,7 +335,8 @@ impl Search<'_> {
 /// All sets of so many of the first numbers, as bits.
 fn subsets(of: u32, count: u32) -> impl Iterator<Item = u64> {
     let first = (1_u64 << count) - 1;
-    // R. W. Gosper: the next number with as many bits (M. Beeler, R. W. Gosper, R. Schroeppel, HAKMEM, item 175, 1972).
+    // R. W. Gosper: the next number with as many bits (M. Beeler, R. W. Gosper, R. Schroeppel, HAKMEM, item
+    // 175, 1972).
     let next = |set: &u64| {
         let lowest = set & set.wrapping_neg();
         let carried = set + lowest;

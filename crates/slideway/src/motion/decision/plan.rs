@@ -1,11 +1,12 @@
 //! Forces with which joints stick while loads change: how long they are admissible.
 //!
-//! At rest, and with given sides of the contacts, all slacks are affine in the amounts of the loads and in what statics leaves
-//! open. The linear program of the greatest least slack has one solution at each amount, and near it what is open goes
-//! affinely with the amounts, as the slacks that are least there stay equal. With this *plan* every slack is an affine function
-//! of the amounts, so a function of time alone, whose sign interval arithmetic decides over spans of time: by the bounds of
-//! the amounts, by the mean value theorem, and by monotony where it falls. Where one of them falls below zero another
-//! plan is asked for; where no plan is admissible something slips.
+//! At rest, and with given sides of the contacts, all slacks are affine in the amounts of the loads and in
+//! what statics leaves open. The linear program of the greatest least slack has one solution at each amount,
+//! and near it what is open goes affinely with the amounts, as the slacks that are least there stay equal.
+//! With this *plan* every slack is an affine function of the amounts, so a function of time alone, whose sign
+//! interval arithmetic decides over spans of time: by the bounds of the amounts, by the mean value theorem,
+//! and by monotony where it falls. Where one of them falls below zero another plan is asked for; where no
+//! plan is admissible something slips.
 
 use super::BOUNDARY;
 use super::assessment::concerns_sticking;
@@ -19,7 +20,8 @@ use crate::motion::moving::root::falling_root;
 use crate::pattern::{Affine, AffineSet, Phase, Region};
 use nalgebra::{DMatrix, DVector};
 
-/// A plan ends where a slack falls to this below zero: so what is admissible at the boundary where it begins lasts.
+/// A plan ends where a slack falls to this below zero: so what is admissible at the boundary where it begins
+/// lasts.
 const ENDS: f64 = 2.0 * BOUNDARY;
 /// Slacks that are so near to the least one are equal.
 const EQUAL: f64 = 1e-9;
@@ -69,8 +71,8 @@ pub(super) enum Fall {
 }
 
 impl Plan {
-    /// The plan of a pattern with these amounts, of each of which one unit adds a response to the outputs; nothing where
-    /// its equations contradict each other, or a linear program was not solved.
+    /// The plan of a pattern with these amounts, of each of which one unit adds a response to the outputs;
+    /// nothing where its equations contradict each other, or a linear program was not solved.
     pub(super) fn new(
         instant: &mut Instant<'_>,
         system: &System<'_>,
@@ -135,7 +137,8 @@ impl Plan {
         self.margin.value
     }
 
-    /// Where in a span, at whose start it is admissible, the first slack falls below zero; cells of time that are looked at are counted.
+    /// Where in a span, at whose start it is admissible, the first slack falls below zero; cells of time that
+    /// are looked at are counted.
     pub(super) fn first_fall(
         &self,
         amounts: &Amounts<'_>,
@@ -229,8 +232,8 @@ impl Plan {
     }
 }
 
-/// The slacks of what concerns the joints that stick in a pattern, and of all that hangs together with them; nothing where the
-/// equations contradict each other.
+/// The slacks of what concerns the joints that stick in a pattern, and of all that hangs together with them;
+/// nothing where the equations contradict each other.
 fn slacks(instant: &Instant<'_>, system: &System<'_>) -> Option<Vec<Affine>> {
     let question = Question {
         outputs: &instant.outputs,
@@ -249,7 +252,8 @@ fn slacks(instant: &Instant<'_>, system: &System<'_>) -> Option<Vec<Affine>> {
     Some(equations.inequalities().into_iter().filter(counts).map(|inequality| inequality.slack).collect())
 }
 
-/// How what is open goes with an amount so that the least slacks stay equal, and their common slope behind it:
+/// How what is open goes with an amount so that the least slacks stay equal, and their common slope behind
+/// it:
 ///
 /// ```text
 /// a_i z' + slope_i = t'

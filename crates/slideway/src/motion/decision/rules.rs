@@ -86,7 +86,8 @@ pub trait Decisions {
         phase: &Phase,
     ) -> Result<f64, Faults>;
 
-    /// The normal force of each contact in a phase in which joints stick (N), nothing where statics does not determine it.
+    /// The normal force of each contact in a phase in which joints stick (N), nothing where statics does not
+    /// determine it.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
@@ -99,7 +100,8 @@ pub trait Decisions {
         Ok(vec![None; mechanism.contacts.len()])
     }
 
-    /// What looks ahead in time for the bodies that stand still and stay as long as joints stick; nothing if nothing does.
+    /// What looks ahead in time for the bodies that stand still and stay as long as joints stick; nothing if
+    /// nothing does.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.

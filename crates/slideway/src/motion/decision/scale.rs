@@ -16,7 +16,8 @@ const FARTHEST: i32 = 30;
 pub(super) struct Share<'s> {
     /// The bodies.
     pub(super) counts: &'s dyn Fn(BodyId) -> bool,
-    /// The greatest of their masses (kg), moments of inertia divided by the square of the size of the mechanism.
+    /// The greatest of their masses (kg), moments of inertia divided by the square of the size of the
+    /// mechanism.
     pub(super) mass: f64,
     /// The greatest force of the instant (N).
     pub(super) force: f64,
@@ -25,14 +26,15 @@ pub(super) struct Share<'s> {
 /// The least unit of force (N).
 pub(super) type Scale = fn(&Mechanism, &Configuration, Share<'_>) -> f64;
 
-/// The greatest force that the loads and drives come to while they could take the greatest mass through the size `L` of the mechanism (N):
+/// The greatest force that the loads and drives come to while they could take the greatest mass through the
+/// size `L` of the mechanism (N):
 ///
 /// ```text
 /// max over s of min(F(s), m L/s^2)        F(s): the greatest load a time s ahead, the bodies going on as they move
 /// ```
 ///
-/// at powers of 4 s. Where the force of the instant is not at the boundary beside that, it is the scale itself, or what the rounding of
-/// positions makes of springs.
+/// at powers of 4 s. Where the force of the instant is not at the boundary beside that, it is the scale
+/// itself, or what the rounding of positions makes of springs.
 pub(super) fn scale(mechanism: &Mechanism, configuration: &Configuration, share: Share<'_>) -> f64 {
     let greatest_work = share.mass * mechanism.size;
     let now = share.force.max(rounding(mechanism, configuration, share));

@@ -10,8 +10,8 @@ const CLEAR: f64 = 1e-6;
 /// ... and by equations of which no pivot is below this part of the greatest entry.
 const REGULAR: f64 = 1e-6;
 
-/// The equations `sigma_j p_j - sum_k eta_jk mu_k s_k p_k = N_j(0) + sum_k eta_jk F_k0 s_k` of a pattern without preload
-/// gaps, with `p_k = |N_k|`, solved by elimination in memory that is kept.
+/// The equations `sigma_j p_j - sum_k eta_jk mu_k s_k p_k = N_j(0) + sum_k eta_jk F_k0 s_k` of a pattern
+/// without preload gaps, with `p_k = |N_k|`, solved by elimination in memory that is kept.
 pub(super) struct Sieve<'s> {
     question: &'s Question<'s>,
     instant: &'s Instant<'s>,
@@ -38,8 +38,9 @@ impl<'s> Sieve<'s> {
         }
     }
 
-    /// Whether a pattern is certainly no state: a normal force has the wrong sign, or a joint that begins to slip
-    /// accelerates against its direction. Patterns in which something sticks or is in a preload gap are not judged.
+    /// Whether a pattern is certainly no state: a normal force has the wrong sign, or a joint that begins to
+    /// slip accelerates against its direction. Patterns in which something sticks or is in a preload gap are
+    /// not judged.
     pub(super) fn excludes(&mut self, phase: &Phase) -> bool {
         self.fill(phase).is_some() && self.solve() && (self.is_lifted() || self.is_pushed_back(phase))
     }

@@ -25,14 +25,14 @@ pub struct PhaseState {
     pub frictions: Vec<ContactFriction>,
     /// For each contact that slides in its preload gap, the share of the positive face.
     pub shares: Vec<Option<f64>>,
-    /// Number of reactions that statics leaves open; those of greatest margin are told. Zero where no joint sticks,
-    /// unless the mode is singular (D = 0).
+    /// Number of reactions that statics leaves open; those of greatest margin are told. Zero where no joint
+    /// sticks, unless the mode is singular (D = 0).
     pub indeterminate: usize,
-    /// How much friction is left to the joints that stick, see [`sticking_margin`](super::sticking_margin); nothing
-    /// where none sticks.
+    /// How much friction is left to the joints that stick, see [`sticking_margin`](super::sticking_margin);
+    /// nothing where none sticks.
     pub margin: Option<f64>,
-    /// The least slack of everything that bounds the phase, likewise in units of the greatest force or acceleration;
-    /// negative if the phase is not admissible.
+    /// The least slack of everything that bounds the phase, likewise in units of the greatest force or
+    /// acceleration; negative if the phase is not admissible.
     pub least_slack: f64,
 }
 
@@ -62,8 +62,8 @@ pub(super) fn state(instant: &Instant<'_>, assessment: &Assessment) -> PhaseStat
     }
 }
 
-/// Whether a group does the same in two phases, but for the sides of contacts that stick and the signs of joints without
-/// friction, which have no effect.
+/// Whether a group does the same in two phases, but for the sides of contacts that stick and the signs of
+/// joints without friction, which have no effect.
 pub(super) fn is_same_phase(instant: &Instant<'_>, group: &Group, [one, other]: [&Phase; 2]) -> bool {
     let slides = |phase: &Phase, joint: usize| matches!(phase.joints[joint], JointPhase::Sliding(_));
     let same_joint = |joint: usize| {

@@ -19,8 +19,8 @@ pub(super) const ENOUGH: f64 = 0.01;
 pub struct Sticking {
     /// The margin, see [`sticking_margin`].
     pub margin: f64,
-    /// The phase with the sides at which its sticking contacts are pressed; to be passed on next time, so that these
-    /// are tried first.
+    /// The phase with the sides at which its sticking contacts are pressed; to be passed on next time, so
+    /// that these are tried first.
     pub phase: Phase,
     /// Accelerations and the reactions that attain the margin.
     pub state: PhaseState,
@@ -35,15 +35,17 @@ pub struct Sticking {
 /// ```
 ///
 /// at every contact of the joints that stick, `f` being the greatest force of the instant (load, preload or
-/// inertia), but at least so great that what the rounding of positions makes of springs counts as zero beside it. It is the greatest over all sides of these contacts and varies continuously with the state, as long as
-/// the sides of contacts that slide do not change; but if the sides of `phase` leave at least 0.01, others, which could
-/// leave more, are not tried. At an instant at which a contact of a joint that sticks is without
-/// load and preload the margin is zero without becoming negative. It is infinite where no joint sticks, and -1 where
-/// the joints cannot all stick at their velocities, or a linear program was not solved. When it reaches zero,
-/// [`successors`](super::successors) says which joint slips which way.
+/// inertia), but at least so great that what the rounding of positions makes of springs counts as zero beside
+/// it. It is the greatest over all sides of these contacts and varies continuously with the state, as long as
+/// the sides of contacts that slide do not change; but if the sides of `phase` leave at least 0.01, others,
+/// which could leave more, are not tried. At an instant at which a contact of a joint that sticks is without
+/// load and preload the margin is zero without becoming negative. It is infinite where no joint sticks, and
+/// -1 where the joints cannot all stick at their velocities, or a linear program was not solved. When it
+/// reaches zero, [`successors`](super::successors) says which joint slips which way.
 ///
 /// # Errors
-/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and a phase of another mechanism.
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, and a phase of another
+/// mechanism.
 pub fn sticking_margin(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -56,8 +58,8 @@ pub fn sticking_margin(
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
 
-/// [`sticking_margin`] with the accelerations and reactions that attain it; nothing where the joints cannot all stick at
-/// their velocities.
+/// [`sticking_margin`] with the accelerations and reactions that attain it; nothing where the joints cannot
+/// all stick at their velocities.
 ///
 /// # Errors
 /// As [`sticking_margin`].
@@ -77,8 +79,8 @@ pub fn sticking(
     Ok(Some(Sticking { margin: assessment.margin, phase: assessment.phase, state }))
 }
 
-/// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; nothing where its equations
-/// contradict each other (a mode with D = 0, joints that cannot all stick at their velocities).
+/// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; nothing where its
+/// equations contradict each other (a mode with D = 0, joints that cannot all stick at their velocities).
 ///
 /// # Errors
 /// As [`sticking_margin`].

@@ -25,12 +25,13 @@ const ALONE: &str = "no other phase can follow";
 pub struct Successors {
     /// The phases, the one to be followed first.
     pub list: Vec<Successor>,
-    /// Phases that would be admissible but that a guided slider would tip: it has no state of its own for that, a block
-    /// slider has.
+    /// Phases that would be admissible but that a guided slider would tip: it has no state of its own for
+    /// that, a block slider has.
     pub tipping: Vec<Tipping>,
     /// Phases of which a linear program was not solved.
     pub unsolved: Vec<Phase>,
-    /// Whether these are all; else there are so many states that some in which fewer joints stick were left out.
+    /// Whether these are all; else there are so many states that some in which fewer joints stick were left
+    /// out.
     pub complete: bool,
 }
 
@@ -43,7 +44,8 @@ pub struct Successor {
     pub state: PhaseState,
     /// Whether it is the previous phase.
     pub is_present: bool,
-    /// Whether accelerations and the normal forces of joints that go on sliding are those of the previous phase.
+    /// Whether accelerations and the normal forces of joints that go on sliding are those of the previous
+    /// phase.
     pub continues: bool,
     /// How it stands to its bounds.
     pub standing: Standing,
@@ -60,29 +62,32 @@ pub struct Tipping {
     pub joints: Vec<JointId>,
 }
 
-/// The phases that can follow at an instant, in the order in which they are to be preferred. Groups of joints without
-/// influence on one another are decided separately; in each of them come
+/// The phases that can follow at an instant, in the order in which they are to be preferred. Groups of joints
+/// without influence on one another are decided separately; in each of them come
 ///
-/// 1. what rests, stays: phases in which more of the joints stick that stuck before, then those in which more joints stick. So a
-///    phase comes before those in which fewer of its joints stick. The other rules decide only between phases with equally many.
+/// 1. what rests, stays: phases in which more of the joints stick that stuck before, then those in which more
+///    joints stick. So a phase comes before those in which fewer of its joints stick. The other rules decide
+///    only between phases with equally many.
 /// 2. the present phase, if it still exists;
 /// 3. one that continues it: accelerations and reactions do not jump;
 /// 4. attainable ones before those with flutter or without a verdict;
 /// 5. unattainable ones, unless they are the present phase or continue one that is unattainable itself.
 ///
-/// A group in which nothing happens, because no joint of it has just stopped and its part of the previous phase is admissible and at
-/// no boundary, goes on as before, unless that is so of all groups.
+/// A group in which nothing happens, because no joint of it has just stopped and its part of the previous
+/// phase is admissible and at no boundary, goes on as before, unless that is so of all groups.
 ///
-/// `stopped` says of every sliding joint, in the order of the mechanism's joints, whether its velocity is zero; the
-/// others slide with the sign of their velocity. Bodies may move in any case. Of `previous` only what it does matters, not
-/// whether it was admissible. Joints without friction and preload always slide; the sign of one at rest is that of its
-/// acceleration. A joint whose motion depends on that of joints that stick sticks with them.
+/// `stopped` says of every sliding joint, in the order of the mechanism's joints, whether its velocity is
+/// zero; the others slide with the sign of their velocity. Bodies may move in any case. Of `previous` only
+/// what it does matters, not whether it was admissible. Joints without friction and preload always slide; the
+/// sign of one at rest is that of its acceleration. A joint whose motion depends on that of joints that stick
+/// sticks with them.
 ///
-/// An empty list while something moves is dynamic jamming, see [`jam`](super::jam), unless guided sliders would tip.
+/// An empty list while something moves is dynamic jamming, see [`jam`](super::jam), unless guided sliders
+/// would tip.
 ///
 /// # Errors
-/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, lists of the wrong length, more
-/// states than are tried.
+/// Whatever [`KineticEquations::new`](crate::kinetics::KineticEquations::new) refuses, lists of the wrong
+/// length, more states than are tried.
 ///
 /// ```
 /// use slideway::configuration::Configuration;
@@ -119,10 +124,10 @@ pub fn successors(
     at(instant, &event, Detail::Everything)
 }
 
-/// The phases of [`successors`], with no more than it takes to put them in their order: patterns of sliding that are
-/// far from any state are not assessed, sides of sticking contacts are those of the first state with a margin, and of
-/// attainability there is the verdict alone. Where a single phase can follow, nothing is said about its attainability, and
-/// of its being continued only whether it is the previous phase.
+/// The phases of [`successors`], with no more than it takes to put them in their order: patterns of sliding
+/// that are far from any state are not assessed, sides of sticking contacts are those of the first state with
+/// a margin, and of attainability there is the verdict alone. Where a single phase can follow, nothing is
+/// said about its attainability, and of its being continued only whether it is the previous phase.
 ///
 /// # Errors
 /// As [`successors`].
@@ -209,8 +214,8 @@ fn outcome(search: &Search<'_>, parts: &[Vec<Part>], chosen: Vec<usize>) -> Outc
     Outcome { chosen, whole, standing }
 }
 
-/// Every way to choose one part for each group; if there are so many that their places in the order of preference are given, those
-/// in which all groups but one take the preferred one.
+/// Every way to choose one part for each group; if there are so many that their places in the order of
+/// preference are given, those in which all groups but one take the preferred one.
 fn choices(parts: &[Vec<Part>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
     let Some(order) = order else {
         let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
@@ -266,9 +271,9 @@ fn severity(verdict: Verdict) -> u8 {
     }
 }
 
-/// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as far as can be
-/// seen, or in joints that stick in the one and do not begin to move in the other. Beside the previous phase, which may be at its
-/// end, those are left.
+/// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as
+/// far as can be seen, or in joints that stick in the one and do not begin to move in the other. Beside the
+/// previous phase, which may be at its end, those are left.
 fn without_copies(search: &Search<'_>, list: &mut Vec<Successor>) {
     let stays = |one: &Successor, limit: Limit| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&limit));
     let instant = search.instant;

@@ -48,7 +48,8 @@ pub(super) struct Question<'q> {
     pub(super) stopped: &'q [bool],
     /// A joint that sticks only at the end, and the sign of the sliding velocity that its friction opposes.
     pub(super) opposes: Option<(usize, f64)>,
-    /// Joints that slide and are pushed by the stops that they touch, so that they have the wanted acceleration, too.
+    /// Joints that slide and are pushed by the stops that they touch, so that they have the wanted
+    /// acceleration, too.
     pub(super) pushed: Vec<usize>,
 }
 
@@ -67,7 +68,8 @@ pub(super) struct System<'s> {
 }
 
 impl<'s> System<'s> {
-    /// The pattern of a group of joints in a phase, with its equations; nothing where they contradict each other.
+    /// The pattern of a group of joints in a phase, with its equations; nothing where they contradict each
+    /// other.
     pub(super) fn new(
         instant: &'s Instant<'s>,
         question: &'s Question<'s>,
@@ -101,8 +103,8 @@ impl<'s> System<'s> {
         self.solutions.dimension()
     }
 
-    /// Whether some equations follow from others by chance, so that they could contradict each other at another instant:
-    /// not because joints that stick depend on one another.
+    /// Whether some equations follow from others by chance, so that they could contradict each other at
+    /// another instant: not because joints that stick depend on one another.
     pub(super) fn is_redundant(&self) -> bool {
         let bound = self.bound_joints();
         let excess = self.group.contacts.len() + bound.len() - (self.unknowns - self.dimension());
@@ -146,7 +148,8 @@ impl<'s> System<'s> {
             }
         }
         for &(joint, force) in &self.stops {
-            // It pushes the block away from the stop, along the centre line as friction in the middle between both faces does.
+            // It pushes the block away from the stop, along the centre line as friction in the middle between
+            // both faces does.
             let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
             let [plus, minus] = [0, 1].map(|face| outputs.columns[face][(row, contacts[0])]);
             expression = expression.plus(stop * f64::midpoint(plus, minus), &Expression::unknown(force, 1.0));
@@ -154,7 +157,8 @@ impl<'s> System<'s> {
         expression
     }
 
-    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that is bound to one.
+    /// N_j = N_j(0) + sum_k eta_jk F_k for every contact, and the sliding acceleration of every joint that is
+    /// bound to one.
     fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
         let bound = self.bound_joints();
         let contacts = self.group.contacts.len();

@@ -1,4 +1,5 @@
-//! Units in which the numbers of a decision are of order one: of the whole mechanism, and of what joints connect.
+//! Units in which the numbers of a decision are of order one: of the whole mechanism, and of what joints
+//! connect.
 
 use super::scale::{Share, scale};
 use crate::configuration::Configuration;
@@ -18,7 +19,8 @@ pub(super) struct Units {
     pub(super) acceleration: f64,
 }
 
-/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N where there never is any.
+/// The scale of the forces of a mechanism where those of the instant may vanish (N), see [`scale`]; 1 N where
+/// there never is any.
 pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
     let length = mechanism.size;
     let masses = mechanism.bodies.iter();
@@ -28,7 +30,8 @@ pub(in crate::motion) fn scale_of_forces(mechanism: &Mechanism, configuration: &
     units(length, (force, mass), 1.0).force
 }
 
-/// The greatest of the loads, preloads and forces of inertia of some bodies (N), and the greatest of their masses (kg).
+/// The greatest of the loads, preloads and forces of inertia of some bodies (N), and the greatest of their
+/// masses (kg).
 pub(super) fn greatest(
     mechanism: &Mechanism,
     (influence, equations): (&Influence, &KineticEquations),

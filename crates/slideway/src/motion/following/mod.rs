@@ -1,5 +1,5 @@
-//! What follows the motion: phase by phase (`run.rs`), step by step within a phase (`smooth/`), and through impacts on end stops
-//! (`stop.rs`).
+//! What follows the motion: phase by phase (`run.rs`), step by step within a phase (`smooth/`), and through
+//! impacts on end stops (`stop.rs`).
 
 pub(in crate::motion) mod run;
 pub(in crate::motion) mod smooth;
@@ -20,7 +20,8 @@ use std::ops::ControlFlow;
 /// The motion of a model from its state on, with the events of the model.
 ///
 /// # Errors
-/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the
+/// history.
 pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Faults> {
     check(options)?;
     let mechanism = Mechanism::new(model)?;
@@ -29,11 +30,12 @@ pub fn simulate(model: &Model, options: &SimulateOptions) -> Result<History, Fau
     simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told after every
-/// step how much of the time is over, and ends the simulation when it breaks.
+/// The motion of a mechanism from a state on, with these decisions at its events; `progress` is told after
+/// every step how much of the time is over, and ends the simulation when it breaks.
 ///
 /// # Errors
-/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the history.
+/// Options that make no sense, and a state in which the motion cannot begin. What goes wrong later ends the
+/// history.
 pub fn simulate_with(
     mechanism: &Mechanism,
     configuration: &Configuration,
@@ -46,8 +48,8 @@ pub fn simulate_with(
     Run::new(mechanism, configuration, options, decisions).follow(progress)
 }
 
-/// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more accurate than
-/// that: of positions in relation to the size of the mechanism, of angles to one radian.
+/// A step ends in numbers that are rounded to the machine epsilon of their magnitude, so that no step is more
+/// accurate than that: of positions in relation to the size of the mechanism, of angles to one radian.
 ///
 /// # Errors
 /// A smaller tolerance.

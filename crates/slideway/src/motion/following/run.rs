@@ -390,8 +390,8 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 }
 
-/// Without the phases that have just come to their end: in which all joints stick that cannot any longer, or whose
-/// determinant vanishes.
+/// Without the phases that have just come to their end: in which all joints stick that cannot any longer, or
+/// whose determinant vanishes.
 fn without_ended(
     mechanism: &Mechanism,
     successors: &mut Vec<Continuation>,

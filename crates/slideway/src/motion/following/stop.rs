@@ -36,8 +36,8 @@ pub(in crate::motion) fn hits(mechanism: &Mechanism, causes: &[Cause]) -> Vec<Hi
     causes.iter().filter_map(hit).collect()
 }
 
-/// The impact on stops: with their restitution, or without where the next flight would be within the rounding of places, so
-/// that what bounces has come to rest at its stop.
+/// The impact on stops: with their restitution, or without where the next flight would be within the rounding
+/// of places, so that what bounces has come to rest at its stop.
 ///
 /// # Errors
 /// As [`impact`], and whatever keeps the next flight from being decided.
@@ -63,8 +63,8 @@ pub(in crate::motion) fn impact_of(
     }
 }
 
-/// Whether the way of the flight after an impact can be told from rounding: `u^2/(2 a)` with the velocity `u` away from the stop and the
-/// acceleration `a` towards it.
+/// Whether the way of the flight after an impact can be told from rounding: `u^2/(2 a)` with the velocity `u`
+/// away from the stop and the acceleration `a` towards it.
 fn flies(
     hit: Hit,
     mechanism: &Mechanism,

@@ -16,7 +16,8 @@ enum Amount {
     Tension { stiffness: Quantity, extent: f64, free: Quantity },
 }
 
-/// The amounts of the loads that change with time while a mechanism stays in a configuration: functions of time alone.
+/// The amounts of the loads that change with time while a mechanism stays in a configuration: functions of
+/// time alone.
 #[derive(Debug, Clone)]
 pub(in crate::motion) struct Amounts<'m> {
     mechanism: &'m Mechanism,
@@ -29,7 +30,8 @@ pub(in crate::motion) struct Amounts<'m> {
 }
 
 impl<'m> Amounts<'m> {
-    /// The amounts of the loads on bodies that stand still in a configuration, with relations on the pieces of that.
+    /// The amounts of the loads on bodies that stand still in a configuration, with relations on the pieces
+    /// of that.
     pub(in crate::motion) fn new(
         mechanism: &'m Mechanism,
         configuration: &Configuration,
@@ -66,7 +68,8 @@ impl<'m> Amounts<'m> {
         self.list.iter().map(|(amount, _)| amount.of(quantity)).collect()
     }
 
-    /// The amounts over a span of time, with bounds of their rates; nothing where one has no value for some of it.
+    /// The amounts over a span of time, with bounds of their rates; nothing where one has no value for some
+    /// of it.
     pub(in crate::motion) fn over(&self, span: Interval) -> Option<Vec<Sloped>> {
         let [parameters, coordinates, rates] = &self.fixed;
         let values = Values {
@@ -99,8 +102,8 @@ impl Amount {
     }
 }
 
-/// The amounts of a load that change with time, each with the load of which there is one unit and nothing else; what resists
-/// velocities does nothing at rest.
+/// The amounts of a load that change with time, each with the load of which there is one unit and nothing
+/// else; what resists velocities does nothing at rest.
 fn amounts_of(mechanism: &Mechanism, configuration: &Configuration, load: &Load) -> Vec<(Amount, Load)> {
     let changes = |quantity: &Quantity| match quantity {
         Quantity::Constant(_) => false,

@@ -108,7 +108,8 @@ pub enum CauseKind {
 }
 
 impl Cause {
-    /// The cause that a watched function is; none for relations, of which only jumps are told, and where it takes a decision to name it.
+    /// The cause that a watched function is; none for relations, of which only jumps are told, and where it
+    /// takes a decision to name it.
     pub(in crate::motion) fn of(
         watched: Watched,
         sliders: &[JointId],

@@ -16,8 +16,8 @@ pub(in crate::motion) fn kinetic(mechanism: &Mechanism, configuration: &Configur
     bodies.map(one).sum()
 }
 
-/// Potential energy of weights, pads, springs and torsional springs with constant properties (J); weights count from the
-/// origin.
+/// Potential energy of weights, pads, springs and torsional springs with constant properties (J); weights
+/// count from the origin.
 pub(in crate::motion) fn potential(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
     let bodies = mechanism.bodies.iter().zip(&configuration.poses);
     let weights: f64 = bodies.map(|(body, pose)| -body.mass * mechanism.gravity.dot(&pose.position)).sum();
@@ -47,7 +47,8 @@ fn elastic(mechanism: &Mechanism, configuration: &Configuration, load: &Load) ->
     stiffness * stretch.powi(2) / 2.0
 }
 
-/// Whether the work of a load is counted as potential energy: a spring that does not change, a pad without damping.
+/// Whether the work of a load is counted as potential energy: a spring that does not change, a pad without
+/// damping.
 pub(in crate::motion) fn is_conservative(load: &Load) -> bool {
     let constant = |quantity: &Quantity| matches!(quantity, Quantity::Constant(_));
     match &load.kind {
@@ -85,8 +86,8 @@ pub(in crate::motion) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
     }
 }
 
-/// The power that a load stores as potential energy while the rest of it is work (W): the spring of a pad. The block leaves the pad
-/// before that is back at its place; what is stored then is lost in the damper.
+/// The power that a load stores as potential energy while the rest of it is work (W): the spring of a pad.
+/// The block leaves the pad before that is back at its place; what is stored then is lost in the damper.
 fn stored(equations: &Equations<'_>, load: &Load) -> f64 {
     match &load.kind {
         LoadKind::Pad(pad) => pad.elastic(equations.configuration.depth(equations.mechanism, pad))[1],

@@ -5,13 +5,14 @@ const WELL_CONDITIONED: f64 = 1e6;
 
 /// A square matrix, its factors (LU with partial pivoting) and its determinant.
 ///
-/// Of kinetic equations the first unknowns, accelerations, are coupled by nothing but the others: the diagonal of masses is taken for
-/// their pivots without a search, and most of the work is left out. Where the pivots that then follow say that it matters which one
-/// is taken, all are searched for.
+/// Of kinetic equations the first unknowns, accelerations, are coupled by nothing but the others: the
+/// diagonal of masses is taken for their pivots without a search, and most of the work is left out. Where the
+/// pivots that then follow say that it matters which one is taken, all are searched for.
 #[derive(Debug, Clone, Default)]
 pub(in crate::motion) struct LinearSystem {
     size: usize,
-    /// So many of the first rows have in as many of the first columns nothing but the diagonal, and that is not zero.
+    /// So many of the first rows have in as many of the first columns nothing but the diagonal, and that is
+    /// not zero.
     uncoupled: usize,
     /// Of these, the ones that were taken for pivots without a search.
     given: usize,
@@ -117,8 +118,8 @@ impl LinearSystem {
         self.column_scale.copy_from_slice(columns);
     }
 
-    /// Replaces the matrix by its factors; returns the ratio of the greatest to the least pivot, infinite if the
-    /// matrix is singular or not finite.
+    /// Replaces the matrix by its factors; returns the ratio of the greatest to the least pivot, infinite if
+    /// the matrix is singular or not finite.
     pub(in crate::motion) fn factor(&mut self) -> f64 {
         let size = self.size;
         for (row, scale) in self.entries.chunks_exact_mut(size.max(1)).zip(&self.row_scale) {
@@ -137,7 +138,8 @@ impl LinearSystem {
         self.eliminate(0)
     }
 
-    /// Elimination in which so many of the first pivots are those of the diagonal, whose rows have no entries in one another's columns.
+    /// Elimination in which so many of the first pivots are those of the diagonal, whose rows have no entries
+    /// in one another's columns.
     fn eliminate(&mut self, given: usize) -> f64 {
         let size = self.size;
         self.given = given;

@@ -1,11 +1,11 @@
 //! What moves: the equations within a phase, one step of them, and what may end the phase.
 //!
 //! # Files
-//! `equations/` are the equations within a phase, `linear.rs` factors them, `stepper.rs` takes a step; `watch.rs` is what can end a
-//! phase, `root.rs` where it does and where it might between samples, `cause.rs` its name. Of loads and drives
-//! `switching.rs` has the pieces of formulas that jump, `resolution.rs` says whether a step sees what they do, `amounts.rs`
-//! has them as functions of time at rest. `energy.rs` has the powers whose integrals the balance needs, `connected.rs` which bodies
-//! joints connect.
+//! `equations/` are the equations within a phase, `linear.rs` factors them, `stepper.rs` takes a step;
+//! `watch.rs` is what can end a phase, `root.rs` where it does and where it might between samples, `cause.rs`
+//! its name. Of loads and drives `switching.rs` has the pieces of formulas that jump, `resolution.rs` says
+//! whether a step sees what they do, `amounts.rs` has them as functions of time at rest. `energy.rs` has the
+//! powers whose integrals the balance needs, `connected.rs` which bodies joints connect.
 
 pub(in crate::motion) mod amounts;
 pub(in crate::motion) mod cause;

@@ -1,11 +1,12 @@
 //! Whether a step sees what loads and drives do by themselves while it lasts.
 //!
-//! A step looks at the loads at a few instants; what happens between these neither its error estimate nor the functions that
-//! are watched can know. Between two samples at a distance `w` a function of time with slopes from `a` to `b`, which
-//! interval arithmetic bounds, is no farther than `w (b - a)/4` from the straight line through them. A step sees a formula if that
-//! is at most half of what the samples differ by, so that an oscillation has more than three samples in each period (`w` times its
-//! angular frequency is at most 2), or if whatever may hide there changes no velocity by more than the permitted error
-//! of a step. The motion's part in a formula varies with the state, which the error estimate follows: it is held.
+//! A step looks at the loads at a few instants; what happens between these neither its error estimate nor the
+//! functions that are watched can know. Between two samples at a distance `w` a function of time with slopes
+//! from `a` to `b`, which interval arithmetic bounds, is no farther than `w (b - a)/4` from the straight line
+//! through them. A step sees a formula if that is at most half of what the samples differ by, so that an
+//! oscillation has more than three samples in each period (`w` times its angular frequency is at most 2), or
+//! if whatever may hide there changes no velocity by more than the permitted error of a step. The motion's
+//! part in a formula varies with the state, which the error estimate follows: it is held.
 
 use super::stepper::SAMPLES;
 use crate::configuration::Configuration;
@@ -55,8 +56,8 @@ impl<'m> Resolution<'m> {
         self.formulas.is_empty()
     }
 
-    /// The greatest of a step (s), its half, its quarter and so on, from a state on, that sees all formulas; at least `least`. Velocities have
-    /// a magnitude and a permitted error (m/s).
+    /// The greatest of a step (s), its half, its quarter and so on, from a state on, that sees all formulas;
+    /// at least `least`. Velocities have a magnitude and a permitted error (m/s).
     pub(in crate::motion) fn step(
         &self,
         configuration: &Configuration,

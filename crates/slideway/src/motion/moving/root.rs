@@ -2,12 +2,12 @@
 
 use crate::interval::Interval;
 
-/// The least place at which a function that is positive at `left` and not at `right` is found not to be positive any
-/// more, to within `tolerance`; the function is not positive at the place that is returned.
+/// The least place at which a function that is positive at `left` and not at `right` is found not to be
+/// positive any more, to within `tolerance`; the function is not positive at the place that is returned.
 ///
-/// ITP (I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average performance preserving
-/// minmax optimality, ACM Transactions on Mathematical Software 47, 2021): superlinear on smooth functions, and never
-/// more than one evaluation above bisection. Of several roots it finds one.
+/// ITP (I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average performance
+/// preserving minmax optimality, ACM Transactions on Mathematical Software 47, 2021): superlinear on smooth
+/// functions, and never more than one evaluation above bisection. Of several roots it finds one.
 pub(in crate::motion) fn falling_root<E>(
     [mut left, mut right]: [f64; 2],
     [mut at_left, mut at_right]: [f64; 2],
@@ -44,8 +44,8 @@ pub(in crate::motion) fn falling_root<E>(
 /// Cells of time that are narrower than this many units in the last place are not divided.
 const NARROWEST: f64 = 4.0;
 
-/// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to the left of it, but
-/// for times at which it cannot be told from zero.
+/// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to
+/// the left of it, but for times at which it cannot be told from zero.
 pub(in crate::motion) fn first_fall(
     [from, until]: [f64; 2],
     mut function: impl FnMut(Interval) -> Interval,
@@ -80,10 +80,12 @@ pub(in crate::motion) fn first_fall(
     None
 }
 
-/// A value counts as below zero if it is by more than this part of the width of its bounds: bounds of rounding are wide.
+/// A value counts as below zero if it is by more than this part of the width of its bounds: bounds of
+/// rounding are wide.
 const CLEARLY: f64 = 0.005;
 
-/// The first number at which a function whose sign can be told at the right end is below zero, as far as rounding lets it.
+/// The first number at which a function whose sign can be told at the right end is below zero, as far as
+/// rounding lets it.
 fn falling_point([mut left, mut right]: [f64; 2], mut function: impl FnMut(Interval) -> Interval) -> f64 {
     loop {
         let middle = f64::midpoint(left, right);
@@ -98,13 +100,14 @@ fn falling_point([mut left, mut right]: [f64; 2], mut function: impl FnMut(Inter
 /// A dip to less than this part of the range of the values is looked at.
 const NEAR: f64 = 0.1;
 
-/// Where the cubic through four values at the fractions 0, 1/3, 2/3 and 1 has its least value between them, if it comes near
-/// zero or below it there.
+/// Where the cubic through four values at the fractions 0, 1/3, 2/3 and 1 has its least value between them,
+/// if it comes near zero or below it there.
 ///
-/// In Bernstein form the cubic lies within the hull of its four coefficients, so that most functions take no more than two
-/// of these.
+/// In Bernstein form the cubic lies within the hull of its four coefficients, so that most functions take no
+/// more than two of these.
 pub(in crate::motion) fn dip([first, second, third, last]: [f64; 4]) -> Option<f64> {
-    // p(1/3) and p(2/3) of p(f) = (1-f)^3 first + 3 (1-f)^2 f one + 3 (1-f) f^2 two + f^3 last, solved for `one` and `two`.
+    // p(1/3) and p(2/3) of p(f) = (1-f)^3 first + 3 (1-f)^2 f one + 3 (1-f) f^2 two + f^3 last, solved for
+    // `one` and `two`.
     let one = (18.0 * second - 9.0 * third + 2.0 * last - 5.0 * first) / 6.0;
     let two = (18.0 * third - 9.0 * second + 2.0 * first - 5.0 * last) / 6.0;
     let values = [first, second, third, last];
@@ -113,7 +116,8 @@ pub(in crate::motion) fn dip([first, second, third, last]: [f64; 4]) -> Option<f
     if one > near && two > near {
         return None;
     }
-    // p(f) = first + linear f + square f^2 + cube f^3; of the zeros of p' the minimum is the one with p'' > 0.
+    // p(f) = first + linear f + square f^2 + cube f^3; of the zeros of p' the minimum is the one with
+    // p'' > 0.
     let linear = 3.0 * (one - first);
     let square = 3.0 * (first - 2.0 * one + two);
     let cube = last - first + 3.0 * (one - two);
@@ -165,7 +169,8 @@ mod tests {
     #[test]
     fn dips_of_cubics_are_found_where_they_are() {
         let samples = |p: fn(f64) -> f64| dip([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(p));
-        // Least values by hand: below zero between two values above it, just above zero, far above, at an end.
+        // Least values by hand: below zero between two values above it, just above zero, far above, at an
+        // end.
         for (place, p) in [
             (0.5, (|f| (f - 0.5).powi(2) - 0.01) as fn(f64) -> f64),
             (0.2, |f| (f - 0.2).powi(2) * (f + 1.0)),

@@ -1,9 +1,11 @@
-//! One step of an explicit Runge-Kutta method with an estimate of its error, and the solution within the step.
+//! One step of an explicit Runge-Kutta method with an estimate of its error, and the solution within the
+//! step.
 //!
-//! J. R. Dormand and P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational and Applied
-//! Mathematics 6, 1980: order 5, seven stages of which the last is the first of the next step, error estimated by a
-//! formula of order 4. Within the step: the continuous extension of order 4 of L. F. Shampine, as E. Hairer, S. P.
-//! Norsett and G. Wanner print it (Solving Ordinary Differential Equations I, 2nd edition, section II.6).
+//! J. R. Dormand and P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational and
+//! Applied Mathematics 6, 1980: order 5, seven stages of which the last is the first of the next step, error
+//! estimated by a formula of order 4. Within the step: the continuous extension of order 4 of L. F. Shampine,
+//! as E. Hairer, S. P. Norsett and G. Wanner print it (Solving Ordinary Differential Equations I, 2nd
+//! edition, section II.6).
 
 /// A system of differential equations y' = f(t, y).
 pub(in crate::motion) trait Derivative {
@@ -115,8 +117,8 @@ impl Stepper {
         }
     }
 
-    /// Moves the end of a step from `state` that was tried by a small part of its length, along the solution within it; to be
-    /// [finished](Self::finish).
+    /// Moves the end of a step from `state` that was tried by a small part of its length, along the solution
+    /// within it; to be [finished](Self::finish).
     pub(in crate::motion) fn prolong(&mut self, step: f64, change: f64, state: &[f64]) {
         let mut dense = std::mem::take(&mut self.dense);
         dense.clear();

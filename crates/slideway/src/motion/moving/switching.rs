@@ -1,10 +1,10 @@
 //! Time events: where loads, drives and friction jump or have a kink.
 //!
-//! Within a phase every relation (`sign`, `step`, `abs`, `min`, `max`, tables) of the loads, drives and friction is held on the piece on
-//! which it is, so that the motion is smooth; a relation whose arguments depend on the motion is watched like a normal force.
-//! Where they depend on time alone the end of the piece is computed in advance: time is passed through in cells on which
-//! interval arithmetic proves the margin to be positive, and what is left is a time within rounding. So none is missed,
-//! however long the steps are.
+//! Within a phase every relation (`sign`, `step`, `abs`, `min`, `max`, tables) of the loads, drives and
+//! friction is held on the piece on which it is, so that the motion is smooth; a relation whose arguments
+//! depend on the motion is watched like a normal force. Where they depend on time alone the end of the piece
+//! is computed in advance: time is passed through in cells on which interval arithmetic proves the margin to
+//! be positive, and what is left is a time within rounding. So none is missed, however long the steps are.
 
 use super::cause::Cause;
 use super::root::first_fall;
@@ -84,8 +84,8 @@ impl<'m> Switching<'m> {
         margin(&Values { sliding_speed, ..self.mechanism.values(coordinates, rates, *time) })
     }
 
-    /// The first time after `time`, and at most `until`, at which a relation of time alone leaves its piece; infinite if none
-    /// does.
+    /// The first time after `time`, and at most `until`, at which a relation of time alone leaves its piece;
+    /// infinite if none does.
     pub(in crate::motion) fn next(&mut self, time: f64, until: f64) -> f64 {
         if !self.due.is_empty() {
             return self.next;
@@ -114,8 +114,8 @@ impl<'m> Switching<'m> {
         std::mem::take(&mut self.due)
     }
 
-    /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there, and the pads that begin or
-    /// cease to push.
+    /// Puts relations on the pieces beyond these ends; returns the loads and drives that jump there, and the
+    /// pads that begin or cease to push.
     pub(in crate::motion) fn switch(&mut self, time: f64, switches: &[Switch]) -> Vec<Cause> {
         self.passed = (time, switches.iter().map(|(relation, _)| *relation).collect());
         let mut causes: Vec<Cause> = Vec::new();
@@ -146,8 +146,9 @@ impl<'m> Switching<'m> {
         self.mechanism.pads().map(|(_, pad)| (pad, pushes(pad))).collect()
     }
 
-    /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none, and for those of the
-    /// friction of joints that stop. What has just left a piece has fallen through its end: velocities alone do not tell how it goes on.
+    /// Finds new pieces for relations of the motion that are at the very end of theirs, or on none, and for
+    /// those of the friction of joints that stop. What has just left a piece has fallen through its end:
+    /// velocities alone do not tell how it goes on.
     pub(in crate::motion) fn settle(
         &mut self,
         configuration: &Configuration,
@@ -205,8 +206,9 @@ impl<'m> Switching<'m> {
         }
     }
 
-    /// The piece of a relation just after a state: at the nearest time ahead at which it can be told from rounding, as the
-    /// velocities go on; what stops can only become faster. Free if it can be told nowhere: the argument stays at the threshold.
+    /// The piece of a relation just after a state: at the nearest time ahead at which it can be told from
+    /// rounding, as the velocities go on; what stops can only become faster. Free if it can be told nowhere:
+    /// the argument stays at the threshold.
     fn ahead(&self, configuration: &Configuration, relation: usize, speed: f64) -> Piece {
         let (expression, pieces, number) = self.of(relation);
         let time = &configuration.time;

@@ -19,10 +19,11 @@ const VELOCITY_TOLERANCE: f64 = 1e-10;
 const MARGIN_TOLERANCE: f64 = 1e-10;
 /// Lengths below this multiple of the size are rounding.
 const LENGTH_TOLERANCE: f64 = 1e-12;
-/// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as locked.
+/// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as
+/// locked.
 const LOCKED: f64 = 1e-9;
-/// A block leaves its guide when so little of its length is supported: normal forces grow like the inverse of the overlap, and the
-/// equations can still be solved there.
+/// A block leaves its guide when so little of its length is supported: normal forces grow like the inverse of
+/// the overlap, and the equations can still be solved there.
 const LEAVES: f64 = 1e-6;
 
 /// A function that is watched.
@@ -32,7 +33,8 @@ pub(in crate::motion) enum Watched {
     NormalForce(ContactId),
     /// The share of a face in a preload gap: of the positive one, or of the negative one.
     Share(ContactId, Side),
-    /// Minus the normal force towards this side of a contact that is without one, in the preload gap of a guided slider.
+    /// Minus the normal force towards this side of a contact that is without one, in the preload gap of a
+    /// guided slider.
     Between(ContactId, Side),
     /// The sliding velocity of a joint, counted in its direction; the joint's number among the sliding ones.
     Velocity(usize, f64),
@@ -195,7 +197,8 @@ impl<'o> Watch<'o> {
         self.reaction_limit.unwrap_or(f64::INFINITY)
     }
 
-    /// The value of a watched function at the last evaluation of the equations; not that of what needs a decision, nor of relations.
+    /// The value of a watched function at the last evaluation of the equations; not that of what needs a
+    /// decision, nor of relations.
     ///
     /// # Errors
     /// A function of the user has no value.
@@ -224,8 +227,8 @@ impl<'o> Watch<'o> {
                 sign * equations.contacts[contact.index()].sliding_velocity
             }
             Watched::Determinant => {
-                // Normal forces of both ends of a block become parallel as its overlap vanishes: the determinant falls with
-                // the square, as a row and a column of each pair do.
+                // Normal forces of both ends of a block become parallel as its overlap vanishes: the
+                // determinant falls with the square, as a row and a column of each pair do.
                 let (determinant, before) = self.reference;
                 let overlaps = before / overlaps(equations);
                 equations.determinant().relative_to(determinant) * overlaps * overlaps - LOCKED

@@ -70,8 +70,8 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the equations.
     pub evaluations: u64,
-    /// For how long (s) joints stuck under loads that change with time without a proof that they could: that was looked at at four times
-    /// in each step.
+    /// For how long (s) joints stuck under loads that change with time without a proof that they could: that
+    /// was looked at at four times in each step.
     pub sampled: f64,
     /// The longest of these steps (s).
     pub sampled_step: f64,

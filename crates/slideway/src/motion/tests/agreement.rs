@@ -1,4 +1,5 @@
-//! Accelerations and reactions within a phase against those of `solve`, which factors other matrices with full pivoting.
+//! Accelerations and reactions within a phase against those of `solve`, which factors other matrices with
+//! full pivoting.
 
 use crate::configuration::Configuration;
 use crate::gallery;

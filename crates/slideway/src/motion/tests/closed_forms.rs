@@ -24,8 +24,8 @@ fn a_block_slides_to_rest() {
     assert!(history.energy_error < 1e-11 && history.drift.position < 1e-13);
 }
 
-/// Spring k = 50 N/m, mu m g = 0.05 * 20 = 1 N, static friction the same: released at x = 0.33 m the turning points
-/// are 2 mu m g / k = 0.04 m nearer each half cycle of pi sqrt(m/k), until |x| <= mu m g / k = 0.02 m:
+/// Spring k = 50 N/m, mu m g = 0.05 * 20 = 1 N, static friction the same: released at x = 0.33 m the turning
+/// points are 2 mu m g / k = 0.04 m nearer each half cycle of pi sqrt(m/k), until |x| <= mu m g / k = 0.02 m:
 /// 0.33, -0.29, 0.25, -0.21, 0.17, -0.13, 0.09, -0.05, 0.01: there it stays.
 #[test]
 fn a_frictional_oscillator_loses_a_fixed_part_each_half_cycle() {
@@ -65,7 +65,8 @@ components = [\"8 N/s * t\", 0]
     let history = run(&block("0.25", "", force), &SimulateOptions::new(1.0));
     assert_eq!(history.end, End::Finished);
     assert_eq!(history.events.len(), 2);
-    // Decisions take slacks below 1e-8 of the greatest force, the weight of 20 N, as zero: 8 N/s pass them in 2.5e-8 s.
+    // Decisions take slacks below 1e-8 of the greatest force, the weight of 20 N, as zero: 8 N/s pass them in
+    // 2.5e-8 s.
     assert!((history.events[1].time - 0.625).abs() < 2.5e-8, "{}", history.events[1].time);
     let t0: f64 = 0.625;
     let x =
@@ -103,9 +104,10 @@ fn order_of_event(
     (order(&lengths, &errors), errors)
 }
 
-/// The method has order 5, and the solution within a step, on which an event is found, errs by a length to the power 5 too. In a linear
-/// oscillation the phase errs by one power more (the stability function agrees with exp(z) to z^5, and an error of i^6 z^6 is
-/// one of the amplitude), so that the order lies between 5 and 6.
+/// The method has order 5, and the solution within a step, on which an event is found, errs by a length to
+/// the power 5 too. In a linear oscillation the phase errs by one power more (the stability function agrees
+/// with exp(z) to z^5, and an error of i^6 z^6 is one of the amplitude), so that the order lies between 5
+/// and 6.
 #[test]
 fn the_order_of_event_times_in_an_oscillation() {
     let spring = r#"
@@ -126,8 +128,8 @@ stiffness = "50 N/m"
     }
 }
 
-/// m v' = 10 N sin(3 t/s) - mu m g with mu m g = 2 N: v = 2 + 5/3 (1 - cos 3 t) - t and x = 11/3 t - 5/9 sin 3 t - t^2/2, which
-/// passes 1 m once before it stops.
+/// m v' = 10 N sin(3 t/s) - mu m g with mu m g = 2 N: v = 2 + 5/3 (1 - cos 3 t) - t and x = 11/3 t - 5/9 sin
+/// 3 t - t^2/2, which passes 1 m once before it stops.
 #[test]
 fn the_order_of_event_times_under_a_force_that_swings() {
     let force = r#"

@@ -149,8 +149,9 @@ fn the_same_phases_follow_in_the_same_order() {
     assert!(covered.none > 0 && covered.preload_gaps > 0, "{covered:?}");
 }
 
-/// Klepp (2002): beyond mu_1* = 0.45265396 nothing follows a motion to the left. Painleve's rods (reference/README.md): beyond mu* =
-/// 2 cot(30 deg) = 3.4641 nothing follows a motion to the right with the pull on the lower slider.
+/// Klepp (2002): beyond mu_1* = 0.45265396 nothing follows a motion to the left. Painleve's rods
+/// (reference/README.md): beyond mu* = 2 cot(30 deg) = 3.4641 nothing follows a motion to the right with the
+/// pull on the lower slider.
 #[test]
 fn both_say_when_nothing_follows() {
     let mut covered = Covered::default();
@@ -176,8 +177,8 @@ fn both_say_when_nothing_follows() {
     }
 }
 
-/// A guided block of 2 kg, 0.2 m long: its weight of 20 N takes up a couple of 2 N m, a force 0.5 m above it of 4 N. Beyond that it would
-/// tip, sliding or at rest.
+/// A guided block of 2 kg, 0.2 m long: its weight of 20 N takes up a couple of 2 N m, a force 0.5 m above it
+/// of 4 N. Beyond that it would tip, sliding or at rest.
 #[test]
 fn both_tell_sliders_that_tip() {
     let mut covered = Covered::default();
@@ -200,7 +201,8 @@ fn both_tell_sliders_that_tip() {
     }
 }
 
-/// The example with mu_1 = 0.24 and F_30 = m g/2 (theory, section 3) and around it: the only state is a preload gap.
+/// The example with mu_1 = 0.24 and F_30 = m g/2 (theory, section 3) and around it: the only state is a
+/// preload gap.
 #[test]
 fn both_find_preload_gaps() {
     let mut covered = Covered::default();
@@ -267,8 +269,8 @@ fn release(mechanism: &Mechanism, configuration: &mut Configuration, phase: &Pha
     holds
 }
 
-/// Just before and just after a force has grown enough to move what stands still, the margin has the same small value on both
-/// ways and the sign that says so, and the phases that follow are the same on both.
+/// Just before and just after a force has grown enough to move what stands still, the margin has the same
+/// small value on both ways and the sign that says so, and the phases that follow are the same on both.
 #[test]
 fn margins_near_the_boundary() {
     let mut compared = 0;

@@ -27,9 +27,10 @@ fn words(history: &History) -> Vec<String> {
     history.events.iter().map(|event| format!("{} {}", event.time, event.words)).collect()
 }
 
-/// Down an incline of 30 deg with mu = 0.2, g = 10 m/s^2, from rest 0.5 m above the stop: a_d = g (sin - mu cos) downwards,
-/// a_u = g (sin + mu cos) upwards. It hits with v_0 = sqrt(2 a_d 0.5); each bounce goes up with e v and comes back with
-/// q v, q = e sqrt(a_d/a_u), after e v/a_u + q v/a_d. So it rests after sqrt(2 0.5/a_d) + v_0 (e/a_u + q/a_d)/(1 - q).
+/// Down an incline of 30 deg with mu = 0.2, g = 10 m/s^2, from rest 0.5 m above the stop: a_d = g (sin - mu
+/// cos) downwards, a_u = g (sin + mu cos) upwards. It hits with v_0 = sqrt(2 a_d 0.5); each bounce goes up
+/// with e v and comes back with q v, q = e sqrt(a_d/a_u), after e v/a_u + q v/a_d. So it rests after sqrt(2
+/// 0.5/a_d) + v_0 (e/a_u + q/a_d)/(1 - q).
 #[test]
 fn a_mass_that_bounces_on_a_rough_incline_comes_to_rest_at_the_stop() {
     let (sin, cos) = 30_f64.to_radians().sin_cos();
@@ -53,7 +54,8 @@ fn a_mass_that_bounces_on_a_rough_incline_comes_to_rest_at_the_stop() {
         }
         let rests = fall + first * (e / up + q / down) / (1.0 - q);
         let last = hits.last().unwrap().0;
-        // The flights that are left are within 1e-11 of the size of 3.2 m: shorter than 4e-6 s each, in proportion to 1, q, q^2 ...
+        // The flights that are left are within 1e-11 of the size of 3.2 m: shorter than 4e-6 s each, in
+        // proportion to 1, q, q^2 ...
         assert!((last - rests).abs() < 8e-6 / (1.0 - q) && last < rests + 1e-7, "{e} {last} {rests}");
         assert_eq!(history.phases.last().unwrap().phase.joints, [JointPhase::Sticking]);
         let end = history.reader().at(20.0).unwrap();
@@ -67,7 +69,8 @@ fn a_mass_that_bounces_on_a_rough_incline_comes_to_rest_at_the_stop() {
     }
 }
 
-/// Without friction and with e = 1 nothing is lost: it goes to and fro between both ends, 2 m apart, at 4 m/s.
+/// Without friction and with e = 1 nothing is lost: it goes to and fro between both ends, 2 m apart, at 4
+/// m/s.
 #[test]
 fn perfect_restitution_keeps_the_energy() {
     let history = run(&with_stop(&block("0", "rate = 4", ""), "{ restitution = 1 }"), 5.0);
@@ -80,8 +83,8 @@ fn perfect_restitution_keeps_the_energy() {
     assert!(history.events[1].words.starts_with("guide hits the stop at its greatest displacement"));
 }
 
-/// Two ends: one that gives back the half, and one at which the motion ends. From 0 at 2 m/s it hits after 0.5 s, comes back at 1 m/s
-/// and reaches the other end after another 2 s.
+/// Two ends: one that gives back the half, and one at which the motion ends. From 0 at 2 m/s it hits after
+/// 0.5 s, comes back at 1 m/s and reaches the other end after another 2 s.
 #[test]
 fn one_end_may_have_a_stop_and_the_other_end_the_motion() {
     let text = with_stop(&block("0", "rate = 2", ""), "{ greatest = { restitution = 0.5 } }");
@@ -98,8 +101,9 @@ fn one_end_may_have_a_stop_and_the_other_end_the_motion() {
     assert_eq!(history.reader().at(9.0).unwrap().configuration.rates[0], 0.0);
 }
 
-/// A drawer is pushed against its stop with 5 N, which its static friction of 0.1 * 20 N = 2 N would not hold, and rests there;
-/// the force turns round as 5 N cos(2 t): it leaves when the pull reaches 2 N, cos(2 t) = -0.4.
+/// A drawer is pushed against its stop with 5 N, which its static friction of 0.1 * 20 N = 2 N would not
+/// hold, and rests there; the force turns round as 5 N cos(2 t): it leaves when the pull reaches 2 N, cos(2
+/// t) = -0.4.
 #[test]
 fn a_drawer_rests_at_its_stop_until_it_is_pulled_away() {
     let push = "[loads.push]\ntype = \"force\"\nat = \"block.C\"\ncomponents = [\"5*cos(2*t/(1 s))\", 0]\n";
@@ -118,9 +122,10 @@ fn a_drawer_rests_at_its_stop_until_it_is_pulled_away() {
     assert!((history.events[1].time - std::f64::consts::FRAC_PI_4).abs() < 1e-7, "{:#?}", words(&history));
 }
 
-/// A stop on the line of the guide, the mass centre c = 0.1 m above it, L = 0.2 m, m = 2 kg. The moment about the mass
-/// centre is balanced by normal impulses m |dv| c/L at both ends, whose frictions 2 mu c/L m |dv| = k m |dv| help to stop the block
-/// and hinder it afterwards: the stop's impulse is m v (1 - k) + e m v (1 + k).
+/// A stop on the line of the guide, the mass centre c = 0.1 m above it, L = 0.2 m, m = 2 kg. The moment about
+/// the mass centre is balanced by normal impulses m |dv| c/L at both ends, whose frictions 2 mu c/L m |dv| =
+/// k m |dv| help to stop the block and hinder it afterwards: the stop's impulse is m v (1 - k) + e m v (1 +
+/// k).
 #[test]
 fn friction_of_an_impact_turns_round_with_the_block() {
     let text = with_stop(&block("0.4", "value = 1\nrate = 3", ""), "{ restitution = 0.5 }")
@@ -144,8 +149,9 @@ fn friction_of_an_impact_turns_round_with_the_block() {
     assert!(matches!(faults.sorted()[0].kind, FaultKind::ImpactWedges { .. }));
 }
 
-/// A block of 2 kg on a slab of 3 kg, both without friction, the stop between them: with restitution e = 0.5 the relative velocity of
-/// 1 m/s turns into -0.5 m/s, and the momentum stays: 2 v + 3 w = 2, v - w = -0.5 give w = 0.6 and v = 0.1 m/s.
+/// A block of 2 kg on a slab of 3 kg, both without friction, the stop between them: with restitution e = 0.5
+/// the relative velocity of 1 m/s turns into -0.5 m/s, and the momentum stays: 2 v + 3 w = 2, v - w = -0.5
+/// give w = 0.6 and v = 0.1 m/s.
 #[test]
 fn an_impact_between_moving_bodies_keeps_the_momentum() {
     let between = "mu = 0\ntravel = [\"-2 m\", \"0.5 m\"]\nstop = { restitution = \"e\" }";
@@ -180,10 +186,11 @@ fn stops_without_sense_are_refused() {
     assert!(matches!(&faults.sorted()[0].kind, FaultKind::MissingKey { key, .. } if key == "travel"));
 }
 
-/// A slab of 3 kg with a block of 2 kg that sticks on it runs into its stop at 2 m/s, after 0.5 m. Nothing presses the block on the slab
-/// during the impact, so that no friction takes it along: the slab comes back at -1 m/s, the block goes on at 2 m/s, and
-/// mu = 0.5 brings them together from there: -1 + 10/3 t and 2 - 5 t, g = 10 m/s^2, meet after 3/(25/3) = 0.36 s at 0.2 m/s.
-/// A second block beside them, which static friction holds, stays at rest.
+/// A slab of 3 kg with a block of 2 kg that sticks on it runs into its stop at 2 m/s, after 0.5 m. Nothing
+/// presses the block on the slab during the impact, so that no friction takes it along: the slab comes back
+/// at -1 m/s, the block goes on at 2 m/s, and mu = 0.5 brings them together from there: -1 + 10/3 t and 2 - 5
+/// t, g = 10 m/s^2, meet after 3/(25/3) = 0.36 s at 0.2 m/s. A second block beside them, which static
+/// friction holds, stays at rest.
 #[test]
 fn an_impact_takes_along_what_friction_can_and_leaves_what_rests() {
     let below = "mu = 0\ntravel = [\"-3 m\", \"0.5 m\"]\nstop = { restitution = 0.5 }";

@@ -69,9 +69,10 @@ fn all_near(found: &[f64], expected: &[f64], tolerance: f64) {
     }
 }
 
-/// A force A + B sin(w (t + t_0)) with A + B > L = mu m g > |A - B|: the block slips where it rises through L, at
-/// w (t + t_0) = asin((L - A)/B) + 2 pi k, and m v = (B/w) (cos(w (t_1 + t_0)) - cos(w (t + t_0))) - (L - A) (t - t_1) until that is zero again:
-/// two events in each period. Steps are 10 ms long, as in a simulation of 10 s at default options.
+/// A force A + B sin(w (t + t_0)) with A + B > L = mu m g > |A - B|: the block slips where it rises through
+/// L, at w (t + t_0) = asin((L - A)/B) + 2 pi k, and m v = (B/w) (cos(w (t_1 + t_0)) - cos(w (t + t_0))) -
+/// (L - A) (t - t_1) until that is zero again: two events in each period. Steps are 10 ms long, as in a
+/// simulation of 10 s at default options.
 #[test]
 fn every_slip_under_a_fast_load_is_found() {
     let options =
@@ -106,7 +107,8 @@ fn every_slip_under_a_fast_load_is_found() {
     }
 }
 
-/// 0.6 L sin(2 pi 165.3 t) + 0.402 L sin(2 pi 165 t + 1 rad): the static limit L is exceeded by 2 parts in 1000 around every 3.33 s alone.
+/// 0.6 L sin(2 pi 165.3 t) + 0.402 L sin(2 pi 165 t + 1 rad): the static limit L is exceeded by 2 parts in
+/// 1000 around every 3.33 s alone.
 #[test]
 fn a_beat_that_hardly_exceeds_the_limit_is_found() {
     let limit = 0.1 * 2.0 * G;
@@ -119,8 +121,8 @@ fn a_beat_that_hardly_exceeds_the_limit_is_found() {
     assert_eq!(stops(&found).len(), expected.len());
 }
 
-/// 1 N + 3 N exp(-((t - t_0)/w)^2) reaches L = 1.962 N at t_0 - w sqrt(ln(3/0.962)); a table from 0 N to 3 N at
-/// (1.962/3) of the way.
+/// 1 N + 3 N exp(-((t - t_0)/w)^2) reaches L = 1.962 N at t_0 - w sqrt(ln(3/0.962)); a table from 0 N to 3 N
+/// at (1.962/3) of the way.
 #[test]
 fn a_narrow_spike_is_found() {
     for width in [1e-3, 1e-5, 1e-7] {
@@ -137,7 +139,8 @@ fn a_narrow_spike_is_found() {
     assert_eq!(stops(&found).len(), 1);
 }
 
-/// Loads that touch the static limit, stay at it or come ever closer to it move nothing, and are decided in no time.
+/// Loads that touch the static limit, stay at it or come ever closer to it move nothing, and are decided in
+/// no time.
 #[test]
 fn what_just_reaches_the_limit_sticks() {
     for load in [
@@ -155,7 +158,8 @@ fn what_just_reaches_the_limit_sticks() {
     }
 }
 
-/// A force along the guide and one across it, which relieves the guide: it slips where |F_x| = mu (m g - F_y).
+/// A force along the guide and one across it, which relieves the guide: it slips where |F_x| = mu (m g -
+/// F_y).
 #[test]
 fn two_loads_together_decide_when_it_slips() {
     let loads = ["(1.9 N)*sin(500*t/(1 s))", "(2.6 N)*sin(770*t/(1 s) + 0.3)"];
@@ -166,9 +170,9 @@ fn two_loads_together_decide_when_it_slips() {
     all_near(&slips(&found), &expected, 1e-12);
 }
 
-/// A cross table: a carriage of 3 kg on a level guide carries a slider of 1 kg on a guide at 90 degrees without gravity, where preloads of
-/// 2 N and 1 N at each end alone rub. A force on the slider with components X and Y slips the carriage where |X| = 4 N and
-/// the slider where |Y| = 2 N.
+/// A cross table: a carriage of 3 kg on a level guide carries a slider of 1 kg on a guide at 90 degrees
+/// without gravity, where preloads of 2 N and 1 N at each end alone rub. A force on the slider with
+/// components X and Y slips the carriage where |X| = 4 N and the slider where |Y| = 2 N.
 #[test]
 fn both_axes_of_a_cross_table_are_watched() {
     let text = "
@@ -200,8 +204,8 @@ coordinates.y = { slide = \"rail\", rate = 20 }
     assert_eq!(found.statistics.sampled, 0.0);
 }
 
-/// A block slides at 1 m/s and more, and a force of 30 N exp(-((t - t_0)/w)^2) lifts it against its weight of 19.62 N: it changes over to the
-/// upper guide for t_0 -+ w sqrt(ln(30/19.62)).
+/// A block slides at 1 m/s and more, and a force of 30 N exp(-((t - t_0)/w)^2) lifts it against its weight of
+/// 19.62 N: it changes over to the upper guide for t_0 -+ w sqrt(ln(30/19.62)).
 #[test]
 fn a_spike_during_sliding_is_found() {
     for width in [1e-3, 1e-6] {

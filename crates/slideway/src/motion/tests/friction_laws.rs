@@ -10,9 +10,9 @@ fn incline(mu: &str, start: &str) -> String {
     block(mu, start, "").replace("along = \"0 deg\"", "along = \"30 deg\"")
 }
 
-/// mu = mu_0 + c v makes v' = -g (sin + mu_0 cos) - c g cos v upwards, and v' = -g (sin - mu_0 cos) - c g cos v downwards: with
-/// T = 1/(c g cos) and w = (tan +- mu_0)/c the velocity is (v_0 + w) e^(-t/T) - w, and the way T (v_0 + w)(1 - e^(-t/T)) - w t.
-/// Upwards it stops at T ln(1 + v_0/w).
+/// mu = mu_0 + c v makes v' = -g (sin + mu_0 cos) - c g cos v upwards, and v' = -g (sin - mu_0 cos) - c g cos
+/// v downwards: with T = 1/(c g cos) and w = (tan +- mu_0)/c the velocity is (v_0 + w) e^(-t/T) - w, and the
+/// way T (v_0 + w)(1 - e^(-t/T)) - w t. Upwards it stops at T ln(1 + v_0/w).
 #[test]
 fn viscous_friction_on_an_incline_leads_to_a_terminal_speed() {
     let (mu, c, start) = (0.2, 0.5, 3.0);
@@ -94,8 +94,9 @@ fn negative_friction_ends_a_motion_with_its_speed() {
     assert!((end - (10.0_f64 / 8.5).ln() / 1.5).abs() < 1e-3, "{end}");
 }
 
-/// A table, and `max`: kinks of friction over velocity. From 3 m/s the block is braked with mu = 0.2, below 1 m/s with
-/// mu = 0.2 + 0.1 (1 - v): v = 1 after 1 s, then v' = -3 + v, so v = 3 - 2 e^(t - 1), and it stops after 1 + ln 1.5 s.
+/// A table, and `max`: kinks of friction over velocity. From 3 m/s the block is braked with mu = 0.2, below 1
+/// m/s with mu = 0.2 + 0.1 (1 - v): v = 1 after 1 s, then v' = -3 + v, so v = 3 - 2 e^(t - 1), and it stops
+/// after 1 + ln 1.5 s.
 #[test]
 fn kinks_of_friction_are_followed() {
     let table = "[tables.mu]\nargument = [\"0 m/s\", \"1 m/s\", \"5 m/s\"]\nvalue = [0.3, 0.2, 0.2]\n";

@@ -3,7 +3,8 @@
 use crate::model::Model;
 use crate::motion::{Cause, ContactPhase, End, History, SimulateOptions, simulate};
 
-/// A block of 1 kg, 0.2 m high, pulled by 10 N against packings of 6 N, without anything across the guide but what is added.
+/// A block of 1 kg, 0.2 m high, pulled by 10 N against packings of 6 N, without anything across the guide but
+/// what is added.
 fn guided(more: &str) -> History {
     let text = format!(
         r#"
@@ -63,8 +64,8 @@ fn a_guided_slider_between_its_faces_goes_on() {
     assert!((friction - 6.0 * 21.0).abs() < 1e-10, "{friction}");
 }
 
-/// A torque M = (0.3 N m/s) t takes the friction to one of the faces: M = (6 N)(0.1 m) after 2 s. Beyond that, C = 0 would take more than
-/// the packings give, and without a normal force no face holds the block.
+/// A torque M = (0.3 N m/s) t takes the friction to one of the faces: M = (6 N)(0.1 m) after 2 s. Beyond
+/// that, C = 0 would take more than the packings give, and without a normal force no face holds the block.
 #[test]
 fn its_gap_ends_where_one_face_has_the_whole_preload() {
     for sign in ["", "-"] {
@@ -79,8 +80,8 @@ fn its_gap_ends_where_one_face_has_the_whole_preload() {
     }
 }
 
-/// A transverse load from 1.5 s on presses it against a face. The friction of the packing there, (6 N)(0.1 m), is more than a small
-/// normal force can hold: |C| <= N (0.15 m).
+/// A transverse load from 1.5 s on presses it against a face. The friction of the packing there, (6 N)(0.1
+/// m), is more than a small normal force can hold: |C| <= N (0.15 m).
 #[test]
 fn its_gap_ends_where_a_transverse_load_begins() {
     for sign in ["", "-"] {

@@ -68,9 +68,10 @@ fn independent_joints_reach_their_stops_together() {
     assert!(both.energy_error < 1e-8, "{:e}", both.energy_error);
 }
 
-/// A slab of 3 kg reaches its stop at 2 m/s and in the same instant a block of 2 kg on it, 1 m/s faster, reaches the stop on the slab. With
-/// e = 0.5 for both the slab goes on with -1 m/s, the block against it with -0.5 m/s: the block's velocity changes by -4.5 m/s, so
-/// that its stop gives 9 N s, and that of the slab 9 + 3*3 = 18 N s. With other coefficients likewise.
+/// A slab of 3 kg reaches its stop at 2 m/s and in the same instant a block of 2 kg on it, 1 m/s faster,
+/// reaches the stop on the slab. With e = 0.5 for both the slab goes on with -1 m/s, the block against it
+/// with -0.5 m/s: the block's velocity changes by -4.5 m/s, so that its stop gives 9 N s, and that of the
+/// slab 9 + 3*3 = 18 N s. With other coefficients likewise.
 #[test]
 fn stops_of_joints_in_a_row_act_together() {
     let stop = "mu = 0.2\ntravel = [\"-3 m\", \"0 m\"]\nstop = { restitution = 0.5 }";
@@ -88,8 +89,9 @@ fn stops_of_joints_in_a_row_act_together() {
     assert_eq!(history.end, End::Finished);
 }
 
-/// The block comes the other way, -1 m/s against the slab, to a stop at its rear: when the slab is thrown back it goes away from
-/// that stop by itself, which therefore gives no impulse: the slab has -1 m/s, the block keeps 2 - 1 = 1 m/s, 2 m/s against the slab.
+/// The block comes the other way, -1 m/s against the slab, to a stop at its rear: when the slab is thrown
+/// back it goes away from that stop by itself, which therefore gives no impulse: the slab has -1 m/s, the
+/// block keeps 2 - 1 = 1 m/s, 2 m/s against the slab.
 #[test]
 fn a_stop_from_which_a_joint_is_taken_gives_no_impulse() {
     let below = "mu = 0.2\ntravel = [\"-3 m\", \"0 m\"]\nstop = { restitution = 0.5 }";
@@ -100,8 +102,9 @@ fn a_stop_from_which_a_joint_is_taken_gives_no_impulse() {
     close(&impulses(&found), &[9.0, 0.0], 1e-9);
 }
 
-/// A bar of 4 kg that slides along x on two pins and reaches two stops at once: it comes back at the greater of both restitutions, whose
-/// stop then gives all of the impulse; with equal ones only the sum of both is determined.
+/// A bar of 4 kg that slides along x on two pins and reaches two stops at once: it comes back at the greater
+/// of both restitutions, whose stop then gives all of the impulse; with equal ones only the sum of both is
+/// determined.
 #[test]
 fn a_body_reaches_two_parallel_stops() {
     let text = r#"
@@ -198,15 +201,17 @@ rate = "3 m/s"
     )
 }
 
-/// Two sliders joined by a massless rod, as in a trammel: a of 1 kg at (L c, 0) on a level guide, b of 2 kg at (0, L s) on an upright one, friction
-/// mu at both. Compression S of the rod presses a down with S s and b to the left with S c. While a moves outwards and b down friction
-/// at b helps S and friction at a helps the stop; with v' = -1 for a and c/s for b
+/// Two sliders joined by a massless rod, as in a trammel: a of 1 kg at (L c, 0) on a level guide, b of 2 kg
+/// at (0, L s) on an upright one, friction mu at both. Compression S of the rod presses a down with S s and b
+/// to the left with S c. While a moves outwards and b down friction at b helps S and friction at a helps the
+/// stop; with v' = -1 for a and c/s for b
 ///
 /// ```text
 /// m_b c/s = S (s + mu c)      P_1 = m_a + S (c - mu s)
 /// ```
 ///
-/// for each m/s until a stands, and afterwards, both moving the other way, with the opposite sign of mu. P = v P_1(mu) + e v P_1(-mu).
+/// for each m/s until a stands, and afterwards, both moving the other way, with the opposite sign of mu. P =
+/// v P_1(mu) + e v P_1(-mu).
 #[test]
 fn friction_acts_at_both_ends_of_a_rod() {
     let (c, s, v, e) = (0.8, 0.6, 3.0, 0.5);
@@ -224,8 +229,9 @@ fn friction_acts_at_both_ends_of_a_rod() {
     assert!(impact(&mechanism, &configuration, &[(JointId(0), e)]).is_err());
 }
 
-/// The same with a stop for b, too, reached at the same instant. Both velocities hang together, so that the greater restitution wins and the other
-/// stop gives no impulse. While b is stopped the rod pulls with T at a, which friction helps until a stands:
+/// The same with a stop for b, too, reached at the same instant. Both velocities hang together, so that the
+/// greater restitution wins and the other stop gives no impulse. While b is stopped the rod pulls with T at
+/// a, which friction helps until a stands:
 ///
 /// ```text
 /// m_a = T (c + mu s)      P_1 = m_b c/s + T (s - mu c)      P = v P_1(mu) + e v P_1(-mu)
@@ -244,8 +250,8 @@ fn of_two_coupled_stops_the_one_with_the_greater_restitution_pushes() {
     }
 }
 
-/// A carriage of mass M on a level guide and two drawers of mass m on it, one upside down above the other, with these keys of their joints; their mass centres
-/// are `c` away from their rails, on opposite sides.
+/// A carriage of mass M on a level guide and two drawers of mass m on it, one upside down above the other,
+/// with these keys of their joints; their mass centres are `c` away from their rails, on opposite sides.
 fn carriage(masses: [f64; 2], c: f64, drawers: [&str; 2], rates: [f64; 3]) -> String {
     let mut text = format!(
         r#"
@@ -303,16 +309,18 @@ rate = {}
     text
 }
 
-/// Two drawers of mass m reach stops on their carriage of mass M at the same instant. Without friction the impulses P_1, P_2 push the drawers back
-/// and the carriage on; with v_i the velocities of the drawers against it
+/// Two drawers of mass m reach stops on their carriage of mass M at the same instant. Without friction the
+/// impulses P_1, P_2 push the drawers back and the carriage on; with v_i the velocities of the drawers
+/// against it
 ///
 /// ```text
 /// -dv_1 = (1/m + 1/M) P_1 + 1/M P_2        -dv_2 = 1/M P_1 + (1/m + 1/M) P_2
 /// 0 <= P_i    complementary to    -v_i' - e_i v_i >= 0        v_i' = v_i + dv_i
 /// ```
 ///
-/// With both pushing P_1 = m ((1 + m/M) a_1 - m/M a_2)/(1 + 2 m/M), a_i = (1 + e_i) v_i, and likewise P_2. Where that is negative for the second,
-/// the carriage is taken away from it fast enough by the first: P_1 = a_1/(1/m + 1/M), P_2 = 0.
+/// With both pushing P_1 = m ((1 + m/M) a_1 - m/M a_2)/(1 + 2 m/M), a_i = (1 + e_i) v_i, and likewise P_2.
+/// Where that is negative for the second, the carriage is taken away from it fast enough by the first: P_1 =
+/// a_1/(1/m + 1/M), P_2 = 0.
 #[test]
 fn two_drawers_on_a_carriage_reach_their_stops_together() {
     let stop = "mu = 0\ntravel = [-3, 0]\nstop = { restitution = 0 }";
@@ -346,15 +354,17 @@ fn two_drawers_on_a_carriage_reach_their_stops_together() {
     assert!(alone >= 3, "{alone}");
 }
 
-/// The same with friction: the mass centres of the drawers are c from their rails, so that the front and rear contacts, L apart, are pressed by m |dv| c/L
-/// each while a drawer is slowed down by dv. With kappa = 2 mu c/L friction kappa m |dv| helps the stop until the drawer stands, and works
-/// against it while it comes back:
+/// The same with friction: the mass centres of the drawers are c from their rails, so that the front and rear
+/// contacts, L apart, are pressed by m |dv| c/L each while a drawer is slowed down by dv. With kappa = 2 mu
+/// c/L friction kappa m |dv| helps the stop until the drawer stands, and works against it while it comes
+/// back:
 ///
 /// ```text
 /// P = m v/(1 + 2 m/M) ((1 - kappa) + e (1 + kappa))
 /// ```
 ///
-/// because with equal drawers (and by symmetry no moment on the carriage) m dv = -m v/(1 + 2 m/M) until they stand.
+/// because with equal drawers (and by symmetry no moment on the carriage) m dv = -m v/(1 + 2 m/M) until they
+/// stand.
 #[test]
 fn friction_acts_while_two_equal_drawers_are_stopped() {
     let (large, m, c, v, e) = (3.0, 2.0, 0.2, 1.5, 0.6);

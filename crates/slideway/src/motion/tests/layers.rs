@@ -1,4 +1,5 @@
-//! Blocks on one another, and blocks that have nothing to do with one another, against an exact solution in other coordinates.
+//! Blocks on one another, and blocks that have nothing to do with one another, against an exact solution in
+//! other coordinates.
 
 use super::mechanism_of;
 use crate::configuration::Configuration;
@@ -75,7 +76,8 @@ rate = {rate}
 /// What each layer does against what it lies on: 0 sticks, else the sign of sliding.
 type State = Vec<f64>;
 
-/// The exact motion: weights press, so that all normal forces are constant, and so are accelerations between events.
+/// The exact motion: weights press, so that all normal forces are constant, and so are accelerations between
+/// events.
 struct Exact<'l> {
     layers: &'l [Layer],
     /// Relative displacements and velocities.
@@ -94,8 +96,8 @@ impl Exact<'_> {
         self.layers.get(index + 1).is_some_and(|next| next.on_last)
     }
 
-    /// Absolute accelerations in a state, and the friction on each layer by what it lies on: from the top downwards what sticks
-    /// together is one body.
+    /// Absolute accelerations in a state, and the friction on each layer by what it lies on: from the top
+    /// downwards what sticks together is one body.
     fn solve(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let count = self.layers.len();
         let kinetic = |index: usize| -state[index] * self.layers[index].mu * self.normal(index);
@@ -148,7 +150,8 @@ impl Exact<'_> {
         (0..state.len()).map(one).fold(f64::INFINITY, f64::min)
     }
 
-    /// Among the admissible states the one in which most joints stick, those that stuck before first; false if rounding decides.
+    /// Among the admissible states the one in which most joints stick, those that stuck before first; false
+    /// if rounding decides.
     fn decide(&mut self) -> bool {
         let options = |index: usize| match self.rates[index] {
             0.0 => vec![0.0, 1.0, -1.0],
@@ -306,10 +309,11 @@ fn ten_blocks_on_one_another_at_rest_are_decided() {
     assert!(told.events[0].branches_left_out);
 }
 
-/// Ten stages of a telescope at rest, each 0.8 m out of the one before and guided over 0.4 m: weights turn what is outside about each guide, so that
-/// its ends are pressed on opposite sides. While blocks are not high that is so whatever friction does, and the decision asks one linear program; between
-/// faces 0.4 m apart friction could turn normal forces round at ten contacts, and the search for sides with a margin that is enough asks 344 of 2^10
-/// (no more than that, whoever makes it quicker).
+/// Ten stages of a telescope at rest, each 0.8 m out of the one before and guided over 0.4 m: weights turn
+/// what is outside about each guide, so that its ends are pressed on opposite sides. While blocks are not
+/// high that is so whatever friction does, and the decision asks one linear program; between faces 0.4 m
+/// apart friction could turn normal forces round at ten contacts, and the search for sides with a margin that
+/// is enough asks 344 of 2^10 (no more than that, whoever makes it quicker).
 #[test]
 fn ten_stages_of_a_telescope_at_rest_are_decided() {
     for (height, most) in [(0.0, 1), (0.1, 1), (0.4, 344)] {

@@ -61,8 +61,8 @@ fn travel_ends_it() {
     assert!(history.events[1].words.ends_with("guide reaches the greatest displacement of its travel"));
 }
 
-/// A block of 20 N that sticks is pressed down with (10 N/s) t more: each of its ends has half of it, 15 N after 1 s. The same where it
-/// slides, and at once where the limit is less than 10 N.
+/// A block of 20 N that sticks is pressed down with (10 N/s) t more: each of its ends has half of it, 15 N
+/// after 1 s. The same where it slides, and at once where the limit is less than 10 N.
 #[test]
 fn a_limit_of_normal_forces_counts_while_joints_stick() {
     let press = "
@@ -82,7 +82,8 @@ components = [0, \"-10 N/s * t\"]
     assert_eq!(simulate(&model(&block("0.25", "", press)), &options).unwrap().end, End::Finished);
 }
 
-/// Klepp's bar after its jam: three contacts that stick in a mechanism with one degree of freedom leave the normal forces open.
+/// Klepp's bar after its jam: three contacts that stick in a mechanism with one degree of freedom leave the
+/// normal forces open.
 #[test]
 fn what_a_limit_of_normal_forces_cannot_see_is_told() {
     let settings = [("F_20", "0"), ("mu_1", "0.46"), ("direction", "-1")];
@@ -92,11 +93,12 @@ fn what_a_limit_of_normal_forces_cannot_see_is_told() {
     let history = simulate(&model, &options).unwrap();
     assert_eq!(history.end, End::Finished);
     let hints = report(&history, &options).hints;
-    assert!(hints.len() == 1 && hints[0].contains("are not determined while joints stick"), "{hints:?}");
+    assert!(hints.len() == 1 && hints[0].contains("are indeterminate while joints stick"), "{hints:?}");
 }
 
-/// A drawer whose supported length of 0.4 m is that from its rear end to the mouth: pulled out at 0.1 m/s it leaves its guide after 4 s,
-/// with and without friction. (Normal forces and the determinant of the equations have no bounds there.)
+/// A drawer whose supported length of 0.4 m is that from its rear end to the mouth: pulled out at 0.1 m/s it
+/// leaves its guide after 4 s, with and without friction. (Normal forces and the determinant of the equations
+/// have no bounds there.)
 #[test]
 fn a_block_that_leaves_its_guide_ends_it() {
     for mu in ["0", "0.3"] {
@@ -113,8 +115,8 @@ fn a_block_that_leaves_its_guide_ends_it() {
     }
 }
 
-/// Without friction the cylinder of the third stage pushes it out of the boom: F = 400 N on 20 kg and W = 300 N with its component along
-/// the boom, against the stage before.
+/// Without friction the cylinder of the third stage pushes it out of the boom: F = 400 N on 20 kg and W = 300
+/// N with its component along the boom, against the stage before.
 #[test]
 fn a_boom_without_friction_comes_apart() {
     let boom = super::model_of("telescopic-boom").with(&Settings::default().parameter("mu", "0")).unwrap();

@@ -27,7 +27,8 @@ fn reversed(history: &History, duration: f64) -> History {
 /// Names and values of parameters.
 type Parameters = &'static [(&'static str, &'static str)];
 
-/// Every gallery model that can move on its own, without friction and dampers, and for how long: (name, settings, duration).
+/// Every gallery model that can move on its own, without friction and dampers, and for how long: (name,
+/// settings, duration).
 const FRICTIONLESS: [(&str, Parameters, f64); 10] = [
     ("elliptic-trammel", &[("mu", "0")], 3.0),
     ("slider-crank", &[("mu", "0"), ("gas", "0 N"), ("T", "0 N m")], 0.25),
@@ -86,8 +87,8 @@ fn frictionless_motion_conserves_energy_and_can_be_reversed() {
     }
 }
 
-/// The piston stops at each dead centre and slides on at once: two stops in each turn. What it loses is what friction
-/// takes.
+/// The piston stops at each dead centre and slides on at once: two stops in each turn. What it loses is what
+/// friction takes.
 #[test]
 fn a_slider_crank_coasts_through_many_turns() {
     let history = simulate(&coasting_crank("0.1"), &SimulateOptions::new(1.0)).unwrap();
@@ -150,7 +151,8 @@ const fn balanced(name: &'static str, duration: f64, events: usize) -> Balanced 
     Balanced { name, replaced: None, settings: &[], duration, events }
 }
 
-/// Every gallery model with inertia, so that something happens in each: driven ones are slowed down until they return.
+/// Every gallery model with inertia, so that something happens in each: driven ones are slowed down until
+/// they return.
 const BALANCED: [Balanced; 17] = [
     balanced("cam-follower", 1.0, 2),
     Balanced {
@@ -180,8 +182,8 @@ const BALANCED: [Balanced; 17] = [
     },
 ];
 
-/// Every gallery model with inertia closes its energy balance, through its events, the better the smaller the tolerance is: steps
-/// are as long as the tolerance permits.
+/// Every gallery model with inertia closes its energy balance, through its events, the better the smaller the
+/// tolerance is: steps are as long as the tolerance permits.
 #[test]
 fn energy_is_balanced_in_every_gallery_model() {
     let named: Vec<&str> = BALANCED.iter().map(|one| one.name).collect();

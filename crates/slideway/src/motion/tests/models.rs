@@ -34,8 +34,8 @@ pub(super) fn with_stop(text: &str, stop: &str) -> String {
     text.replace("length = \"0.2 m\"", &travel)
 }
 
-/// A slab of 3 kg on a horizontal guide and a block of 2 kg on it, g = 10 m/s^2, with these keys of their joints and these rates; their
-/// mass centres are on the guides' lines, so that nothing turns them.
+/// A slab of 3 kg on a horizontal guide and a block of 2 kg on it, g = 10 m/s^2, with these keys of their
+/// joints and these rates; their mass centres are on the guides' lines, so that nothing turns them.
 pub(super) fn stacked([below, between]: [&str; 2], rates: [&str; 2], more: &str) -> String {
     format!(
         r#"

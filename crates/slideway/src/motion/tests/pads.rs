@@ -29,8 +29,8 @@ fn contacts(history: &History) -> [Vec<f64>; 2] {
     ]
 }
 
-/// A block of 2 kg at 2 m/s meets a pad of 2e4 N/m at 1 m without friction: it is in it for half a period, pi sqrt(m/k), and comes
-/// back as fast as it came; to the other pad it is 2 m.
+/// A block of 2 kg at 2 m/s meets a pad of 2e4 N/m at 1 m without friction: it is in it for half a period, pi
+/// sqrt(m/k), and comes back as fast as it came; to the other pad it is 2 m.
 #[test]
 fn an_undamped_pad_gives_everything_back() {
     let history = run(&with_stop(&block("0", "rate = 2", ""), "{ stiffness = 2e4 }"), 3.0);
@@ -56,9 +56,10 @@ fn an_undamped_pad_gives_everything_back() {
     assert!(history.energy_error < 1e-7, "{:e}", history.energy_error);
 }
 
-/// With friction f = mu g = 1 m/s^2 and w^2 = k/m the block that meets the pad with v is at d = -f/w^2 + (f/w^2 + D) cos(w t - ..), where the
-/// deepest place is D = sqrt((v/w)^2 + (f/w^2)^2) - f/w^2, reached after atan(v w/f)/w. From there d = f/w^2 + (D - f/w^2) cos(w t): it
-/// leaves where cos(w t) = -(f/w^2)/(D - f/w^2).
+/// With friction f = mu g = 1 m/s^2 and w^2 = k/m the block that meets the pad with v is at d = -f/w^2 +
+/// (f/w^2 + D) cos(w t - ..), where the deepest place is D = sqrt((v/w)^2 + (f/w^2)^2) - f/w^2, reached after
+/// atan(v w/f)/w. From there d = f/w^2 + (D - f/w^2) cos(w t): it leaves where cos(w t) = -(f/w^2)/(D -
+/// f/w^2).
 #[test]
 fn friction_shifts_the_middle_of_an_undamped_pad() {
     let (w, f) = (10.0_f64, 1.0_f64);
@@ -82,8 +83,9 @@ fn friction_shifts_the_middle_of_an_undamped_pad() {
     assert!(history.energy_error < 1e-8, "{:e}", history.energy_error);
 }
 
-/// A critically damped pad, c = 2 m w: d = v t e^(-w t), and k d + c d' = m w v (2 - w t) e^(-w t) lets go at t = 2/w, with the velocity
-/// -v e^-2 still 2 v e^-2/w deep. What the spring has then is lost: it takes (1 - e^-4) m v^2/2 in all.
+/// A critically damped pad, c = 2 m w: d = v t e^(-w t), and k d + c d' = m w v (2 - w t) e^(-w t) lets go at
+/// t = 2/w, with the velocity -v e^-2 still 2 v e^-2/w deep. What the spring has then is lost: it takes (1 -
+/// e^-4) m v^2/2 in all.
 #[test]
 fn a_critically_damped_pad_lets_go_before_its_place() {
     let (w, v) = (50.0, 2.0);
@@ -107,8 +109,8 @@ fn a_critically_damped_pad_lets_go_before_its_place() {
     assert!(history.energy_error < 1e-7, "{:e}", history.energy_error);
 }
 
-/// Pushed with 50 N into a pad of 5000 N/m the block comes to rest where |50 N - k d| is within the static friction of 2 N; it
-/// stays there.
+/// Pushed with 50 N into a pad of 5000 N/m the block comes to rest where |50 N - k d| is within the static
+/// friction of 2 N; it stays there.
 #[test]
 fn a_block_rests_inside_a_preloaded_pad() {
     let push = "[loads.push]\ntype = \"force\"\nat = \"block.C\"\ncomponents = [50, 0]\n";
@@ -130,8 +132,8 @@ fn a_block_rests_inside_a_preloaded_pad() {
     }
 }
 
-/// `solve` inside the pad: m x'' = -(k d + c d') - mu m g, where that is positive; at d = 10 mm and d' = -2 m/s a pad of 100 N s/m has
-/// let go.
+/// `solve` inside the pad: m x'' = -(k d + c d') - mu m g, where that is positive; at d = 10 mm and d' = -2
+/// m/s a pad of 100 N s/m has let go.
 #[test]
 fn solve_knows_the_pad() {
     for (depth, rate, force) in
@@ -156,8 +158,9 @@ fn solve_knows_the_pad() {
     }
 }
 
-/// A block of 2 kg on a slab of 3 kg, both without friction, a pad between them: it pushes both. In the frame of the common mass centre
-/// the reduced mass 1.2 kg meets it at 1 m/s; without damping the relative velocity is reversed after pi sqrt(1.2 kg/k).
+/// A block of 2 kg on a slab of 3 kg, both without friction, a pad between them: it pushes both. In the frame
+/// of the common mass centre the reduced mass 1.2 kg meets it at 1 m/s; without damping the relative velocity
+/// is reversed after pi sqrt(1.2 kg/k).
 #[test]
 fn a_pad_between_moving_bodies_keeps_the_momentum() {
     let between = "mu = 0\ntravel = [\"-2 m\", \"0.5 m\"]\nstop = { greatest = { stiffness = 1.2e4 } }";
@@ -196,9 +199,9 @@ fn pads_without_sense_are_refused() {
     assert!(matches!(&faults.sorted()[0].kind, FaultKind::MissingKey { key, .. } if key == "travel"));
 }
 
-/// A pad is a load that only pushes: k d + c d' beyond x = 1 m while that is positive. With a = c/(2 m) and w^2 = k/m - a^2 the block of
-/// 2 kg that comes at v = 2 m/s is at d = (v/w) e^(-a t) sin(w t), and the pad lets go where k d + c d' = 0: at
-/// w t = atan2(c w, c a - k), still with d > 0.
+/// A pad is a load that only pushes: k d + c d' beyond x = 1 m while that is positive. With a = c/(2 m) and
+/// w^2 = k/m - a^2 the block of 2 kg that comes at v = 2 m/s is at d = (v/w) e^(-a t) sin(w t), and the pad
+/// lets go where k d + c d' = 0: at w t = atan2(c w, c a - k), still with d > 0.
 #[test]
 fn a_pad_is_the_load_that_only_pushes() {
     let (mass, stiffness, damping, speed) = (2.0, 2e4, 80.0, 2.0);
@@ -222,9 +225,10 @@ fn a_pad_is_the_load_that_only_pushes() {
     }
 }
 
-/// The gallery's drawer comes into its pad with v^2 = v_0^2 + 2 (F/m - mu g) x_0. With F' = F - mu m g, a = c/(2 m), w^2 = k/m - a^2 and
-/// e = d - F'/k: e = e^(-a t) (-F'/k cos w t + (v - a F'/k)/w sin w t), which stops first where tan w t = w v/(a v - F'/m), in the second
-/// quadrant, and stays there. Without damping it comes back.
+/// The gallery's drawer comes into its pad with v^2 = v_0^2 + 2 (F/m - mu g) x_0. With F' = F - mu m g, a =
+/// c/(2 m), w^2 = k/m - a^2 and e = d - F'/k: e = e^(-a t) (-F'/k cos w t + (v - a F'/k)/w sin w t), which
+/// stops first where tan w t = w v/(a v - F'/m), in the second quadrant, and stays there. Without damping it
+/// comes back.
 #[test]
 fn the_gallery_drawer_closes_softly() {
     let model = Model::parse(crate::gallery::find("soft-closing-drawer").unwrap().text).unwrap();
@@ -255,9 +259,9 @@ fn the_gallery_drawer_closes_softly() {
     assert!(!leaves.is_empty());
 }
 
-/// A block of 2.4 kg is pushed out of its damped pad and meets it again before it is out of its depth: where k d + c d' passes zero with
-/// d > 0 and d' < 0, d'' > 0. A second block, which rests far away, changes nothing: what has just left its piece has left it, although
-/// velocities alone would take it back.
+/// A block of 2.4 kg is pushed out of its damped pad and meets it again before it is out of its depth: where
+/// k d + c d' passes zero with d > 0 and d' < 0, d'' > 0. A second block, which rests far away, changes
+/// nothing: what has just left its piece has left it, although velocities alone would take it back.
 #[test]
 fn a_pad_that_is_met_within_its_depth_is_met_once() {
     let text = r#"
@@ -304,7 +308,8 @@ rate = "14.8 mm/s"
         let history = simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(duration)).unwrap();
         assert_eq!(history.end, End::Finished, "{duration}: {:#?}", words(&history));
         let [meets, _] = contacts(&history);
-        // Outside of the pad the force is -2.9 N - 0.1 m g, so that d = 0.13 mm - 14.8 mm/s t + a t^2/2, and k d + c d' = 0.
+        // Outside of the pad the force is -2.9 N - 0.1 m g, so that d = 0.13 mm - 14.8 mm/s t + a t^2/2, and
+        // k d + c d' = 0.
         let acceleration = (2.9 + 0.1 * 2.4 * 9.81) / 2.4;
         let depth = |t: f64| 0.13e-3 - 14.8e-3 * t + acceleration * t * t / 2.0;
         let rate = |t: f64| -14.8e-3 + acceleration * t;
@@ -314,7 +319,8 @@ rate = "14.8 mm/s"
     }
 }
 
-/// Without friction nothing is watched where the block turns round inside the pad: the next event says that it has.
+/// Without friction nothing is watched where the block turns round inside the pad: the next event says that
+/// it has.
 #[test]
 fn a_reversal_without_friction_is_told_by_the_next_event() {
     let history = run(&with_stop(&block("0", "rate = 2", ""), "{ stiffness = 2e4 }"), 3.0);
@@ -323,9 +329,11 @@ fn a_reversal_without_friction_is_told_by_the_next_event() {
     assert!(!told.contains("guide reverses"), "{told}");
 }
 
-/// A block of 2 kg whose mass centre is c = L = 0.2 m above its guide slides into a pad of k = 5000 N/m and damping b at 1 m/s. The balance of moments
-/// about the middle of the guide is `(N_front - N_rear) L/2 = m a c` with the deceleration `m a = k d + b d' + mu m g` while both are pressed
-/// down, so that the rear end changes side where `m a = m g L/(2 c)`, that is `k d + b d' = m g (1/2 - mu) = 8 N`.
+/// A block of 2 kg whose mass centre is c = L = 0.2 m above its guide slides into a pad of k = 5000 N/m and
+/// damping b at 1 m/s. The balance of moments about the middle of the guide is
+/// `(N_front - N_rear) L/2 = m a c` with the deceleration `m a = k d + b d' + mu m g` while both are pressed
+/// down, so that the rear end changes side where `m a = m g L/(2 c)`, that is
+/// `k d + b d' = m g (1/2 - mu) = 8 N`.
 #[test]
 fn limits_know_where_a_pad_tips_a_block() {
     let text = |damping: f64| {
@@ -359,7 +367,8 @@ fn limits_know_where_a_pad_tips_a_block() {
     }
 }
 
-/// At rest in the pad friction mu m g = 2 N holds it against k d: at 0.5 mm against 0.8 times 2.5 N, at 0.2 mm against twice 1 N.
+/// At rest in the pad friction mu m g = 2 N holds it against k d: at 0.5 mm against 0.8 times 2.5 N, at 0.2
+/// mm against twice 1 N.
 #[test]
 fn hold_knows_by_which_factor_a_pad_is_held() {
     let text = with_stop(&block("0.1", "", ""), "{ greatest = { stiffness = 5000, damping = 10 } }");

@@ -50,8 +50,8 @@ fn sticks_to_the_end(history: &History) {
     assert!(history.phases[0].phase.joints.iter().all(|joint| *joint == JointPhase::Sticking));
 }
 
-/// One block is held by 4 N against a pull of 3 N, which could move it against 2 N. It stays when another one, which has nothing to do
-/// with it, comes to rest after (1 m/s)/(2 m/s^2).
+/// One block is held by 4 N against a pull of 3 N, which could move it against 2 N. It stays when another
+/// one, which has nothing to do with it, comes to rest after (1 m/s)/(2 m/s^2).
 #[test]
 fn what_rests_stays_when_something_else_stops() {
     let text =
@@ -66,7 +66,8 @@ fn what_rests_stays_when_something_else_stops() {
     assert_eq!(history.reader().configuration(2.0).unwrap().coordinates[0], 0.0);
 }
 
-/// Five blocks come to rest after 0.1 s, 0.2 s, ... under pulls that hold them: 12^5 states, were they decided together.
+/// Five blocks come to rest after 0.1 s, 0.2 s, ... under pulls that hold them: 12^5 states, were they
+/// decided together.
 #[test]
 fn five_independent_blocks_come_to_rest_one_after_another() {
     let mut text = HEAD.to_owned();
@@ -82,7 +83,8 @@ fn five_independent_blocks_come_to_rest_one_after_another() {
     }
 }
 
-/// The load just reaches mu m g = mu_static m g again and again: the block sticks, whatever mass, coefficient and frequency are.
+/// The load just reaches mu m g = mu_static m g again and again: the block sticks, whatever mass, coefficient
+/// and frequency are.
 #[test]
 fn loads_that_just_reach_the_static_limit_do_not_move_a_block() {
     let mut state = 17_u64;
@@ -106,8 +108,8 @@ fn loads_that_hover_at_the_static_limit_do_not_accumulate_events() {
     for pull in ["3 N", "3 N * (1 + 1e-13*sin(400*t/second))", "min(5 N * t/second, 3 N)"] {
         sticks_to_the_end(&run(&(HEAD.to_owned() + &block("a", [1.0, 0.3, 0.3, 0.0], pull)), 2.0));
     }
-    // A little beyond the limit of 3 N for a part of each period of 0.314 s: it slides from sin(20 t) = 0.2 on until it has lost what it
-    // gained, seven times.
+    // A little beyond the limit of 3 N for a part of each period of 0.314 s: it slides from sin(20 t) = 0.2
+    // on until it has lost what it gained, seven times.
     let pull = "3 N * (1 - 2e-5 + 1e-4*sin(20*t/second))";
     let history = run(&(HEAD.to_owned() + &block("a", [1.0, 0.3, 0.3, 0.0], pull)), 2.0);
     assert_eq!(history.end, End::Finished);
@@ -120,9 +122,9 @@ fn loads_that_hover_at_the_static_limit_do_not_accumulate_events() {
     }
 }
 
-/// The yoke of a scotch yoke stands for an instant whenever the crank is at a dead centre, phi = 0 and 180 deg (here without
-/// gravity and loads); no friction can make it
-/// stick there while the crank turns, though it would be great enough to jam the yoke a little later.
+/// The yoke of a scotch yoke stands for an instant whenever the crank is at a dead centre, phi = 0 and 180
+/// deg (here without gravity and loads); no friction can make it stick there while the crank turns, though it
+/// would be great enough to jam the yoke a little later.
 #[test]
 fn a_yoke_passes_its_dead_centres() {
     let settings = [("mu_pin", "0.7"), ("mu_yoke", "0.8"), ("Q", "0 N"), ("T", "0 N*m")];
@@ -168,7 +170,8 @@ fn a_reaction_beyond_its_limit_is_seen_at_the_start() {
     assert_eq!(history.stop(), 0.0);
 }
 
-/// A block 0.2 m high above its guide, of half length 0.05 m: pulled at its mass centre by (4 N/s) t it tips where 0.2 m F = 0.05 m 10 N.
+/// A block 0.2 m high above its guide, of half length 0.05 m: pulled at its mass centre by (4 N/s) t it tips
+/// where 0.2 m F = 0.05 m 10 N.
 #[test]
 fn a_guided_slider_at_rest_tips() {
     let text = HEAD.replace("P = [0, 0]", "P = [0, 0.2]\nQ = [0, 0]")

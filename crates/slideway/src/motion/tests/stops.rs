@@ -1,4 +1,5 @@
-//! Jams, joints that stick together, tipping, accumulations, and changes of mode at places that are known otherwise.
+//! Jams, joints that stick together, tipping, accumulations, and changes of mode at places that are known
+//! otherwise.
 
 use super::models::{self, block};
 use super::{both, model_of, run};
@@ -13,8 +14,9 @@ fn joints(history: &History) -> Vec<&[JointPhase]> {
     history.phases.iter().map(|interval| &interval.phase.joints[..]).collect()
 }
 
-/// Klepp (2002), section 7: sent to the left with 1 m/s and mu_1 above 0.45265396 the example has no solution. An impulse
-/// takes its kinetic energy m v^2/2 = 0.5 J, and without a load nothing moves it afterwards.
+/// Klepp (2002), section 7: sent to the left with 1 m/s and mu_1 above 0.45265396 the example has no
+/// solution. An impulse takes its kinetic energy m v^2/2 = 0.5 J, and without a load nothing moves it
+/// afterwards.
 #[test]
 fn the_example_jams_and_stands_still() {
     let settings = [("F_20", "0"), ("mu_1", "0.46"), ("direction", "-1")];
@@ -41,8 +43,8 @@ fn stacked(rate: &str, force: &str) -> String {
     models::stacked(["mu = 0.1", "mu = 0.4"], [rate, "0 m/s"], &force)
 }
 
-/// Both bodies slow down by mu g = 1 m/s^2, which the friction between them (2 N of 8 N) can pass on: they stop after 2 s, 2 m
-/// further.
+/// Both bodies slow down by mu g = 1 m/s^2, which the friction between them (2 N of 8 N) can pass on: they
+/// stop after 2 s, 2 m further.
 #[test]
 fn a_block_rides_on_a_slab_until_both_stop() {
     let history = run(&stacked("2 m/s", "0 N"), &SimulateOptions::new(3.0));
@@ -54,15 +56,17 @@ fn a_block_rides_on_a_slab_until_both_stop() {
     assert_eq!(last.rates, [0.0, 0.0]);
 }
 
-/// A force of 4 N/s t on the upper block. Both stick up to mu (m_1 + m_2) g = 5 N, t = 1.25 s. Then a = (F - 5 N)/5 kg, and the
-/// upper block sticks as long as F - 2 kg a <= 8 N, up to F = 10 N, t = 2.5 s: x = 0.8 tau^3/6 and v = 0.4 tau^2 with
-/// tau = 1.25 s. From there the slab has (8 - 5) N/3 kg, and the block against it (F - 8 N)/2 kg - 1 m/s^2 = 2 (t - 2.5 s).
+/// A force of 4 N/s t on the upper block. Both stick up to mu (m_1 + m_2) g = 5 N, t = 1.25 s. Then a = (F -
+/// 5 N)/5 kg, and the upper block sticks as long as F - 2 kg a <= 8 N, up to F = 10 N, t = 2.5 s: x = 0.8
+/// tau^3/6 and v = 0.4 tau^2 with tau = 1.25 s. From there the slab has (8 - 5) N/3 kg, and the block against
+/// it (F - 8 N)/2 kg - 1 m/s^2 = 2 (t - 2.5 s).
 #[test]
 fn a_growing_force_lets_joints_slip_one_after_the_other() {
     let history = run(&stacked("0 m/s", "4 N/s * t"), &SimulateOptions::new(3.0));
     assert_eq!(history.end, End::Finished);
     assert_eq!(joints(&history), [[STICKS, STICKS], [SLIDES, STICKS], [SLIDES, SLIDES]]);
-    // Decisions take slacks below 1e-8 of the greatest force, the weight of 30 N, as zero: 4 N/s pass them in 7.5e-8 s.
+    // Decisions take slacks below 1e-8 of the greatest force, the weight of 30 N, as zero: 4 N/s pass them in
+    // 7.5e-8 s.
     for (event, time) in history.events[1..].iter().zip([1.25, 2.5]) {
         assert!((event.time - time).abs() < 1e-7, "{} {time}", event.time);
         assert_eq!(event.causes, [Cause::Slips]);
@@ -76,8 +80,9 @@ fn a_growing_force_lets_joints_slip_one_after_the_other() {
     assert!((last.coordinates[1] - 0.125 / 3.0).abs() < 1e-7, "{:?}", last.coordinates);
 }
 
-/// A guided block of 2 kg, 0.2 m long, without friction: its weight of 20 N takes up a couple of 20 N * 0.1 m = 2 N m. A force of 8 N/s t
-/// that acts 0.5 m above its mass centre needs that at t = 0.5 s. A slider that tips has no state in which it could go on.
+/// A guided block of 2 kg, 0.2 m long, without friction: its weight of 20 N takes up a couple of 20 N * 0.1
+/// m = 2 N m. A force of 8 N/s t that acts 0.5 m above its mass centre needs that at t = 0.5 s. A slider that
+/// tips has no state in which it could go on.
 #[test]
 fn a_guided_slider_that_tips_ends_the_motion() {
     for mu in ["0", "0.1"] {
@@ -99,9 +104,10 @@ components = [\"8 N/s * t\", 0]
     }
 }
 
-/// A force of 10 N cos(40 ln|1 - t|) swings faster and faster: with tau = 1 s - t the velocity without friction is
-/// -(5 m/s^2) tau (cos(40 ln tau) + 40 sin(40 ln tau))/1601, so that the block reverses infinitely often before 1 s, at intervals
-/// that shrink by exp(-pi/40) each. The friction of 1 N delays the reversals, which stay in a geometric sequence.
+/// A force of 10 N cos(40 ln|1 - t|) swings faster and faster: with tau = 1 s - t the velocity without
+/// friction is -(5 m/s^2) tau (cos(40 ln tau) + 40 sin(40 ln tau))/1601, so that the block reverses
+/// infinitely often before 1 s, at intervals that shrink by exp(-pi/40) each. The friction of 1 N delays the
+/// reversals, which stay in a geometric sequence.
 fn swinging_ever_faster(options: &SimulateOptions) -> History {
     let force = "
 [parameters]
@@ -112,8 +118,8 @@ at = \"block.C\"
 components = [\"10 N * cos(40*ln(abs(1 - t/second)))\", 0]
 ";
     let [history, other] = both(&block("0.05", "", force), options);
-    // Two ways to decide lead to one motion; nearer to the limit velocities are no greater than the errors of the steps, which decide
-    // what happens there.
+    // Two ways to decide lead to one motion; nearer to the limit velocities are no greater than the errors of
+    // the steps, which decide what happens there.
     assert_eq!(history.end, other.end);
     let resolved = |history: &History| -> Vec<(f64, Vec<Cause>)> {
         let events = history.events.iter().take_while(|event| 1.0 - event.time > RESOLVED);
@@ -138,7 +144,8 @@ fn before_the_limit(history: &History) -> Vec<f64> {
 
 #[test]
 fn stops_that_accumulate_end_the_motion() {
-    // Events within 5e-5 of the time in which it moves through its own size, of which the errors of the steps must be a small part.
+    // Events within 5e-5 of the time in which it moves through its own size, of which the errors of the steps
+    // must be a small part.
     let mut options = SimulateOptions::new(50.0);
     (options.tolerance, options.longest_step) = (1e-12, Some(0.01));
     let history = swinging_ever_faster(&options);
@@ -153,8 +160,8 @@ fn stops_that_accumulate_end_the_motion() {
     assert!(*stops.last().unwrap() < 1e-6, "{:?}", stops.last());
 }
 
-/// At default options, too: over 50 s the stops are followed until 40 of them lie within 1e-5 s, where velocities are still above the errors
-/// of steps.
+/// At default options, too: over 50 s the stops are followed until 40 of them lie within 1e-5 s, where
+/// velocities are still above the errors of steps.
 #[test]
 fn accumulating_stops_are_followed_at_default_options() {
     let history = swinging_ever_faster(&SimulateOptions::new(50.0));
@@ -171,8 +178,9 @@ fn accumulating_stops_are_followed_at_default_options() {
     assert!(history.energy_error < 1e-5 * history.energy_scale, "{:e}", history.energy_error);
 }
 
-/// A force of 1 N + 4 N/s (t - 1 s) against 1 N of friction: v = (t - 1 s)^2 m/s^3 - v_1 is zero at 1 s - sqrt(v_1/(m/s^3)). There the force is less than
-/// friction: the block sticks until 1 s, 0.02 s later. Steps have up to 0.37 s.
+/// A force of 1 N + 4 N/s (t - 1 s) against 1 N of friction: v = (t - 1 s)^2 m/s^3 - v_1 is zero at 1 s -
+/// sqrt(v_1/(m/s^3)). There the force is less than friction: the block sticks until 1 s, 0.02 s later. Steps
+/// have up to 0.37 s.
 #[test]
 fn a_stop_within_a_third_of_a_step_is_found() {
     let force = "
@@ -191,8 +199,8 @@ components = [\"4 N/s * t - 3 N\", 0]
     }
 }
 
-/// The example moves to the right while a horizontal force at its lower end grows from 0 N by 10 N/s: normal forces vanish at
-/// the forces at which `limits`, which knows nothing of time, says that a mode ends.
+/// The example moves to the right while a horizontal force at its lower end grows from 0 N by 10 N/s: normal
+/// forces vanish at the forces at which `limits`, which knows nothing of time, says that a mode ends.
 #[test]
 fn changes_of_mode_are_where_the_limits_are() {
     let settings = Settings::default().parameter("F_20", "0").parameter("mu_1", "0.3");

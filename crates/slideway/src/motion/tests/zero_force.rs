@@ -1,7 +1,7 @@
 //! Where all forces vanish: drawers seen from above, springs at their free length, loads that grow from zero.
 //!
-//! A block of mass 1 kg, 0.2 m long, without weight, is pushed by P at e = 0.1 m beside the middle of its guide: both ends of the block
-//! share N = P e/(0.2 m) = P/2, so that friction is mu |P|.
+//! A block of mass 1 kg, 0.2 m long, without weight, is pushed by P at e = 0.1 m beside the middle of its
+//! guide: both ends of the block share N = P e/(0.2 m) = P/2, so that friction is mu |P|.
 
 use crate::model::Model;
 use crate::motion::{Cause, End, History, JointPhase, SimulateOptions, simulate};
@@ -67,9 +67,10 @@ fn are_close(found: &[f64], expected: &[f64], tolerance: f64) {
 
 const DURATIONS: [f64; 6] = [0.1, 0.3, 0.5, 1.0, 2.0, 3.0];
 
-/// P = (5 N) sin 6 t. In each half period of P the block is at first carried on against P, with (1 + mu) |P|, until its velocity is
-/// spent, then it goes along with (1 - mu) |P|. With c = 1 - cos of the angle since the last zero of P, a gain of velocity u (in units of
-/// (5 N)/(6 rad/s kg)) before it is spent at (1 + mu) c = u; the next is (1 - mu) (2 - c).
+/// P = (5 N) sin 6 t. In each half period of P the block is at first carried on against P, with (1 + mu) |P|,
+/// until its velocity is spent, then it goes along with (1 - mu) |P|. With c = 1 - cos of the angle since the
+/// last zero of P, a gain of velocity u (in units of (5 N)/(6 rad/s kg)) before it is spent at (1 + mu) c =
+/// u; the next is (1 - mu) (2 - c).
 #[test]
 fn a_sine_from_zero_carries_a_block_to_and_fro() {
     let mut expected = vec![0.0];
@@ -88,7 +89,8 @@ fn a_sine_from_zero_carries_a_block_to_and_fro() {
     }
 }
 
-/// From its free length on a spring of 100 N/m: out with w_1^2 = (1 + mu) k/m, a quarter of a period, back with w_2^2 = (1 - mu) k/m.
+/// From its free length on a spring of 100 N/m: out with w_1^2 = (1 + mu) k/m, a quarter of a period, back
+/// with w_2^2 = (1 - mu) k/m.
 #[test]
 fn a_block_swings_about_the_free_length_of_its_spring() {
     let [out, back] = [1.0 + MU, 1.0 - MU].map(|part| FRAC_PI_2 / (100.0 * part).sqrt());
@@ -137,7 +139,8 @@ fn loads_that_grow_from_zero_move_a_block_from_the_start() {
     }
 }
 
-/// e = 0.5 m: friction could be mu 2 e/(0.2 m) = 1.5 times the load, so that it wedges from the start and never moves.
+/// e = 0.5 m: friction could be mu 2 e/(0.2 m) = 1.5 times the load, so that it wedges from the start and
+/// never moves.
 #[test]
 fn a_load_from_zero_beyond_self_locking_moves_nothing() {
     for force in ["(5 N)*sin(6*t/second)", "(2 N)*t/second", "(-2 N)*(1 - cos(3*t/second))"] {
@@ -149,7 +152,8 @@ fn a_load_from_zero_beyond_self_locking_moves_nothing() {
     }
 }
 
-/// Packings of 1 N at each end hold until (1 - mu) P = 2 N: with P = (2 N/s) t, and with P = (5 N)(1 - cos 3 t).
+/// Packings of 1 N at each end hold until (1 - mu) P = 2 N: with P = (2 N/s) t, and with P = (5 N)(1 - cos 3
+/// t).
 #[test]
 fn packings_hold_until_the_load_exceeds_them() {
     let limit = 2.0 / (1.0 - MU);

@@ -1,5 +1,5 @@
-//! What is told of a motion: a report (`report.rs`) and its text (`text.rs`), a table (`series.rs`), and the tree of all branches
-//! (`tree.rs`).
+//! What is told of a motion: a report (`report.rs`) and its text (`text.rs`), a table (`series.rs`), and the
+//! tree of all branches (`tree.rs`).
 
 pub(in crate::motion) mod report;
 pub(in crate::motion) mod series;

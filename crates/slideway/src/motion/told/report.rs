@@ -36,8 +36,8 @@ pub struct SimulateReport {
     pub stop: f64,
     /// Coordinates and rates at the start.
     pub initial: Vec<CoordinateState>,
-    /// In how many steps the positions at the start were followed from the drawing, each proven to stay on its assembly branch; absent
-    /// where they are those of the drawing.
+    /// In how many steps the positions at the start were followed from the drawing, each proven to stay on
+    /// its assembly branch; absent where they are those of the drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_from_drawing: Option<usize>,
     /// Coordinates and rates at the end.
@@ -52,7 +52,8 @@ pub struct SimulateReport {
     pub hints: Vec<String>,
     /// Where the energy went.
     pub energy: EnergyReport,
-    /// How far the joints were violated before each projection: of positions, in sizes of the mechanism or rad.
+    /// How far the joints were violated before each projection: of positions, in sizes of the mechanism or
+    /// rad.
     pub position_drift: f64,
     /// Likewise, of velocities, per second.
     pub velocity_drift: f64,
@@ -77,7 +78,8 @@ pub struct EventReport {
     pub mode: Option<String>,
     /// All modes that were possible, in the order of preference, if there were several.
     pub branches: Vec<BranchReport>,
-    /// Whether further modes, in which fewer joints stick, may be possible: there are too many states to try all.
+    /// Whether further modes, in which fewer joints stick, may be possible: there are too many states to try
+    /// all.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub branches_left_out: bool,
     /// Energy lost in impulses (J).
@@ -191,8 +193,8 @@ pub struct EnergyReport {
     pub impulses: f64,
     /// The greatest error of the balance at any step.
     pub error: f64,
-    /// That error in relation to the greatest kinetic energy, work or dissipation; null where these are no greater than
-    /// the error, because nothing but rounding is moved.
+    /// That error in relation to the greatest kinetic energy, work or dissipation; null where these are no
+    /// greater than the error, because nothing but rounding is moved.
     pub relative_error: Option<f64>,
 }
 
@@ -279,8 +281,8 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     }
 }
 
-/// A load that jumps with a rate is friction without a state of rest; a limit of normal forces does not see those that are not
-/// determined.
+/// A load that jumps with a rate is friction without a state of rest; a limit of normal forces does not see
+/// those that are not determined.
 fn hints(history: &History) -> Vec<String> {
     let mechanism = &history.mechanism;
     let relations = mechanism.relations().into_iter();

@@ -18,7 +18,7 @@ const AT_END: f64 = 1e-9;
 pub struct Series {
     /// The numbers; the first column is the time.
     pub columns: Vec<Column>,
-    /// The contact mode of each row, as the [pattern](super::Phase::pattern) of its phase.
+    /// The contact mode of each row, as the [pattern](crate::motion::Phase::pattern) of its phase.
     pub modes: Vec<String>,
 }
 
@@ -29,8 +29,8 @@ pub struct Column {
     pub name: String,
     /// Its unit; empty for pure numbers.
     pub unit: &'static str,
-    /// One for each row; nothing where the quantity is not defined: friction forces of joints that stick, and normal forces that
-    /// statics leaves open there, as they hang on how the contacts share the friction.
+    /// One for each row; nothing where the quantity is not defined: friction forces of joints that stick, and
+    /// normal forces that statics leaves open there, as they hang on how the contacts share the friction.
     pub values: Vec<Option<f64>>,
 }
 
@@ -53,10 +53,10 @@ impl History {
 
     /// The motion at these times; those outside of it are left out. At an event it is what follows.
     ///
-    /// Columns are `t`, then for each coordinate its value (`coordinate.NAME` where the name alone is taken: `mode`, `units`,
-    /// `model`, `command`, `program`), rate and acceleration, for each contact its normal force, friction
-    /// force and sliding velocity, for each drive its effort, and the energies: kinetic, potential, dissipated by the friction of all
-    /// contacts, work of loads and of drives, lost in impulses.
+    /// Columns are `t`, then for each coordinate its value (`coordinate.NAME` where the name alone is taken:
+    /// `mode`, `units`, `model`, `command`, `program`), rate and acceleration, for each contact its normal
+    /// force, friction force and sliding velocity, for each drive its effort, and the energies: kinetic,
+    /// potential, dissipated by the friction of all contacts, work of loads and of drives, lost in impulses.
     ///
     /// ```
     /// use slideway::model::Model;

@@ -57,8 +57,8 @@ pub struct BranchingReport {
     pub motion: SimulateReport,
 }
 
-/// All motions of a mechanism from a state on, `most` of them at most, those first that differ earliest from the motion
-/// along the preferred branches. Branches that the options prescribe are kept.
+/// All motions of a mechanism from a state on, `most` of them at most, those first that differ earliest from
+/// the motion along the preferred branches. Branches that the options prescribe are kept.
 ///
 /// # Errors
 /// As [`simulate_with`]; a progress function that breaks ends the search.

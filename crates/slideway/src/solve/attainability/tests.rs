@@ -39,8 +39,8 @@ impl Case {
         Self { mechanism, assembled, equations, problem, velocity_signs }
     }
 
-    /// Eigenvalues of `lambda M x = (G_c^T + W diag(mu s sigma)) G_c x` on the motions `[G_r; C] x = 0` with the test
-    /// motions `[G_r; B^T] x = 0`, ascending by size.
+    /// Eigenvalues of `lambda M x = (G_c^T + W diag(mu s sigma)) G_c x` on the motions `[G_r; C] x = 0` with
+    /// the test motions `[G_r; B^T] x = 0`, ascending by size.
     fn of_all_bodies(&self, sides: &[Side]) -> Vec<Complex<f64>> {
         let Assembled { layout, matrix, friction, .. } = &self.assembled;
         let accelerations = 3 * self.mechanism.bodies.len();

@@ -8,7 +8,8 @@ use crate::motion::moving::stepper::{SAMPLES, within};
 use crate::motion::moving::watch::{Needs, Watched};
 use crate::pattern::phase::Phase;
 
-/// Where the equations have no solution at a sample within a step, it is this part of the way nearer to the one before.
+/// Where the equations have no solution at a sample within a step, it is this part of the way nearer to the
+/// one before.
 const BESIDE: f64 = 0.1;
 /// Part of a step within which zeros count as one event.
 pub(super) const SAME_INSTANT: f64 = 1e-9;
@@ -61,7 +62,8 @@ impl Smooth<'_, '_> {
         self.watch.value(watched, phase, equations).map_err(|fault| Failure::Loads(fault.into()))
     }
 
-    /// The first instant within the step at which something falls through zero, as a fraction, and all that does.
+    /// The first instant within the step at which something falls through zero, as a fraction, and all that
+    /// does.
     pub(super) fn first_event(
         &mut self,
         phase: &Phase,
@@ -149,8 +151,8 @@ impl Smooth<'_, '_> {
         match self.watch.list[fall.index] {
             // It may be below zero; just behind one of its zeros it is zero within rounding.
             Watched::User(..) => return after <= 0.0 && before > USER_ZERO * after.abs(),
-            // Just behind the end of its piece it is on the next one, and above zero: if it falls from zero, however that was rounded,
-            // the step before has ended at the end of the piece.
+            // Just behind the end of its piece it is on the next one, and above zero: if it falls from zero,
+            // however that was rounded, the step before has ended at the end of the piece.
             Watched::Relation(_) => return after < 0.0 && before > -USER_ZERO * after.abs(),
             _ => {}
         }
@@ -235,8 +237,8 @@ struct Fall {
 /// Two places, and the values of a function there.
 type Bracket = ([f64; 2], [f64; 2]);
 
-/// A part of the way on which a function that begins with zero, or below it within rounding, and ends below zero falls
-/// from above zero; none if it does not rise first.
+/// A part of the way on which a function that begins with zero, or below it within rounding, and ends below
+/// zero falls from above zero; none if it does not rise first.
 fn rising_part(
     [left, mut right]: [f64; 2],
     mut at_right: f64,

@@ -1,8 +1,8 @@
 //! The motion within a phase, until it ends: what it knows, and one step after another.
 //!
 //! # Files
-//! `steps.rs` tries steps and ends them where something happens, `events.rs` finds where that is, `settling.rs` puts the state
-//! where an event says it is, `reactions.rs` has the limit of normal forces.
+//! `steps.rs` tries steps and ends them where something happens, `events.rs` finds where that is,
+//! `settling.rs` puts the state where an event says it is, `reactions.rs` has the limit of normal forces.
 
 mod events;
 mod reactions;
@@ -193,7 +193,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.energy = works.fold(self.energy, |energy, work| energy.max(work.abs()));
     }
 
-    /// Takes note of the greatest force, and of a velocity that it could cause: at rest there is no other scale.
+    /// Takes note of the greatest force, and of a velocity that it could cause: at rest there is no other
+    /// scale.
     fn notice_force(&mut self) {
         let magnitudes = &mut self.watch.magnitudes;
         magnitudes.force = magnitudes.force.max(self.equations.greatest_force());
@@ -295,7 +296,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         watched.iter().filter_map(|watched| Cause::of(*watched, &self.equations.sliders, name)).collect()
     }
 
-    /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the event.
+    /// Puts relations on their next pieces; the loads and drives that jump there, and pads, are causes of the
+    /// event.
     fn switch(&mut self, switches: &[Switch], mut causes: Vec<Cause>) -> Ended {
         causes.extend(self.switching.switch(self.time, switches));
         self.equations.hold(&self.switching);
@@ -315,7 +317,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         self.end.min(self.switching.next(self.time, horizon))
     }
 
-    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood still.
+    /// Chooses the time beyond which the next step does not go; whether something slips now that has stood
+    /// still.
     fn look_ahead(&mut self) -> Result<bool, Faults> {
         let known = self.known_time();
         let until = known.min(self.horizon());

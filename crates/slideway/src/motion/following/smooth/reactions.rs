@@ -30,7 +30,8 @@ impl Smooth<'_, '_> {
         Ok(causes)
     }
 
-    /// The contacts with the greatest of the normal forces that statics determines while joints stick, if these are what has reached its limit.
+    /// The contacts with the greatest of the normal forces that statics determines while joints stick, if
+    /// these are what has reached its limit.
     pub(super) fn held_causes(
         &mut self,
         watched: &[Watched],
@@ -48,7 +49,8 @@ impl Smooth<'_, '_> {
         Ok(reached.map(|(contact, _)| Cause::ReactionLimit(contact)).collect())
     }
 
-    /// The magnitudes of the normal forces that statics determines while joints stick (N), at the last evaluation.
+    /// The magnitudes of the normal forces that statics determines while joints stick (N), at the last
+    /// evaluation.
     fn held_forces(
         &mut self,
         phase: &Phase,

@@ -1,4 +1,5 @@
-//! The state where an event says it is: joints that have stopped, joints at their stops, velocities after impulses.
+//! The state where an event says it is: joints that have stopped, joints at their stops, velocities after
+//! impulses.
 
 use super::Smooth;
 use crate::configuration::Velocity;
@@ -11,8 +12,9 @@ const SETTLED: f64 = 100.0;
 const LEAST_TOLERANCE: f64 = 1e-10;
 
 impl Smooth<'_, '_> {
-    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines would; unless that
-    /// changes more than errors of steps do: at a dead centre the joint stands while the mechanism moves on.
+    /// Makes the sliding velocities of joints that have stopped exactly zero, as an impulse on their lines
+    /// would; unless that changes more than errors of steps do: at a dead centre the joint stands while the
+    /// mechanism moves on.
     pub(in crate::motion) fn settle(&mut self, phase: &Phase, stopped: &[bool]) {
         if !stopped.contains(&true) {
             return;
@@ -46,7 +48,8 @@ impl Smooth<'_, '_> {
         self.equations.hold(&self.switching);
     }
 
-    /// Brings a joint exactly to a displacement at which an event has found it, within errors of steps, as reactions would.
+    /// Brings a joint exactly to a displacement at which an event has found it, within errors of steps, as
+    /// reactions would.
     pub(in crate::motion) fn put_at(&mut self, phase: &Phase, joint: JointId, displacement: f64) {
         let mut held = phase.clone();
         let sliders = self.equations.sliders.iter().zip(&mut held.joints);

@@ -10,13 +10,15 @@ use crate::motion::moving::watch::{Needs, Watched};
 use crate::motion::record::history::{End, History};
 use crate::pattern::phase::Phase;
 
-/// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors of steps.
+/// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors
+/// of steps.
 const STOPPED: f64 = 0.01;
 /// Part of the way to a zero over which the slope there is taken: the square root of what numbers resolve.
 const SLOPE: f64 = 1e-8;
 
 impl Smooth<'_, '_> {
-    /// Tries steps until one is accurate, projects its end, evaluates what is watched there, and describes it.
+    /// Tries steps until one is accurate, projects its end, evaluates what is watched there, and describes
+    /// it.
     pub(super) fn accepted_step(
         &mut self,
         phase: &Phase,
@@ -57,13 +59,15 @@ impl Smooth<'_, '_> {
         self.hold.is_some() && self.holds_all
     }
 
-    /// Whether joints have stuck until now under loads that change with time, and nothing has proven that they could.
+    /// Whether joints have stuck until now under loads that change with time, and nothing has proven that
+    /// they could.
     pub(in crate::motion) fn rests_unproven(&self) -> bool {
         let is_proven = self.is_held() && self.time <= self.outlook.proven + self.least_step();
         self.watch.list.contains(&Watched::Sticking) && !is_proven && !self.resolution.is_empty()
     }
 
-    /// A step that sees what the loads do meanwhile; while everything stands still they only decide how long that lasts, which is known.
+    /// A step that sees what the loads do meanwhile; while everything stands still they only decide how long
+    /// that lasts, which is known.
     fn resolved(&mut self, step: f64) -> f64 {
         if self.resolution.is_empty() {
             return step;
@@ -107,8 +111,8 @@ impl Smooth<'_, '_> {
         Ok(error)
     }
 
-    /// Ends the step where something happens on the solution within it, by a step of that length, which is more accurate; returns
-    /// the length.
+    /// Ends the step where something happens on the solution within it, by a step of that length, which is
+    /// more accurate; returns the length.
     pub(super) fn stop_at(
         &mut self,
         phase: &Phase,
@@ -143,8 +147,8 @@ impl Smooth<'_, '_> {
         Ok(self.equations.project(&mut self.stepper.end))
     }
 
-    /// Whether a joint that should have stopped at the end of the step slides on, much faster than errors of steps are: its
-    /// stop was found on a solution within a longer step that did not resolve it.
+    /// Whether a joint that should have stopped at the end of the step slides on, much faster than errors of
+    /// steps are: its stop was found on a solution within a longer step that did not resolve it.
     pub(super) fn still_slides(&self, phase: &Phase, causes: &[Cause]) -> bool {
         let little = self.tolerance * self.watch.magnitudes.velocity;
         let only_stops = causes.iter().all(|cause| matches!(cause, Cause::Stops(_)));
@@ -178,10 +182,11 @@ impl Smooth<'_, '_> {
         self.notice_velocity();
     }
 
-    /// Corrects the length of the step that has just been attempted, to where a function vanishes on the solution within a longer step, so
-    /// that the function does so at its very end: Newton's method, at first with the slope on that solution. The length changes by a
-    /// part `e` that is of the order of the errors of steps; going on along the step's own solution, which is smooth, costs an
-    /// error of `e^2` of them, so that the step need not be repeated unless `e^3` is seen.
+    /// Corrects the length of the step that has just been attempted, to where a function vanishes on the
+    /// solution within a longer step, so that the function does so at its very end: Newton's method, at first
+    /// with the slope on that solution. The length changes by a part `e` that is of the order of the errors
+    /// of steps; going on along the step's own solution, which is smooth, costs an error of `e^2` of them, so
+    /// that the step need not be repeated unless `e^3` is seen.
     fn corrected(
         &mut self,
         phase: &Phase,

@@ -50,8 +50,9 @@ impl Equations<'_> {
         }
     }
 
-    /// Friction that depends on the sliding speed, at that of the present state. Beyond the instant at which the joint stops,
-    /// where a step may look before it is cut, the formula goes on smoothly with a negative number if it has a value there.
+    /// Friction that depends on the sliding speed, at that of the present state. Beyond the instant at which
+    /// the joint stops, where a step may look before it is cut, the formula goes on smoothly with a negative
+    /// number if it has a value there.
     fn update_friction(&mut self) -> Result<(), Failure> {
         for (k, rubbing) in self.rubbing.iter_mut().enumerate() {
             if let Rubbing::Pressed { side, sign, faces } = rubbing

@@ -7,14 +7,14 @@
 //! T_j^T a                                                                      = bias
 //! ```
 //!
-//! Coulomb friction of a contact that is pressed against a known side is linear in its normal force (eq. (2)), so it
-//! joins the column of that force: one matrix, not symmetric, is factored for all unknowns. In a preload gap `N_k = 0`,
-//! and the share of the face of positive normal force takes the place of `N_k` among the unknowns (theory, section 3). In that of a
-//! guided slider with height `C = 0`, too, and the share, which acts like a couple, takes its place; that `N_k` is zero without it is
-//! watched.
-//! A joint that sticks adds the row that its sliding acceleration is zero, and the tangential force `t_j` on its centre
-//! line, block against guide. (At another line of the same joint it would shift normal force between the two ends of
-//! the block, and nothing else.)
+//! Coulomb friction of a contact that is pressed against a known side is linear in its normal force (eq.
+//! (2)), so it joins the column of that force: one matrix, not symmetric, is factored for all unknowns. In a
+//! preload gap `N_k = 0`, and the share of the face of positive normal force takes the place of `N_k` among
+//! the unknowns (theory, section 3). In that of a guided slider with height `C = 0`, too, and the share,
+//! which acts like a couple, takes its place; that `N_k` is zero without it is watched. A joint that sticks
+//! adds the row that its sliding acceleration is zero, and the tangential force `t_j` on its centre line,
+//! block against guide. (At another line of the same joint it would shift normal force between the two ends
+//! of the block, and nothing else.)
 
 mod assembly;
 mod phase;
@@ -53,7 +53,8 @@ pub(in crate::motion) enum Failure {
 enum Rubbing {
     /// At each face so many times |N|, and a constant.
     Pressed { side: Side, sign: f64, faces: [[f64; 2]; 2] },
-    /// N = 0; at each face so many times the share, which stands in this column of the unknowns, and a constant.
+    /// N = 0; at each face so many times the share, which stands in this column of the unknowns, and a
+    /// constant.
     Gap { faces: [[f64; 2]; 2], share: usize },
     /// The joint sticks: its tangential force stands for all its contacts.
     Sticking,
@@ -85,8 +86,8 @@ impl Drift {
 
 /// The equations of motion of a mechanism in a phase, at a state.
 ///
-/// The state is a vector: (x, y, angle) of every body, their rates, then the work done so far by every contact, load
-/// and drive.
+/// The state is a vector: (x, y, angle) of every body, their rates, then the work done so far by every
+/// contact, load and drive.
 pub(in crate::motion) struct Equations<'m> {
     pub(in crate::motion) mechanism: &'m Mechanism,
     layout: Layout,
@@ -160,7 +161,8 @@ impl<'m> Equations<'m> {
         state
     }
 
-    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations, and solves them there.
+    /// Enters a phase at a state: chooses the rows of sticking joints and the scales of the equations, and
+    /// solves them there.
     ///
     /// # Errors
     /// Loads without a value there, or a matrix that is singular.
@@ -176,7 +178,8 @@ impl<'m> Equations<'m> {
         let size = self.layout.len() + self.stuck.len();
         self.system = LinearSystem::new(size);
         let inertias = self.mechanism.bodies.iter().flat_map(|body| [body.mass, body.moment_of_inertia]);
-        // With a search the acceleration of what sticks is zero to the last bit, not only beside those of forces that balance.
+        // With a search the acceleration of what sticks is zero to the last bit, not only beside those of
+        // forces that balance.
         if self.stuck.is_empty() && inertias.into_iter().all(|inertia| inertia > 0.0) {
             self.system.uncouple(3 * self.mechanism.bodies.len());
         }
@@ -255,8 +258,8 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// The normal force of a contact; for the ends of a block that sticks as if friction acted on the centre line. In the preload
-    /// gap of a guided slider it is what would have to be zero.
+    /// The normal force of a contact; for the ends of a block that sticks as if friction acted on the centre
+    /// line. In the preload gap of a guided slider it is what would have to be zero.
     pub(in crate::motion) fn normal_force(&self, k: usize) -> f64 {
         let normal = self.normal[k];
         let is_taken = matches!(self.rubbing[k], Rubbing::Gap { share, .. } if share == normal);

@@ -6,7 +6,8 @@ use crate::kinetics::{ConstraintRow, Reaction};
 use crate::mechanism::CoordinateKind;
 use crate::pattern::{ContactPhase, JointPhase, Law, Phase};
 
-/// A sticking joint whose row is, but for this part of it, a combination of the others is held by them already.
+/// A sticking joint whose row is, but for this part of it, a combination of the others is held by them
+/// already.
 const DEPENDENT: f64 = 1e-7;
 
 impl Equations<'_> {
@@ -32,7 +33,8 @@ impl Equations<'_> {
         }
     }
 
-    /// The sticking joints whose rows say something that neither the joints nor the drives nor those before say.
+    /// The sticking joints whose rows say something that neither the joints nor the drives nor those before
+    /// say.
     pub(super) fn choose_stuck(&mut self, phase: &Phase) {
         self.stuck.clear();
         let (mechanism, size) = (self.mechanism, self.mechanism.size);

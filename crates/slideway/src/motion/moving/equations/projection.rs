@@ -6,8 +6,8 @@ use crate::kinetics::Reaction;
 use crate::mechanism::{Attachment, JointKind};
 
 impl Equations<'_> {
-    /// Brings a state back on the joints, with the factors of the last evaluation, which was there: the corrections
-    /// are those that reactions of the phase would cause. Returns how far it was away.
+    /// Brings a state back on the joints, with the factors of the last evaluation, which was there: the
+    /// corrections are those that reactions of the phase would cause. Returns how far it was away.
     pub(in crate::motion) fn project(&mut self, state: &mut [f64]) -> Drift {
         let bodies = 3 * self.mechanism.bodies.len();
         let mut drift = Drift::default();

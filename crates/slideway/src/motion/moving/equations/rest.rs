@@ -10,9 +10,9 @@ use crate::mechanism::{
 use crate::motion::moving::connected::connected;
 
 impl Equations<'_> {
-    /// For each body whether it stands still as long as the joints that stick in the phase do: together with what joints connect with it no
-    /// motion is left to it, nothing drives it, nothing is faster than this (m/s), and what acts on it depends on the time and on
-    /// bodies of this kind alone.
+    /// For each body whether it stands still as long as the joints that stick in the phase do: together with
+    /// what joints connect with it no motion is left to it, nothing drives it, nothing is faster than this
+    /// (m/s), and what acts on it depends on the time and on bodies of this kind alone.
     pub(in crate::motion) fn resting(&self, velocity: f64) -> Vec<bool> {
         let bodies = self.mechanism.bodies.len();
         if self.stuck.is_empty() {
