@@ -31,7 +31,6 @@ fn long_commands(folder: &Path) -> Vec<(Vec<String>, Option<String>)> {
         (words(&["limits", &seven, "--vary", "friction"]), None),
         (words(&["limits", &seven, "--vary", range, "--plot", &plot]), Some(plot.clone())),
         (words(&["sweep", &seven, "--vary", "overlap=0.3 m..0.9 m:101"]), None),
-        (words(&["hold", &four, "--load", "W"]), None),
         (words(&["size", &four, "--vary", range, "--margin", "2", "--against", "hold", "--load", "W"]), None),
         (words(&["size", &four, "--vary", "overlap=0.3..0.9", "--margin", "2"]), None),
         (words(&["map", &four, "--x", "mu=0..1", "--y", range, "--probe", "1", "--output", &map]), Some(map)),
@@ -54,6 +53,16 @@ fn a_time_limit_ends_every_long_command_in_time_and_nothing_is_written() {
         assert!(took < Duration::from_secs(20), "{words:?} took {took:?}");
         assert!(file.is_none_or(|file| !Path::new(&file).exists()), "{words:?}");
     }
+}
+
+/// `hold` refuses what would take minutes: its 20,736 states take half a second with this build.
+#[test]
+fn a_time_limit_ends_hold_between_states() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = slideway(&["hold", &boom(folder.path(), 4), "--load", "W", "--time-limit", "50ms"]);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    let told = "error: ended by the time limit of 50 ms before there was an answer; nothing is written";
+    assert!(run.stderr.starts_with(told) && run.stdout.is_empty(), "{}", run.stderr);
 }
 
 /// Starts a command, waits until it works, sends it a signal, and says how it ended.

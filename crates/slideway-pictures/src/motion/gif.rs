@@ -399,7 +399,7 @@ mod tests {
             slow.to_gif(&mut |_| ControlFlow::Continue(()))
                 .expect_err("too slow")
                 .to_string()
-                .contains("for 700 s")
+                .contains("last 700 s")
         );
         let endless = Animation { frame_time: f64::INFINITY, ..animation.clone() };
         assert!(matches!(endless.to_gif(&mut |_| ControlFlow::Continue(())), Err(GifFault::Slow { .. })));

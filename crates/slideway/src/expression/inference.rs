@@ -39,7 +39,7 @@ impl Expression {
     /// let force = parse("5 N/m*(l - 20 mm)", &names).unwrap();
     /// assert_eq!(force.dimension(&of), Ok(Inferred::Known(Dimension::FORCE)));
     /// let fault = parse("l + 3 kg", &names).unwrap().dimension(&of).unwrap_err();
-    /// assert_eq!(fault.to_string(), "`+` joins a length and a mass");
+    /// assert_eq!(fault.to_string(), "`+` cannot combine a length and a mass");
     /// ```
     pub fn dimension(&self, of: &dyn Fn(Symbol) -> Inferred) -> Result<Inferred, ExpressionFault> {
         let mut stack: Vec<Part> = Vec::with_capacity(self.greatest_height());
