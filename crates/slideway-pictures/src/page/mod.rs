@@ -5,7 +5,7 @@
 
 //!
 //! # Files
-//! `head.html` is the head with the style, with names in double braces for what [`head`] fills in; `body.rs`
+//! `head.html` is the head with the style, with names in double braces for what `head` fills in; `body.rs`
 //! writes the rest.
 
 mod body;
