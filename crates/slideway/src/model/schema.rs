@@ -151,6 +151,29 @@ impl JsonSchema for Gravity {
 fn the_schema_that_is_read_is_that_of_the_types() {
     let mut schema = schema_for!(ModelFile);
     schema.insert("title".to_owned(), "Slideway model".into());
-    let made = format!("{:#}\n", serde_json::Value::from(schema));
+    let mut schema = serde_json::Value::from(schema);
+    join_lines(&mut schema);
+    let made = format!("{schema:#}\n");
     assert!(made == super::SCHEMA, "schema.json is not what the types give, which is\n{made}");
+}
+
+/// Puts the lines of each paragraph of a description together: where comments are wrapped says nothing to an editor.
+fn join_lines(schema: &mut serde_json::Value) {
+    use serde_json::Value;
+    match schema {
+        Value::Object(entries) => {
+            for (name, value) in entries {
+                match value {
+                    Value::String(text) if name == "description" => {
+                        let paragraphs: Vec<String> =
+                            text.split("\n\n").map(|lines| lines.replace('\n', " ")).collect();
+                        *text = paragraphs.join("\n\n");
+                    }
+                    _ => join_lines(value),
+                }
+            }
+        }
+        Value::Array(values) => values.iter_mut().for_each(join_lines),
+        _ => {}
+    }
 }
