@@ -109,6 +109,8 @@ mod status;
 mod uniqueness;
 
 pub use enumeration::{EnumerationError, enumerate};
+/// The linear algebra whose vectors and matrices are in the interface.
+pub use nalgebra;
 pub use problem::{
     BySide, ContactState, InfluenceCoefficients, ModeProblem, ModeProblemError, ProblemPart, Side,
     SolutionSet,

@@ -15,7 +15,7 @@
 
 mod text;
 
-use crate::configuration::{Configuration, Mobility, free_motions, motion_in_words, unit};
+use crate::configuration::{Configuration, Mobility, free_motions, motions_without_inertia, unit};
 use crate::fault::{FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::influence::Influence;
@@ -24,15 +24,11 @@ use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Model, SliderKind, Stop};
 use crate::report::finite;
 use crate::solve::{check_size, mode_problem, velocity_signs};
-use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::fmt;
 
 /// Version of the layout of a [`CheckReport`]; changes whenever a field is renamed or removed.
 pub const SCHEMA: &str = "slideway/check/1";
-
-/// Kinetic energies below this multiple of the greatest count as none.
-const NO_INERTIA: f64 = 1e-12;
 
 /// What a model consists of, and what stands in the way of solving it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -321,22 +317,7 @@ fn inertia(mechanism: &Mechanism, configuration: &Configuration) -> InertiaSumma
     if motions.ncols() == 0 {
         return InertiaSummary { regular: true, motions_without: Vec::new() };
     }
-    let masses = mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]);
-    let masses = DVector::from_iterator(motions.nrows(), masses);
-    let energy = motions.transpose() * DMatrix::from_diagonal(&masses) * &motions;
-    let eigen = energy.symmetric_eigen();
-    let greatest = eigen.eigenvalues.amax();
-    let motions_without: Vec<String> = (0..motions.ncols())
-        .filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest)
-        .map(|index| {
-            let mut motion = &motions * eigen.eigenvectors.column(index);
-            // Of both directions the one whose greatest component is positive.
-            if motion[motion.icamax()] < 0.0 {
-                motion = -motion;
-            }
-            motion_in_words(mechanism, configuration, &motion)
-        })
-        .collect();
+    let motions_without = motions_without_inertia(mechanism, configuration, &motions);
     InertiaSummary { regular: motions_without.is_empty(), motions_without }
 }
 

@@ -14,6 +14,8 @@ use nalgebra::{DMatrix, DVector, SVD, Vector2};
 pub(super) const RANK_TOLERANCE: f64 = 1e-9;
 /// Length of the step, in sizes of the mechanism, that tells a singular position from a redundant structure.
 const PROBE: f64 = 1e-2;
+/// Kinetic energies below this multiple of the greatest count as none.
+const NO_INERTIA: f64 = 1e-12;
 
 /// How a mechanism can move, and whether its reactions are determinate.
 #[derive(Debug, Clone, PartialEq)]
@@ -270,6 +272,32 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
             equations.residual.amax() < 1e-10 && rank(&equations.jacobian, RANK_TOLERANCE) > rank_here
         })
     })
+}
+
+/// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words.
+pub(crate) fn motions_without_inertia(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    motions: &DMatrix<f64>,
+) -> Vec<String> {
+    let masses = mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]);
+    let masses = DVector::from_iterator(motions.nrows(), masses);
+    let energy = motions.transpose() * DMatrix::from_diagonal(&masses) * motions;
+    if energy.is_empty() {
+        return Vec::new();
+    }
+    let eigen = energy.symmetric_eigen();
+    let greatest = eigen.eigenvalues.amax();
+    let without = (0..motions.ncols()).filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest);
+    let in_words = |index: usize| {
+        let mut motion = motions * eigen.eigenvectors.column(index);
+        // Of both directions the one whose greatest component is positive.
+        if motion[motion.icamax()] < 0.0 {
+            motion = -motion;
+        }
+        motion_in_words(mechanism, configuration, &motion)
+    };
+    without.map(in_words).collect()
 }
 
 /// Moves the poses by a vector of (x/size, y/size, angle) for every body.

@@ -22,7 +22,7 @@ mod mobility;
 pub use follower::Follower;
 pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
-pub(crate) use mobility::{advance, free_motions, motion_in_words, null_space};
+pub(crate) use mobility::{advance, free_motions, motion_in_words, motions_without_inertia, null_space};
 
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};

@@ -4,14 +4,12 @@ use super::ColourBy;
 use crate::fault::{FaultKind, Faults};
 use crate::modes::existence::{ExistenceOptions, counts};
 use crate::modes::{ContactState, Limits, Solutions, enumerate};
-use crate::solve::{Parts, pattern};
+use crate::solve::{AT_ONCE, Parts, pattern};
 use nalgebra::DVector;
 use serde::Serialize;
 
 /// Bounds of the classes of margins.
 const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
-/// Ends closer to the present friction than this belong to it.
-const AT_ONCE: f64 = 1e-9;
 /// The most patterns for which margins are computed.
 const PATTERNS: u64 = 1 << 12;
 

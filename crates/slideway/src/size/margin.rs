@@ -5,12 +5,11 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::progress::Work;
+use crate::solve::GROWING;
 use crate::standstill::self_locking_factor;
 
 /// The most patterns for which a margin is computed.
 const PATTERNS: u64 = 1 << 12;
-/// From the friction of the model without end, as a factor.
-const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 /// From no friction to that of the model.
 const FALLING: [f64; 2] = [0.0, 1.0];
 /// Factors between those two at which states between faces are sought: a heuristic.

@@ -3,11 +3,9 @@
 use super::answer::Answer;
 use super::state::{State, signs};
 use crate::kinetics::Reaction;
+use crate::mechanism::COUPLE_TOLERANCE;
 use crate::modes::{SingularMode, SolutionSet};
 use nalgebra::DVector;
-
-/// Relative tolerance on the couple that a guided slider can take up.
-const TOLERANCE: f64 = 1e-9;
 
 /// A part of a continuum that is shorter than this multiple of it is a point within the tolerance.
 const POINT: f64 = 1e-6;
@@ -58,8 +56,8 @@ impl Answer<'_> {
         let scale = slack.iter().chain(&next).map(|slack| slack.abs()).fold(0.0, f64::max);
         let (mut first, mut last) = (0.0_f64, end);
         for (at_start, at_next) in slack.iter().zip(&next) {
-            let (value, slope) = (at_start + TOLERANCE * scale, at_next - at_start);
-            if slope.abs() <= TOLERANCE * scale {
+            let (value, slope) = (at_start + COUPLE_TOLERANCE * scale, at_next - at_start);
+            if slope.abs() <= COUPLE_TOLERANCE * scale {
                 if value < 0.0 {
                     return (1.0, 0.0);
                 }

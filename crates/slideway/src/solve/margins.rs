@@ -15,9 +15,9 @@ use nalgebra::DVector;
 /// The most patterns for which margins are computed.
 const PATTERNS: u64 = 256;
 /// From the present friction without end, as a factor.
-const GROWING: [f64; 2] = [1.0, f64::INFINITY];
+pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.
-const AT_ONCE: f64 = 1e-9;
+pub(crate) const AT_ONCE: f64 = 1e-9;
 
 /// Adds the margins to a report, if there are few enough modes, and each can be followed.
 pub(super) fn add(

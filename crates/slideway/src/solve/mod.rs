@@ -37,7 +37,10 @@ mod words;
 
 pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
-pub(crate) use mode_problem::{check_size, influence_coefficients, preload_columns, sides, sliding_signs};
+pub(crate) use margins::{AT_ONCE, GROWING};
+pub(crate) use mode_problem::{
+    NO_INFLUENCE, SAME_COLUMN, check_size, influence_coefficients, preload_columns, sides, sliding_signs,
+};
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::{Parts, Stages};
 pub(crate) use state::{pattern, signs};

@@ -12,9 +12,9 @@ use nalgebra::{DMatrix, DVector};
 /// Sliding velocities below this multiple of the greatest velocity count as zero.
 const AT_REST: f64 = 1e-12;
 /// Versions of an influence column that differ by less than this multiple of it are the same.
-const SAME: f64 = 1e-12;
+pub(crate) const SAME_COLUMN: f64 = 1e-12;
 /// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
-const NO_INFLUENCE: f64 = 1e-13;
+pub(crate) const NO_INFLUENCE: f64 = 1e-13;
 
 /// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
 ///
@@ -95,7 +95,7 @@ pub(crate) fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMat
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
         let difference = (positive.column(k) - negative.column(k)).amax();
-        if guided || difference <= SAME * positive.column(k).amax() {
+        if guided || difference <= SAME_COLUMN * positive.column(k).amax() {
             negative.set_column(k, &positive.column(k));
         }
     }

@@ -51,13 +51,13 @@ pub use report::{
     HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold,
 };
 
-use crate::configuration::{free_motions, motion_in_words, unit};
+use crate::configuration::{free_motions, motions_without_inertia, unit};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rest::Over;
 use setup::Setup;
 use state::side_options;
@@ -67,8 +67,6 @@ use state::side_options;
 const TOLERANCE: f64 = 1e-9;
 /// More states of joints and contacts are refused.
 const MOST_STATES: u64 = 100_000;
-/// Kinetic energies below this multiple of the greatest count as none.
-const NO_INERTIA: f64 = 1e-12;
 
 /// What is asked of a mechanism at rest.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -133,7 +131,7 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
     let load = load_report(model, options, &setup, work.part(1, 4))?;
-    let motions_without_inertia = motions_without_inertia(&setup);
+    let motions_without_inertia = undriven_without_inertia(&setup);
     let release = if motions_without_inertia.is_empty() {
         release::releases(&setup, nominal, rest.found.is_some(), work.part(2, 4))
     } else {
@@ -258,26 +256,10 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 }
 
 /// Motions that the joints leave and that have no kinetic energy, unless drives hold them.
-fn motions_without_inertia(setup: &Setup) -> Vec<String> {
+fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
     let motions = held_motions(setup, free_motions(mechanism, configuration));
-    let mass = DVector::from_iterator(
-        3 * mechanism.bodies.len(),
-        mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]),
-    );
-    let energy = motions.transpose() * DMatrix::from_diagonal(&mass) * &motions;
-    if energy.is_empty() {
-        return Vec::new();
-    }
-    let decomposition = energy.symmetric_eigen();
-    let greatest = decomposition.eigenvalues.amax();
-    let none =
-        decomposition.eigenvalues.iter().enumerate().filter(|(_, value)| **value <= NO_INERTIA * greatest);
-    none.map(|(index, _)| {
-        let motion = &motions * decomposition.eigenvectors.column(index);
-        motion_in_words(mechanism, configuration, &motion)
-    })
-    .collect()
+    motions_without_inertia(mechanism, configuration, &motions)
 }
 
 /// The motions that drives leave.

@@ -6,12 +6,9 @@ use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::motion::moving::connected::join;
+use crate::solve::{NO_INFLUENCE, SAME_COLUMN};
 use nalgebra::{DMatrix, DVector};
 
-/// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
-const NO_INFLUENCE: f64 = 1e-13;
-/// Versions of an influence column that differ by less than this multiple of it are the same.
-const SAME: f64 = 1e-12;
 /// Sliding joints that act on one another; no friction of another joint has any influence on them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Group {
@@ -115,7 +112,7 @@ fn make_equal(mechanism: &Mechanism, columns: &mut [DMatrix<f64>; 2]) {
         let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
         let contacts = mechanism.contacts.len();
         let [plus, minus] = [&*positive, &*negative].map(|matrix| matrix.column(k).into_owned());
-        let all = (&plus - &minus).amax() <= SAME * plus.amax();
+        let all = (&plus - &minus).amax() <= SAME_COLUMN * plus.amax();
         for row in 0..plus.len() {
             if all || (guided && row < contacts) {
                 negative[(row, k)] = positive[(row, k)];

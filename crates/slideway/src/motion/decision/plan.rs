@@ -16,7 +16,7 @@ use super::system::{Inequality, Question, System as Equations};
 use crate::fault::Fault;
 use crate::interval::{Interval, Sloped};
 use crate::motion::moving::amounts::Amounts;
-use crate::motion::moving::root::falling_root;
+use crate::motion::moving::root::{NARROWEST, falling_root};
 use crate::pattern::{Affine, AffineSet, Phase, Region};
 use nalgebra::{DMatrix, DVector};
 
@@ -27,8 +27,6 @@ const ENDS: f64 = 2.0 * BOUNDARY;
 const EQUAL: f64 = 1e-9;
 /// So many cells of time are looked at in one go.
 const MOST_CELLS: usize = 1000;
-/// Cells of time that are narrower than this many units in the last place are not divided.
-const NARROWEST: f64 = 4.0;
 
 /// A pattern of a group of joints.
 pub(super) struct System<'s> {

@@ -42,7 +42,7 @@ pub(in crate::motion) fn falling_root<E>(
 }
 
 /// Cells of time that are narrower than this many units in the last place are not divided.
-const NARROWEST: f64 = 4.0;
+pub(in crate::motion) const NARROWEST: f64 = 4.0;
 
 /// Where a function of time becomes negative first: it is proven to be negative there, and to be positive to
 /// the left of it, but for times at which it cannot be told from zero.
