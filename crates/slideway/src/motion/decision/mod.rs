@@ -26,8 +26,9 @@
 //! Right after an event some slack is zero: a normal force at its change of side, the friction of a joint
 //! that begins to slip, the acceleration of a joint that has just stopped. Such a phase counts only if the
 //! slack grows from zero along the phase's own motion. This is decided by the first and then the second
-//! derivative of the slack, from two short steps of that motion. (For one `y_k` and no jump it is the rule
-//! that `p(sigma)` has the same sign on both sides; for several it solves the local mode problem among them.)
+//! derivative of the slack, from one short step of that motion, or two. (For one `y_k` and no jump it is the
+//! rule that `p(sigma)` has the same sign on both sides; for several it solves the local mode problem among
+//! them.)
 //! Where both derivatives vanish the phase is kept and says so, [`Standing::Undecided`].
 //!
 //! # Accuracy
