@@ -6,7 +6,7 @@
 //! order one.
 
 use super::curvature::{Curvature, End};
-use super::{Pose, middle_points, moved};
+use super::{Pose, middle_points, moved, turned};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
@@ -190,7 +190,7 @@ impl<T: Real> Rows<'_, T> {
     }
 
     fn direction(&self, slider: &Slider<T>) -> Vector2<T> {
-        slider.guide.body().map_or(slider.tangent, |body| self.poses[body.index()].turned(slider.tangent))
+        turned(self.poses, slider.guide, slider.tangent)
     }
 
     fn assemble(self) -> JointEquations<T> {

@@ -208,7 +208,7 @@ impl<T: Real> Configuration<T> {
 
     /// A direction of the drawing, turned with a frame.
     pub fn direction(&self, frame: Frame, drawn: Vector2<T>) -> Vector2<T> {
-        frame.body().map_or(drawn, |body| self.poses[body.index()].turned(drawn))
+        turned(&self.poses, frame, drawn)
     }
 
     /// Where a point of the drawing is now.
@@ -283,6 +283,11 @@ impl<T: Real> Configuration<T> {
 /// Where every body is in the drawing.
 fn drawing_poses(mechanism: &Mechanism) -> Vec<Pose> {
     mechanism.bodies.iter().map(|body| Pose::new(body.centre_of_mass, 0.0)).collect()
+}
+
+/// A direction of the drawing, turned with a frame, when the bodies have these poses.
+fn turned<T: Real>(poses: &[Pose<T>], frame: Frame, drawn: Vector2<T>) -> Vector2<T> {
+    frame.body().map_or(drawn, |body| poses[body.index()].turned(drawn))
 }
 
 /// Where a point of the drawing is when the bodies have these poses.

@@ -121,12 +121,8 @@ impl<'a, 'm> Run<'a, 'm> {
 
     /// One phase, until it ends.
     fn phase(&mut self, phase: &Phase, progress: &mut Callback<'_>, total: f64) -> Ended {
-        match self.smooth.enter(phase, self.decisions) {
-            Ok(()) => {}
-            Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
-            Err(Failure::Singular) => return Ended::End(End::Jammed),
-        }
-        let exceeded = match self.smooth.exceeded_reactions(phase, self.decisions) {
+        let begun = self.smooth.enter(phase, self.decisions);
+        let exceeded = match begun.and_then(|()| self.smooth.exceeded_reactions(phase, self.decisions)) {
             Ok(exceeded) => exceeded,
             Err(Failure::Loads(faults)) => return Ended::End(End::NoValue(faults)),
             Err(Failure::Singular) => return Ended::End(End::Jammed),

@@ -19,16 +19,18 @@ pub(super) const ROOT_TOLERANCE: f64 = 1e-13;
 const USER_ZERO: f64 = 1e-9;
 
 impl Smooth<'_, '_> {
-    /// Values of all watched functions at the last evaluation.
+    /// Takes down the values of all watched functions at the last evaluation, which was at this sample of the
+    /// step.
     pub(super) fn watch_all(
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        values: &mut Vec<f64>,
+        sample: usize,
     ) -> Result<(), Failure> {
-        values.clear();
+        self.values[sample].clear();
         for index in 0..self.watch.list.len() {
-            values.push(self.value(self.watch.list[index], phase, decisions)?);
+            let value = self.value(self.watch.list[index], phase, decisions)?;
+            self.values[sample].push(value);
         }
         Ok(())
     }
@@ -108,10 +110,7 @@ impl Smooth<'_, '_> {
             }
             evaluated => evaluated?,
         }
-        let mut values = std::mem::take(&mut self.values);
-        let watched = self.watch_all(phase, decisions, &mut values[sample]);
-        self.values = values;
-        watched
+        self.watch_all(phase, decisions, sample)
     }
 
     /// What has fallen from one sample of the step to the next.

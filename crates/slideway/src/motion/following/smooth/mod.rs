@@ -42,6 +42,16 @@ pub(in crate::motion) enum Ended {
     End(End),
 }
 
+impl From<Failure> for Ended {
+    /// Where loads have no value the simulation ends; where the equations have no solution the mode locks.
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Loads(faults) => Self::End(End::NoValue(faults)),
+            Failure::Singular => Self::Event(vec![Cause::Locks]),
+        }
+    }
+}
+
 /// A motion within a phase.
 pub(in crate::motion) struct Smooth<'o, 'm> {
     pub(in crate::motion) equations: Equations<'m>,
@@ -161,9 +171,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
                 sliders.iter().zip(&phase.joints).filter(|(_, state)| **state == JointPhase::Sticking);
             self.holds_all = sticking.into_iter().all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
         }
-        let mut values = std::mem::take(&mut self.values);
-        self.watch_all(phase, decisions, &mut values[0])?;
-        self.values = values;
+        self.watch_all(phase, decisions, 0)?;
         if self.next == 0.0 {
             self.next = self.first_step();
         }
@@ -230,64 +238,51 @@ impl<'o, 'm> Smooth<'o, 'm> {
         decisions: &mut dyn Decisions,
         history: &mut History,
     ) -> Option<Ended> {
+        self.followed_step(phase, decisions, history).unwrap_or_else(|failure| Some(failure.into()))
+    }
+
+    fn followed_step(
+        &mut self,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+        history: &mut History,
+    ) -> Result<Option<Ended>, Failure> {
         self.set_scale();
         let due = self.due();
         if !due.is_empty() {
-            return Some(self.switch(&due, Vec::new()));
+            return Ok(Some(self.switch(&due, Vec::new())));
         }
-        match self.look_ahead() {
-            Ok(true) => return Some(Ended::Event(vec![Cause::Slips])),
-            Ok(false) => {}
-            Err(faults) => return Some(Ended::End(End::NoValue(faults))),
+        if self.look_ahead().map_err(Failure::Loads)? {
+            return Ok(Some(Ended::Event(vec![Cause::Slips])));
         }
-        let (step, error) = match self.accepted_step(phase, decisions, history) {
-            Ok(accepted) => accepted,
-            Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
-            Err(Failure::Singular) => return Some(Ended::Event(vec![Cause::Locks])),
-        };
+        let (step, error) = self.accepted_step(phase, decisions, history)?;
         let first = history.dense.len() - DENSE * self.state.len();
-        match self.first_event(phase, decisions, &history.dense[first..], step) {
-            Ok(None) => {
-                self.next = step * self.control.accepted(error);
-                self.advance(step);
-                self.values.swap(0, 3);
-                None
-            }
-            Ok(Some((fraction, watched))) => {
-                let dense = history.dense.split_off(first);
-                self.next = step;
-                let mut causes = self.causes(&watched);
-                let place = (fraction, watched[0]);
-                match self.stop_at(phase, decisions, (&dense, step), place, history) {
-                    Ok(length) if length > 0.0 && self.still_slides(phase, &causes) => {
-                        self.go_on(length, phase, decisions)
-                    }
-                    Ok(_) => {
-                        match self.held_causes(&watched, phase, decisions) {
-                            Ok(reached) => causes.extend(reached),
-                            Err(Failure::Loads(faults)) => return Some(Ended::End(End::NoValue(faults))),
-                            Err(Failure::Singular) => return Some(Ended::Event(vec![Cause::Locks])),
-                        }
-                        let mut switches = self.due();
-                        switches.extend(watched.iter().filter_map(|watched| match watched {
-                            Watched::Relation(switch) => Some(*switch),
-                            _ => None,
-                        }));
-                        Some(self.switch(&switches, causes))
-                    }
-                    Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
-                    Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
-                }
-            }
-            Err(Failure::Loads(faults)) => {
-                history.dense.truncate(first);
-                Some(Ended::End(End::NoValue(faults)))
-            }
-            Err(Failure::Singular) => {
-                history.dense.truncate(first);
-                Some(Ended::Event(vec![Cause::Locks]))
-            }
+        let event = self.first_event(phase, decisions, &history.dense[first..], step);
+        if event.is_err() {
+            // The step that has been described is not taken.
+            history.dense.truncate(first);
         }
+        let Some((fraction, watched)) = event? else {
+            self.next = step * self.control.accepted(error);
+            self.advance(step);
+            self.values.swap(0, 3);
+            return Ok(None);
+        };
+        let dense = history.dense.split_off(first);
+        self.next = step;
+        let mut causes = self.causes(&watched);
+        let place = (fraction, watched[0]);
+        let length = self.stop_at(phase, decisions, (&dense, step), place, history)?;
+        if length > 0.0 && self.still_slides(phase, &causes) {
+            return self.go_on(length, phase, decisions).map(|()| None);
+        }
+        causes.extend(self.held_causes(&watched, phase, decisions)?);
+        let mut switches = self.due();
+        switches.extend(watched.iter().filter_map(|watched| match watched {
+            Watched::Relation(switch) => Some(*switch),
+            _ => None,
+        }));
+        Ok(Some(self.switch(&switches, causes)))
     }
 
     /// What the watched functions that have passed zero are the causes of.

@@ -1,13 +1,13 @@
 //! Steps: tried until one is accurate, projected, and ended where something happens.
 
+use super::Smooth;
 use super::events::{ROOT_TOLERANCE, SAME_INSTANT};
-use super::{Ended, Smooth};
 use crate::fault::{Fault, FaultKind};
 use crate::motion::decision::rules::Decisions;
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Failure};
 use crate::motion::moving::watch::{Needs, Watched};
-use crate::motion::record::history::{End, History};
+use crate::motion::record::history::History;
 use crate::pattern::phase::Phase;
 
 /// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors
@@ -100,10 +100,7 @@ impl Smooth<'_, '_> {
     ) -> Result<f64, Failure> {
         let error = self.stepper.attempt(&mut self.equations, [self.time, step], &self.state, &self.scale)?;
         if error <= 1.0 {
-            let mut values = std::mem::take(&mut self.values);
-            let watched = self.watch_all(phase, decisions, &mut values[3]);
-            self.values = values;
-            watched?;
+            self.watch_all(phase, decisions, 3)?;
             self.notice_force();
             let drift = self.equations.project(&mut self.stepper.end);
             history.drift = history.drift.max(drift);
@@ -164,16 +161,14 @@ impl Smooth<'_, '_> {
     }
 
     /// Goes on in the same phase from where a shortened step has ended, in steps of half its length.
-    pub(super) fn go_on(&mut self, step: f64, phase: &Phase, decisions: &mut dyn Decisions) -> Option<Ended> {
+    pub(super) fn go_on(
+        &mut self,
+        step: f64,
+        phase: &Phase,
+        decisions: &mut dyn Decisions,
+    ) -> Result<(), Failure> {
         self.next = step / 2.0;
-        let mut values = std::mem::take(&mut self.values);
-        let watched = self.watch_all(phase, decisions, &mut values[0]);
-        self.values = values;
-        match watched {
-            Ok(()) => None,
-            Err(Failure::Loads(faults)) => Some(Ended::End(End::NoValue(faults))),
-            Err(Failure::Singular) => Some(Ended::Event(vec![Cause::Locks])),
-        }
+        self.watch_all(phase, decisions, 0)
     }
 
     pub(super) fn advance(&mut self, step: f64) {
