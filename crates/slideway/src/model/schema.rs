@@ -3,12 +3,9 @@
 //! The program reads `schema.json`. If the test says that it differs, this makes it anew:
 //! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > /tmp/schema.json`, to be moved here.
 
-use super::file::{
-    BlockSliderTable, BodyTable, CoordinateTable, DamperTable, DriveTable, EventTable, ForceTable,
-    GuidedSliderTable, HingeTable, PinInSlotTable, SpringTable, TableTable, TorqueTable,
-    TorsionalDamperTable, TorsionalSpringTable,
-};
+use super::file::{BodyTable, CoordinateTable, DriveTable, EventTable, TableTable};
 use super::quantity::{Components, Direction, Gravity, Name, PerSide, Place, Quantity, Sides};
+use super::sections::{JointContents, LoadContents};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -37,49 +34,15 @@ struct ModelFile {
     /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
     bodies: BTreeMap<String, BodyTable>,
     /// Hinges and sliding joints, each between two bodies or a body and `ground`.
-    joints: BTreeMap<String, JointTable>,
+    joints: BTreeMap<String, JointContents>,
     /// Forces, torques, springs and dampers.
-    loads: Option<BTreeMap<String, LoadTable>>,
+    loads: Option<BTreeMap<String, LoadContents>>,
     /// Prescribed motions, each with the unknown force or torque that produces it.
     drives: Option<BTreeMap<String, DriveTable>>,
     /// The chosen coordinates: as many as there are degrees of freedom.
     coordinates: Option<BTreeMap<String, CoordinateTable>>,
     /// What a motion in time is watched for, beside what the joints do.
     events: Option<BTreeMap<String, EventTable>>,
-}
-
-/// A joint between two bodies.
-#[derive(JsonSchema)]
-#[schemars(tag = "type", rename_all = "snake_case")]
-#[expect(dead_code, clippy::large_enum_variant, reason = "only its schema is used: no value is ever made")]
-enum JointTable {
-    /// A frictionless hinge.
-    Hinge(HingeTable),
-    /// A carriage, sledge or bushing with a contact at each end.
-    BlockSlider(BlockSliderTable),
-    /// A slider pressed on one side along its whole length: one normal force and a couple.
-    GuidedSlider(GuidedSliderTable),
-    /// A pin in a slot, free to rotate: one contact.
-    PinInSlot(PinInSlotTable),
-}
-
-/// A force, torque, spring or damper.
-#[derive(JsonSchema)]
-#[schemars(tag = "type", rename_all = "snake_case")]
-#[expect(dead_code, reason = "only its schema is used: no value is ever made")]
-enum LoadTable {
-    /// A force at a point.
-    Force(ForceTable),
-    /// A torque on a body.
-    Torque(TorqueTable),
-    /// A linear spring between two points.
-    Spring(SpringTable),
-    /// A linear damper between two points.
-    Damper(DamperTable),
-    /// A linear torsional spring between two bodies.
-    TorsionalSpring(TorsionalSpringTable),
-    /// A linear torsional damper between two bodies.
-    TorsionalDamper(TorsionalDamperTable),
 }
 
 impl JsonSchema for Name {

@@ -31,21 +31,35 @@ pub(super) struct Sections {
     pub(super) events: Vec<Entry<EventTable>>,
 }
 
-/// The contents of a joint's table, by its `type`.
+/// A joint between two bodies.
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(tag = "type", rename_all = "snake_case", rename = "JointTable"))]
 pub(super) enum JointContents {
+    /// A frictionless hinge.
     Hinge(HingeTable),
-    Block(Box<BlockSliderTable>),
-    Guided(Box<GuidedSliderTable>),
-    Pin(Box<PinInSlotTable>),
+    /// A carriage, sledge or bushing with a contact at each end.
+    BlockSlider(Box<BlockSliderTable>),
+    /// A slider pressed on one side along its whole length: one normal force and a couple.
+    GuidedSlider(Box<GuidedSliderTable>),
+    /// A pin in a slot, free to rotate: one contact.
+    PinInSlot(Box<PinInSlotTable>),
 }
 
-/// The contents of a load's table, by its `type`.
+/// A force, torque, spring or damper.
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(tag = "type", rename_all = "snake_case", rename = "LoadTable"))]
 pub(super) enum LoadContents {
+    /// A force at a point.
     Force(ForceTable),
+    /// A torque on a body.
     Torque(TorqueTable),
+    /// A linear spring between two points.
     Spring(SpringTable),
+    /// A linear damper between two points.
     Damper(DamperTable),
+    /// A linear torsional spring between two bodies.
     TorsionalSpring(TorsionalSpringTable),
+    /// A linear torsional damper between two bodies.
     TorsionalDamper(TorsionalDamperTable),
 }
 
@@ -204,9 +218,9 @@ fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> 
     let (kind, value) = type_of(value);
     Ok(match kind.as_str() {
         "hinge" => JointContents::Hinge(deserialize(value)?),
-        "block_slider" => JointContents::Block(Box::new(deserialize(value)?)),
-        "guided_slider" => JointContents::Guided(Box::new(deserialize(value)?)),
-        _ => JointContents::Pin(Box::new(deserialize(value)?)),
+        "block_slider" => JointContents::BlockSlider(Box::new(deserialize(value)?)),
+        "guided_slider" => JointContents::GuidedSlider(Box::new(deserialize(value)?)),
+        _ => JointContents::PinInSlot(Box::new(deserialize(value)?)),
     })
 }
 

@@ -183,11 +183,11 @@ impl Reader<'_> {
                     let [first, second] = &table.between;
                     JointKind::Hinge([self.attachment(first), self.attachment(second)])
                 }
-                Some(JointContents::Block(table)) => self.block_slider(table, &entry.name, &entry.span),
-                Some(JointContents::Guided(table)) => {
+                Some(JointContents::BlockSlider(table)) => self.block_slider(table, &entry.name, &entry.span),
+                Some(JointContents::GuidedSlider(table)) => {
                     self.slider_of_one_contact(&table.as_ref().into(), &entry.name, &entry.span)
                 }
-                Some(JointContents::Pin(table)) => {
+                Some(JointContents::PinInSlot(table)) => {
                     self.slider_of_one_contact(&table.as_ref().into(), &entry.name, &entry.span)
                 }
             };
