@@ -15,6 +15,8 @@ pub struct Theme {
     pub reaction: &'static str,
     /// Friction.
     pub friction: &'static str,
+    /// What warns: locking, jams.
+    pub warning: &'static str,
     /// Branches, modes and areas, in the order in which they are given out.
     pub series: [&'static str; 8],
 }
@@ -32,6 +34,7 @@ pub const LIGHT: Theme = Theme {
     body: "#e6edf5",
     reaction: "#0072b2",
     friction: "#d55e00",
+    warning: "#c01818",
     series: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#4d4d4d", "#b8a900"],
 };
 
@@ -43,5 +46,6 @@ pub const DARK: Theme = Theme {
     body: "#243447",
     reaction: "#56b4e9",
     friction: "#ff9a4d",
+    warning: "#ff5a52",
     series: ["#56b4e9", "#ff9a4d", "#2fc79a", "#e79fc6", "#3a8fd0", "#e69f00", "#b0b0b0", "#f0e442"],
 };

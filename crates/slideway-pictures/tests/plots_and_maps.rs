@@ -150,7 +150,8 @@ fn regions_of_a_map_cover_their_pixels() {
             .colour_by(colour_by)
             .size(160, 120);
         let report = map(&model(name, &[]), &options).expect("a map");
-        let svg = slideway_pictures::map::to_svg(&report, &LIGHT).expect("finite places");
+        let svg =
+            slideway_pictures::map::to_svg(&report, &Settings::default(), &LIGHT).expect("finite places");
         let [frame] = of_class(&svg, "frame")[..] else { panic!("one frame") };
         let whole = number(frame, "width") * number(frame, "height");
         let regions = of_class(&svg, "region");
@@ -237,7 +238,7 @@ fn pictures() -> Vec<(String, String)> {
         let report = map(&model(name, &[]), &options).expect("a map");
         pictures.push((
             format!("map of {name}"),
-            slideway_pictures::map::to_svg(&report, &DARK).expect("finite places"),
+            slideway_pictures::map::to_svg(&report, &Settings::default(), &DARK).expect("finite places"),
         ));
     }
     let limits = [

@@ -31,7 +31,9 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     match picture {
         None => output.write(&report.json())?,
-        Some(picture) => picture.write(to_svg(&report, arguments.theme.colours()), &output)?,
+        Some(picture) => {
+            picture.write(to_svg(&report, &input.settings, arguments.theme.colours()), &output)?
+        }
     }
     Ok(Outcome::Done)
 }

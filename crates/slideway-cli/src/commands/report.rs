@@ -42,7 +42,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let is_whole = watch.halt().is_none();
     let varied = watch.whole(varied.filter(|_| is_whole))?;
     let (limits, plots): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
-    let figures = limits.iter().zip(&plots).map(|(limits, plot)| figure(limits, plot));
+    let plots = plots.into_iter().map(|plot: plot::Figure| plot.changed_by(&input.settings));
+    let figures = limits.iter().zip(plots).map(|(limits, plot)| figure(limits, &plot));
     let figures = figures.collect::<Result<Vec<_>, _>>()?;
     let settings: Vec<String> = input.settings.entries().iter().map(slideway::model::Setting::text).collect();
     let page = Page {

@@ -274,7 +274,7 @@ impl<'a> Files<'a> {
         if let Some((picture, output)) = &self.plot {
             let portrait = self.arguments.phase_portrait;
             let figure = if portrait { portrait_figure(history) } else { motion_figure(history) };
-            picture.write(to_svg(&figure, theme), output)?;
+            picture.write(to_svg(&figure.changed_by(&input.settings), theme), output)?;
         }
         if let Some((format, output)) = &self.animation {
             let options = AnimationOptions { slow_motion: self.arguments.slow_motion };

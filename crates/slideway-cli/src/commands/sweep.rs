@@ -9,6 +9,7 @@ use crate::output::{Output, complain};
 use crate::picture::{self, Picture};
 use crate::table::{Continued, Encoder, Layout, Metadata, PartialFile};
 use crate::watch::{Alarm, Watch};
+use slideway::model::Settings;
 use slideway::progress::Progress;
 use slideway::sweep::{Rows, Sweep, SweepState};
 use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
@@ -33,7 +34,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
         return watch.whole(None);
     };
     let plot = match picture {
-        Some(file) => Some(Plotting::new(&sweep, arguments, file, model.title.as_deref())?),
+        Some(file) => {
+            Some(Plotting::new(&sweep, arguments, file, (model.title.as_deref(), &input.settings))?)
+        }
         None => None,
     };
     let layout = Layout::of(&sweep, options.points.dimensions(), options.attainability);
@@ -81,7 +84,8 @@ struct Work<'w> {
 struct Plotting {
     plot: SweepPlot,
     extractor: Extractor,
-    title: String,
+    title: Option<String>,
+    settings: Settings,
     theme: &'static Theme,
     picture: Picture,
     file: Output,
@@ -92,7 +96,7 @@ impl Plotting {
         sweep: &Sweep,
         arguments: &SweepArguments,
         (picture, file): (Picture, Output),
-        title: Option<&str>,
+        (title, settings): (Option<&str>, &Settings),
     ) -> Result<Self, Failure> {
         if sweep.line().is_none() {
             return Err(Failure::NoLine);
@@ -100,8 +104,8 @@ impl Plotting {
         let quantity = arguments.quantity.into();
         let plot = SweepPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
         let theme = arguments.plot.theme.colours();
-        let title = title.unwrap_or_default().to_owned();
-        Ok(Self { extractor: plot.extractor(), plot, title, theme, picture, file })
+        let (title, settings) = (title.map(str::to_owned), settings.clone());
+        Ok(Self { extractor: plot.extractor(), plot, title, settings, theme, picture, file })
     }
 
     /// Computes again what an interrupted run has done: the table does not hold all that a plot needs. Where
@@ -128,7 +132,8 @@ impl Plotting {
 
     fn write(mut self, state: &SweepState) -> Result<(), Failure> {
         self.plot.set_branches(state.branches());
-        self.picture.write(to_svg(&self.plot.figure(&self.title), self.theme), &self.file)
+        let figure = self.plot.figure(self.title.as_deref()).changed_by(&self.settings);
+        self.picture.write(to_svg(&figure, self.theme), &self.file)
     }
 }
 

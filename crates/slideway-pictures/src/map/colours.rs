@@ -17,12 +17,17 @@ const NUMBERS: [&str; 6] = ["#d6e6f4", "#86bbdd", "#3a87c0", "#17548f", "#0b2f5b
 const NUMBERS_ON_DARK: [&str; 6] = ["#12365f", "#24649f", "#4a95cc", "#8cc4e6", "#c0e0f4", "#eef7fd"];
 /// Margins, small to large: the sequence YlGnBu of C. Brewer (ColorBrewer 2.0, Apache licence 2.0).
 const MARGINS: [&str; 7] = ["#ffffcc", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#0c2c84"];
-/// Sets of modes: lighter forms of the colours of Okabe and Ito, then the colours themselves.
+/// Sets of modes: lighter forms of the colours of Okabe and Ito, then the colours themselves, and two violets;
+/// no red, which warns.
 const SETS: [&str; 14] = [
-    "#8cc4e6", "#f3b184", "#7fcfb4", "#e6bcd3", "#f2cf80", "#a6a6a6", "#0072b2", "#d55e00", "#009e73",
-    "#cc79a7", "#e69f00", "#4d4d4d", "#56b4e9", "#f0e442",
+    "#8cc4e6", "#f2cf80", "#7fcfb4", "#e6bcd3", "#a6a6a6", "#b9a3e3", "#0072b2", "#e69f00", "#009e73",
+    "#cc79a7", "#4d4d4d", "#6a51a3", "#56b4e9", "#f0e442",
 ];
-const LOCKED: &str = "#e8703a";
+/// Neither direction is possible; that of the model is not; the opposite one is not.
+const LOCKED: &str = "#d8382c";
+const LOCKED_AS_IN_MODEL: &str = "#f0937a";
+const LOCKED_IN_OPPOSITE: &str = "#f7d488";
+const BOTH: &str = "#8cc4e6";
 const SEVERAL: &str = "#d9a5c3";
 
 /// How the points of a class are filled; sets of modes take their colours in the order of the classes.
@@ -37,7 +42,12 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Solutions { solutions, preload_gap_states } => {
             let fill =
                 if *solutions == 0 { "#f2e2b6" } else { numbers[(solutions - 1).min(numbers.len() - 1)] };
-            Paint { fill, hatching: (*preload_gap_states > 0).then_some(Hatching::Falling) }
+            let hatching = match preload_gap_states {
+                0 => None,
+                1 => Some(Hatching::Falling),
+                _ => Some(Hatching::Rising),
+            };
+            Paint { fill, hatching }
         }
         ClassMeaning::Modes { .. } => {
             let sets = classes.iter().filter(|other| matches!(other.meaning, ClassMeaning::Modes { .. }));
@@ -51,9 +61,9 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             let step = all.iter().rposition(|bound| bound <= from).unwrap_or(0);
             plain(MARGINS[step])
         }
-        ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(numbers[0]),
-        ClassMeaning::Moves { as_in_model: true, .. } => plain(numbers[2]),
-        ClassMeaning::Moves { .. } => plain("#7fcfb4"),
+        ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(BOTH),
+        ClassMeaning::Moves { as_in_model: true, .. } => plain(LOCKED_IN_OPPOSITE),
+        ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
         ClassMeaning::Continuum => plain(theme.ink),
         ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } => {
             let fill = if *theme == DARK { "#30363d" } else { "#e1e4e8" };

@@ -7,13 +7,15 @@ mod colours;
 mod regions;
 
 use crate::NotFinite;
+use crate::plot::figure::{changes, headline};
 use crate::plot::frame::{FrameAxis, Placed, draw_axes};
 use crate::plot::svg::{Svg, coordinate, wrapped};
 use crate::plot::{SMALL, TITLE, hatching_fill, hatchings};
 use crate::theme::Theme;
 use colours::{Paint, paint};
 use regions::regions;
-use slideway::map::{ClassMeaning, MapAxis, MapReport};
+use slideway::map::{ClassMeaning, MapAxis, MapClass, MapReport};
+use slideway::model::Settings;
 
 /// Height of the map (px), and the least and greatest width that its pixels ask for.
 const HEIGHT: f64 = 400.0;
@@ -26,15 +28,15 @@ const MARGIN: f64 = 14.0;
 const SAMPLE: f64 = 22.0;
 const LINE: f64 = 18.0;
 
-/// The map as an SVG document.
+/// The map of a model with these settings as an SVG document.
 ///
-/// Elements have classes: `title`, `frame`, `region` (with `data-class`), `tick`, `axis`, `model` (a cross at
+/// Elements have classes: `title`, `subtitle`, `frame`, `region` (with `data-class`), `tick`, `axis`, `model` (a cross at
 /// the values of the model), `legend`. Pixels of the report need not be pixels of the picture: a map of 1000
 /// x 1000 is as large, but finer.
 ///
 /// # Errors
 /// If a number is too large or too small to be drawn.
-pub fn to_svg(report: &MapReport, theme: &Theme) -> Result<String, NotFinite> {
+pub fn to_svg(report: &MapReport, settings: &Settings, theme: &Theme) -> Result<String, NotFinite> {
     let mut svg = Svg::default();
     hatchings(&mut svg, theme);
     let mut top = MARGIN + TITLE;
@@ -42,13 +44,19 @@ pub fn to_svg(report: &MapReport, theme: &Theme) -> Result<String, NotFinite> {
     let axes = [axis(&report.x), axis(&report.y)];
     let left = MARGIN + axes[1].space_on_the_left(HEIGHT);
     let whole = left + width + 3.0 * MARGIN + SAMPLE + 8.0 + LEGEND;
-    let title = report.title.as_deref().unwrap_or_default();
-    for line in wrapped(title, TITLE, whole - 2.0 * MARGIN).iter().filter(|line| !line.is_empty()) {
-        let size = coordinate(TITLE);
-        let attributes =
-            [("class", "title"), ("font-size", &*size), ("font-weight", "bold"), ("fill", theme.ink)];
-        svg.label([MARGIN, top], &attributes, line);
+    let title = headline(report.title.as_deref(), &shown(report));
+    let size = coordinate(TITLE);
+    let bold = [("class", "title"), ("font-size", &*size), ("font-weight", "bold"), ("fill", theme.ink)];
+    for line in wrapped(&title, TITLE, whole - 2.0 * MARGIN) {
+        svg.label([MARGIN, top], &bold, &line);
         top += 1.3 * TITLE;
+    }
+    let size = coordinate(SMALL);
+    let plain = [("class", "subtitle"), ("font-size", &*size), ("fill", theme.ink)];
+    let changes = changes(settings);
+    for line in wrapped(&changes, SMALL, whole - 2.0 * MARGIN).iter().filter(|line| !line.is_empty()) {
+        svg.label([MARGIN, top - 0.15 * TITLE], &plain, line);
+        top += LINE;
     }
     let placed = Placed::new(axes, [left, top, left + width, top + HEIGHT]);
     let paints: Vec<Paint> =
@@ -58,7 +66,12 @@ pub fn to_svg(report: &MapReport, theme: &Theme) -> Result<String, NotFinite> {
     draw_model(report, &placed, theme, &mut svg);
     let end = draw_legend(report, &paints, [left + width + 2.0 * MARGIN, top], theme, &mut svg);
     let bottom = end.max(placed.bottom());
-    svg.document([whole, bottom + MARGIN], title, theme.background)
+    svg.document([whole, bottom + MARGIN], &title, theme.background)
+}
+
+/// What the colours tell, over what.
+fn shown(report: &MapReport) -> String {
+    format!("{} over {} and {}", report.colour_by.in_words(), report.x.name, report.y.name)
 }
 
 /// The axis of a plot, in the unit in which values are to be shown.
@@ -138,14 +151,7 @@ fn draw_legend(
         if let Some(hatching) = paint.hatching {
             svg.rectangle(sample, &[("fill", &hatching_fill(hatching))]);
         }
-        // Numbers stay with their signs, signs with their neighbours.
-        let words = match &class.meaning {
-            ClassMeaning::Modes { .. } => {
-                signs(&class.words).replace(' ', "\u{a0}").replace("\u{a0}|\u{a0}", " | ")
-            }
-            _ => class.words.clone(),
-        };
-        let text = format!("{words} ({})", share(class.pixels, all));
+        let text = format!("{} ({})", entry(class), share(class.pixels, all));
         for line in wrapped(&text, SMALL, LEGEND) {
             svg.label([x + SAMPLE + 8.0, y], &[], &line);
             y += LINE;
@@ -167,21 +173,32 @@ fn draw_legend(
     y
 }
 
-/// What the signs of all patterns mean; returns the lower edge.
+/// A class in words: a single mode with its own, of which numbers stay with their signs; several as their
+/// signs alone.
+fn entry(class: &MapClass) -> String {
+    let ClassMeaning::Modes { .. } = &class.meaning else { return class.words.clone() };
+    let patterns = signs(&class.words).replace(' ', "\u{a0}").replace("\u{a0}|\u{a0}", " | ");
+    match &class.modes[..] {
+        [words] => format!("{patterns}: {words}"),
+        _ => patterns,
+    }
+}
+
+/// What the signs of the patterns mean that no class has told; returns the lower edge.
 fn draw_modes(report: &MapReport, [x, mut y]: [f64; 2], svg: &mut Svg) -> f64 {
-    let mut known: Vec<(String, &str)> = Vec::new();
+    let single = report.classes.iter().filter(|class| class.modes.len() == 1);
+    let mut known: Vec<String> = single.map(|class| class.words.clone()).collect();
     for class in &report.classes {
         for (pattern, words) in class.words.split(" | ").zip(&class.modes) {
-            if !known.iter().any(|(other, _)| *other == signs(pattern)) {
-                known.push((signs(pattern), words));
+            if known.iter().any(|other| other == pattern) {
+                continue;
             }
-        }
-    }
-    for (pattern, words) in known {
-        let pattern = pattern.replace(' ', "\u{a0}");
-        for line in wrapped(&format!("{pattern}: {words}"), SMALL, LEGEND + SAMPLE) {
-            svg.label([x, y], &[], &line);
-            y += LINE;
+            known.push(pattern.to_owned());
+            let pattern = signs(pattern).replace(' ', "\u{a0}");
+            for line in wrapped(&format!("{pattern}: {words}"), SMALL, LEGEND + SAMPLE) {
+                svg.label([x, y], &[], &line);
+                y += LINE;
+            }
         }
     }
     y

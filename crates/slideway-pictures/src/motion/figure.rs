@@ -1,9 +1,11 @@
 //! Figures of a motion: quantities over time with the contact modes as bands, and the phase portrait.
 
 use crate::drawing::signs;
-use crate::plot::{Axis, Band, Branch, Curve, Figure, Panel, Stroke};
+use crate::plot::figure::headline;
+use crate::plot::scale::{extent, range_that_shows};
+use crate::plot::{Axis, Band, Branch, Curve, Figure, MarkedPoint, Panel, PointKind, Stroke};
 use crate::theme::LIGHT;
-use slideway::motion::{History, PhaseInterval, Series};
+use slideway::motion::{Cause, History, PhaseInterval, Series, modes_in_words};
 
 /// Points of a curve, shared among the phases.
 const POINTS: f64 = 1500.0;
@@ -13,8 +15,16 @@ const PIECES: usize = 250;
 const LEAST: usize = 24;
 /// The end of a phase is read so much before its end, as a part of it: forces may jump there.
 const BEFORE_END: f64 = 1e-9;
+/// What is smaller than this share of a picture is a point.
+const POINT: f64 = 1e-6;
+/// Forces that last only for this share of the time are left out, if they grow to so many times the others.
+const RARE: f64 = 0.05;
+const MANY: f64 = 4.0;
 
 /// The figure of a motion over time: coordinates, normal forces with the contact modes as bands, energies.
+///
+/// Where normal forces grow for a short time to many times what they are else, as before a jam, the axis shows
+/// the rest, and the legend tells what they reach.
 pub fn motion_figure(history: &History) -> Figure {
     let samples = Samples::of(history);
     let mut builder = Builder { samples: &samples, branches: Vec::new() };
@@ -26,8 +36,10 @@ pub fn motion_figure(history: &History) -> Figure {
         let curves: Vec<(String, String)> = coordinates
             .map(|coordinate| (coordinate.name.to_string(), coordinate.name.to_string()))
             .collect();
-        if !curves.is_empty() {
-            panels.push(builder.panel("Coordinates", ("coordinate", unit), &curves));
+        match &curves[..] {
+            [] => {}
+            [(name, _)] => panels.push(builder.panel("Coordinate", (name, unit), &curves)),
+            _ => panels.push(builder.panel("Coordinates", ("coordinate", unit), &curves)),
         }
     }
     let contacts = mechanism.contacts.iter();
@@ -35,7 +47,8 @@ pub fn motion_figure(history: &History) -> Figure {
         .map(|contact| (contact.name.to_string(), format!("{}.normal_force", contact.name)))
         .collect();
     let mut panel = builder.panel("Normal forces and contact modes", ("normal force", "N"), &forces);
-    panel.bands = bands(history, builder.branches.len());
+    panel.bands = bands(history, forces.len());
+    panel.y.range = range_of_what_lasts(&panel.curves);
     panels.push(panel);
     let energies = [
         ("kinetic energy", "energy.kinetic"),
@@ -52,7 +65,7 @@ pub fn motion_figure(history: &History) -> Figure {
         .collect();
     panels.push(builder.panel("Energy", ("energy", "J"), &energies));
     Figure {
-        title: mechanism.title.clone().unwrap_or_default(),
+        title: headline(mechanism.title.as_deref(), "motion over time"),
         subtitle: format!(
             "Modes: signs of the normal forces of {}; = where the joint sticks",
             names(history)
@@ -63,34 +76,104 @@ pub fn motion_figure(history: &History) -> Figure {
     }
 }
 
-/// The phase portrait: the rate of every coordinate over its value.
+/// The phase portrait: the rate of every coordinate over its value, with arrowheads in the direction of time,
+/// and marks where the motion begins, comes to rest, jams and ends.
 pub fn portrait_figure(history: &History) -> Figure {
     let samples = Samples::of(history);
-    let coordinates = history.mechanism.coordinates.iter().enumerate();
-    let panel = |(index, coordinate): (usize, &slideway::mechanism::Coordinate)| {
-        let name = &coordinate.name;
+    let coordinates = history.mechanism.coordinates.iter();
+    let mut branches = Vec::new();
+    let panel = |coordinate: &slideway::mechanism::Coordinate| {
+        let name = coordinate.name.to_string();
         let unit = if coordinate.kind.is_angle() { "rad" } else { "m" };
         let axis = |name: String, unit: String| Axis { name, unit, ..Axis::default() };
-        let pieces = samples.pieces.iter().map(|piece| curve(piece, (name, &format!("{name}.rate")), index));
+        let rate = format!("rate of {name}");
+        let pieces = samples.pieces.iter();
+        let curves: Vec<Curve> =
+            pieces.map(|piece| curve(piece, (&name, &format!("{name}.rate")), branches.len())).collect();
+        branches.push(branch(&rate, 0));
         Panel {
-            x: axis(name.to_string(), unit.to_owned()),
-            y: axis(format!("rate of {name}"), format!("{unit}/s")),
-            curves: pieces.collect(),
+            x: axis(name, unit.to_owned()),
+            y: axis(rate, format!("{unit}/s")),
+            points: points(history, &curves),
+            curves,
+            directed: true,
             ..Panel::default()
         }
     };
+    let panels = coordinates.map(panel).collect();
     Figure {
-        title: history.mechanism.title.clone().unwrap_or_default(),
-        panels: coordinates.clone().map(panel).collect(),
-        branches: coordinates.map(|(index, coordinate)| branch(&coordinate.name, index)).collect(),
+        title: headline(history.mechanism.title.as_deref(), "phase portrait"),
+        panels,
+        branches,
         quantities: vec![String::new()],
         ..Figure::default()
     }
 }
 
+/// Where a motion begins, comes to rest, jams and ends, in the portrait of a coordinate.
+fn points(history: &History, curves: &[Curve]) -> Vec<MarkedPoint> {
+    let all = || curves.iter().flat_map(|curve| &curve.points);
+    let size = |axis: usize| {
+        extent(all().map(|point| point[axis])).map_or(0.0, |[least, greatest]| greatest - least)
+    };
+    let point_size = [size(0), size(1)].map(|size| POINT * size);
+    // A phase of no visible extent, at the rate zero, is a rest.
+    let rests = |curve: &Curve| {
+        let is_small = |axis: usize| {
+            let extent = extent(curve.points.iter().map(|point| point[axis]));
+            extent.is_some_and(|[least, greatest]| greatest - least <= point_size[axis])
+        };
+        is_small(0) && is_small(1) && curve.points.iter().all(|point| point[1].abs() <= point_size[1])
+    };
+    let jams = |time: f64| {
+        let here = history.events.iter().filter(|event| event.time == time);
+        here.flat_map(|event| &event.causes).any(|cause| matches!(cause, Cause::Jams { .. }))
+    };
+    let mut points = Vec::new();
+    let mut add = |at: Option<&[f64; 2]>, kind| points.extend(at.map(|at| MarkedPoint { at: *at, kind }));
+    for (curve, group) in curves.iter().zip(groups(history)) {
+        if rests(curve) {
+            add(curve.points.first(), PointKind::Stop);
+        }
+        if group.last().is_some_and(|phase| jams(phase.to)) {
+            add(curve.points.last(), PointKind::Jam);
+        }
+    }
+    add(all().next(), PointKind::Start);
+    if let Some(last) = curves.last().filter(|last| !rests(last)) {
+        add(last.points.last(), PointKind::End);
+    }
+    points
+}
+
 fn names(history: &History) -> String {
     let names: Vec<&str> = history.mechanism.contacts.iter().map(|contact| &*contact.name).collect();
     names.join(", ")
+}
+
+/// The range of an axis that leaves out what curves over time reach for a short time only, where that is many
+/// times the rest; none where they are to be seen whole.
+fn range_of_what_lasts(curves: &[Curve]) -> Option<[f64; 2]> {
+    let steps = curves.iter().flat_map(|curve| curve.points.windows(2));
+    let mut values: Vec<(f64, f64)> = steps.map(|pair| (pair[1][1], pair[1][0] - pair[0][0])).collect();
+    values.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let whole: f64 = values.iter().map(|(_, time)| time).sum();
+    let beyond = |share: f64| {
+        let mut passed = 0.0;
+        let found = values.iter().find(|(_, time)| {
+            passed += time;
+            passed >= share * whole
+        });
+        found.map(|(value, _)| *value)
+    };
+    let (least, greatest) = (beyond(RARE / 2.0)?.min(0.0), beyond(1.0 - RARE / 2.0)?.max(0.0));
+    let all = extent(curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]))?;
+    let size = greatest - least;
+    if all[1] - all[0] <= MANY * size || size == 0.0 {
+        return None;
+    }
+    let shown = [(least - size).max(all[0]), (greatest + size).min(all[1])];
+    Some(range_that_shows(shown, all))
 }
 
 /// Colours that have been used are told apart by dashes.
@@ -155,9 +238,9 @@ impl Builder<'_> {
     /// A panel with the time as its axis; curves are given by their names and columns.
     fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[(String, String)]) -> Panel {
         let mut drawn = Vec::new();
-        for (name, column) in curves {
+        for (colour, (name, column)) in curves.iter().enumerate() {
             let index = self.branches.len();
-            self.branches.push(branch(name, index));
+            self.branches.push(branch(name, colour));
             drawn.extend(self.samples.pieces.iter().map(|piece| curve(piece, ("t", column), index)));
         }
         Panel {
@@ -184,30 +267,32 @@ fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
 }
 
 /// The contact modes along the time, in colours from this one on: those before it are the curves' of the same
-/// panel.
+/// panel. Words are those of the first time.
 fn bands(history: &History, first: usize) -> Vec<Band> {
-    let mut meanings: Vec<String> = Vec::new();
+    let mechanism = &history.mechanism;
+    let mut reader = history.reader();
+    let mut meanings: Vec<(String, String)> = Vec::new();
     let mut bands: Vec<Band> = Vec::new();
     for group in groups(history) {
-        let pattern = group[0].phase.pattern(&history.mechanism);
-        let is_one = group.iter().all(|phase| phase.phase.pattern(&history.mechanism) == pattern);
-        let meaning = if is_one {
-            format!("mode {}", signs(&pattern))
-        } else {
-            "modes too short to be distinguished".to_owned()
-        };
+        let pattern = group[0].phase.pattern(mechanism);
+        let is_one = group.iter().all(|phase| phase.phase.pattern(mechanism) == pattern);
+        let key = if is_one { pattern } else { String::new() };
+        let place = meanings.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
+            let words = reader.configuration(group[0].from);
+            let words = words.map(|configuration| modes_in_words(mechanism, configuration, &group[0].phase));
+            let meaning = match words.filter(|_| is_one) {
+                Some(words) => format!("{}:\u{a0}{words}", signs(&key)),
+                None => "modes too short to be distinguished".to_owned(),
+            };
+            meanings.push((key, meaning));
+            meanings.len() - 1
+        });
+        let (colour, meaning) = (first + place, meanings[place].1.clone());
         let to = group[group.len() - 1].to;
-        if let Some(last) = bands.last_mut().filter(|last| last.meaning == meaning) {
-            last.to = to;
-            continue;
+        match bands.last_mut() {
+            Some(last) if last.colour == colour => last.to = to,
+            _ => bands.push(Band { from: group[0].from, to, colour, meaning }),
         }
-        let known = meanings.iter().position(|known| *known == meaning);
-        let colour = first
-            + known.unwrap_or_else(|| {
-                meanings.push(meaning.clone());
-                meanings.len() - 1
-            });
-        bands.push(Band { from: group[0].from, to, colour, meaning });
     }
     bands
 }

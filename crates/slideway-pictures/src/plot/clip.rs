@@ -43,6 +43,21 @@ impl Frame {
             .then(|| [if start == 0.0 { from } else { at(start) }, if end == 1.0 { to } else { at(end) }])
     }
 
+    /// Through which edge, the lower (0) or the upper one (1), and where a segment leaves the frame that begins
+    /// within it; none if it does not.
+    pub(super) fn exit(&self, inside: [f64; 2], outside: [f64; 2]) -> Option<(usize, [f64; 2])> {
+        let edge = if outside[1] > self.bottom {
+            0
+        } else if outside[1] < self.top {
+            1
+        } else {
+            return None;
+        };
+        let [_, at] = self.segment(inside, outside).filter(|_| self.holds(inside))?;
+        let is_there = if edge == 0 { at[1] >= self.bottom - 0.5 } else { at[1] <= self.top + 0.5 };
+        is_there.then_some((edge, at))
+    }
+
     /// The parts of a polyline within the frame.
     pub(super) fn parts(&self, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();

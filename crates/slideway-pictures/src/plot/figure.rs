@@ -1,6 +1,8 @@
 //! What a figure shows, as plain data.
 
-/// A figure: panels one below the other, with one legend.
+use slideway::model::{Setting, SettingKind, Settings};
+
+/// A figure: panels one below the other, each with its legend.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
     /// Headline.
@@ -13,6 +15,46 @@ pub struct Figure {
     pub branches: Vec<Branch>,
     /// Names of what several curves of one branch show; told apart by markers if there are several.
     pub quantities: Vec<String>,
+}
+
+impl Figure {
+    /// The same figure, which also tells what was changed in the model: a line below the headline.
+    #[must_use]
+    pub fn changed_by(mut self, settings: &Settings) -> Self {
+        let changes = changes(settings);
+        if !changes.is_empty() {
+            let between = if self.subtitle.is_empty() { "" } else { ". " };
+            self.subtitle = format!("{changes}{between}{}", self.subtitle);
+        }
+        self
+    }
+}
+
+/// What settings change in a model, in words; empty where they change nothing.
+pub(crate) fn changes(settings: &Settings) -> String {
+    let change = |setting: &Setting| {
+        let Setting { name, value, kind, .. } = setting;
+        match kind {
+            SettingKind::Position => format!("at {name} = {value}"),
+            SettingKind::Rate => format!("rate of {name} = {value}"),
+            SettingKind::Time => format!("t = {value}"),
+            _ => format!("{name} = {value}"),
+        }
+    };
+    let changes: Vec<String> = settings.entries().iter().map(change).collect();
+    if changes.is_empty() { String::new() } else { format!("With {}", changes.join(", ")) }
+}
+
+/// The headline of a picture: the title of the model, and what is shown.
+pub(crate) fn headline(title: Option<&str>, shown: &str) -> String {
+    match title.filter(|title| !title.is_empty()) {
+        Some(title) => format!("{title}: {shown}"),
+        None => {
+            let mut letters = shown.chars();
+            let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+            first + letters.as_str()
+        }
+    }
 }
 
 /// A pair of axes and all that is drawn in them.
@@ -32,6 +74,10 @@ pub struct Panel {
     pub bands: Vec<Band>,
     /// Curves.
     pub curves: Vec<Curve>,
+    /// Whether arrowheads on the curves show the order of their points.
+    pub directed: bool,
+    /// Points that are marked, above the curves.
+    pub points: Vec<MarkedPoint>,
 }
 
 /// An axis.
@@ -41,7 +87,7 @@ pub struct Axis {
     pub name: String,
     /// The unit; empty for pure numbers.
     pub unit: String,
-    /// From where to where; chosen by [`fitting_range`](super::fitting_range) where absent.
+    /// From where to where; where absent, what the curves ask for but near values at which they grow without bound.
     pub range: Option<[f64; 2]>,
     /// Whether equal distances are equal ratios; the range is positive then.
     pub logarithmic: bool,
@@ -94,6 +140,40 @@ pub enum End {
     Marked,
     /// It grows without bound.
     Diverges,
+}
+
+/// A point that is marked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkedPoint {
+    /// Where, in the units of the axes.
+    pub at: [f64; 2],
+    /// What is there.
+    pub kind: PointKind,
+}
+
+/// What is at a marked point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PointKind {
+    /// A motion begins: a circle.
+    Start,
+    /// It comes to rest: a square.
+    Stop,
+    /// It jams: a cross.
+    Jam,
+    /// It ends in motion: a triangle.
+    End,
+}
+
+impl PointKind {
+    /// For the legend.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Stop => "stops",
+            Self::Jam => "jams",
+            Self::End => "end, still moving",
+        }
+    }
 }
 
 /// A vertical line at a value of x.

@@ -1,6 +1,7 @@
-//! The legend below the panels.
+//! The legend below a panel.
 
-use super::figure::{End, Figure, Hatching, Stroke};
+use super::figure::{Branch, End, Figure, Hatching, PointKind, Stroke};
+use super::panel::{PanelLayout, shared_dashes};
 use super::svg::{Svg, coordinate, width, wrapped};
 use super::{CURVE, MARGIN, SMALL, WIDTH, dashes, hatching_fill, markers};
 use crate::theme::Theme;
@@ -16,10 +17,27 @@ const LINE: f64 = 19.0;
 /// What an entry shows beside its text.
 enum Sample {
     Curve(usize, Stroke),
+    /// Curves that cannot be told apart.
+    Several(Vec<usize>),
     Marker(usize),
     Hatched(Hatching),
     Filled(usize),
     End,
+    Cut,
+    Point(PointKind),
+}
+
+impl Sample {
+    fn is_curve(&self) -> bool {
+        matches!(self, Self::Curve(..) | Self::Several(_))
+    }
+
+    fn width(&self) -> f64 {
+        match self {
+            Self::Marker(_) | Self::End | Self::Cut | Self::Point(_) => 14.0,
+            _ => SAMPLE,
+        }
+    }
 }
 
 /// The entries of a legend.
@@ -28,38 +46,42 @@ pub(super) struct Legend {
 }
 
 impl Legend {
-    /// All that the figure uses.
-    pub(super) fn of(figure: &Figure) -> Self {
-        let mut entries: Vec<(Sample, String)> = Vec::new();
-        for branch in &figure.branches {
-            entries.push((Sample::Curve(branch.colour, branch.stroke), branch.name.clone()));
-        }
+    /// All that a panel uses.
+    pub(super) fn of(figure: &Figure, layout: &PanelLayout<'_>) -> Self {
+        let panel = layout.panel;
+        let mut legend = Self { entries: curves(&figure.branches, layout) };
         if figure.quantities.len() > 1 {
             let names = figure.quantities.iter().enumerate();
-            entries.extend(names.map(|(index, name)| (Sample::Marker(index), name.clone())));
-        }
-        let curves = || figure.panels.iter().flat_map(|panel| &panel.curves);
-        if curves().any(|curve| curve.ends.contains(&End::Marked)) {
-            entries.push((Sample::End, "end of a branch".to_owned()));
-        }
-        let zones = figure.panels.iter().flat_map(|panel| &panel.zones);
-        for zone in zones {
-            if !entries.iter().any(|(_, text)| *text == zone.meaning) {
-                entries.push((Sample::Hatched(zone.hatching), zone.meaning.clone()));
+            let is_used = |quantity| panel.curves.iter().any(|curve| curve.quantity == quantity);
+            for (index, name) in names.filter(|(index, _)| is_used(*index)) {
+                legend.add(Sample::Marker(index), name);
             }
         }
-        for band in figure.panels.iter().flat_map(|panel| &panel.bands) {
-            if !entries.iter().any(|(_, text)| *text == band.meaning) {
-                entries.push((Sample::Filled(band.colour), band.meaning.clone()));
-            }
+        if panel.curves.iter().any(|curve| curve.ends.contains(&End::Marked)) {
+            legend.add(Sample::End, "end of a branch");
         }
-        Self { entries }
+        let mut kinds: Vec<PointKind> = panel.points.iter().map(|point| point.kind).collect();
+        kinds.sort_unstable();
+        kinds.into_iter().for_each(|kind| legend.add(Sample::Point(kind), kind.words()));
+        if let Some(words) = layout.cut() {
+            legend.add(Sample::Cut, &words);
+        }
+        layout.seen_zones().for_each(|zone| legend.add(Sample::Hatched(zone.hatching), &zone.meaning));
+        panel.bands.iter().for_each(|band| legend.add(Sample::Filled(band.colour), &band.meaning));
+        legend
+    }
+
+    /// Adds an entry; each text has one.
+    fn add(&mut self, sample: Sample, text: &str) {
+        if !self.entries.iter().any(|(_, known)| known == text) {
+            self.entries.push((sample, text.to_owned()));
+        }
     }
 
     /// The width of the entries of curves, if several find room side by side; else they have lines of their
     /// own.
     fn column(&self) -> Option<f64> {
-        let curves = self.entries.iter().filter(|(sample, _)| matches!(sample, Sample::Curve(..)));
+        let curves = self.entries.iter().filter(|(sample, _)| sample.is_curve());
         let widest = curves.map(|(_, text)| width(text, SMALL)).fold(0.0, f64::max) + SAMPLE + GAP;
         let columns = (WIDTH - 2.0 * MARGIN + 2.5 * GAP) / (widest + 2.5 * GAP);
         (columns >= COLUMNS).then_some(widest)
@@ -73,11 +95,11 @@ impl Legend {
         let column = self.column();
         let mut last_is_curve = false;
         for (index, (sample, text)) in self.entries.iter().enumerate() {
-            let sample_width = if matches!(sample, Sample::Marker(_) | Sample::End) { 14.0 } else { SAMPLE };
+            let sample_width = sample.width();
             let lines = wrapped(text, SMALL, WIDTH - 2.0 * MARGIN - sample_width - GAP);
             let text_width = lines.iter().map(|line| width(line, SMALL)).fold(0.0, f64::max);
             let space = sample_width + GAP + text_width;
-            let is_curve = matches!(sample, Sample::Curve(..));
+            let is_curve = sample.is_curve();
             let goes_on = is_curve == last_is_curve && (!is_curve || column.is_some());
             if index > 0 && (!goes_on || x + column.filter(|_| is_curve).unwrap_or(space) > WIDTH - MARGIN) {
                 (x, y) = (MARGIN, y + LINE);
@@ -97,6 +119,35 @@ impl Legend {
     }
 }
 
+/// The entries of the lines of a panel: of single branches in the order of the figure, then of those that
+/// cannot be told apart. A single one is named by the axis.
+fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(Sample, String)> {
+    let mut sets: Vec<&[usize]> = layout.lines.iter().map(|line| &*line.branches).collect();
+    sets.sort_unstable_by_key(|set| (set.len() > 1, *set));
+    sets.dedup();
+    let is_alone = |branch: usize| sets.contains(&&[branch][..]);
+    let entry = |set: &[usize]| match set {
+        [one] => (Sample::Curve(branches[*one].colour, branches[*one].stroke), branches[*one].name.clone()),
+        several => {
+            // What has an entry of its own is named by what is before its colon.
+            let name = |branch: &usize| match branches[*branch].name.split_once(":\u{a0}") {
+                Some((short, _)) if is_alone(*branch) => short.to_owned(),
+                _ => branches[*branch].name.clone(),
+            };
+            let names: Vec<String> = several.iter().map(name).collect();
+            let colours = several.iter().map(|branch| branches[*branch].colour).collect();
+            (Sample::Several(colours), format!("{} coincide", names.join(" and ")))
+        }
+    };
+    let entries: Vec<(Sample, String)> = sets.iter().map(|set| entry(set)).collect();
+    if let [(_, name)] = &entries[..]
+        && *name == layout.panel.y.name
+    {
+        return Vec::new();
+    }
+    entries
+}
+
 fn draw_sample(sample: &Sample, [x, y]: [f64; 2], width: f64, theme: &Theme, svg: &mut Svg) {
     let series = |colour: usize| theme.series[colour % theme.series.len()];
     match sample {
@@ -107,6 +158,22 @@ fn draw_sample(sample: &Sample, [x, y]: [f64; 2], width: f64, theme: &Theme, svg
                 attributes.push(("stroke-dasharray", dashes(*stroke)));
             }
             svg.line([x, y], [x + width, y], &attributes);
+        }
+        Sample::Several(colours) => {
+            for (index, colour) in colours.iter().enumerate() {
+                let [pattern, offset] = shared_dashes(index, colours.len());
+                let thickness = coordinate(CURVE);
+                let mut attributes = vec![("stroke", series(*colour)), ("stroke-width", &*thickness)];
+                if index > 0 {
+                    attributes.extend([("stroke-dasharray", &*pattern), ("stroke-dashoffset", &offset)]);
+                }
+                svg.line([x, y], [x + width, y], &attributes);
+            }
+        }
+        Sample::Point(kind) => markers::point(*kind, [x + width / 2.0, y], theme, svg),
+        Sample::Cut => {
+            let tip = [x + width / 2.0, y - 5.0];
+            markers::head("cut", (tip, [0.0, -1.0]), 5.0, theme.ink, svg);
         }
         Sample::Marker(quantity) => {
             markers::draw(*quantity, [x + width / 2.0, y], [theme.ink, theme.background], svg);

@@ -1,6 +1,7 @@
 //! The figure of limits: a quantity along every mode over what is varied.
 
-use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
+use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
+use super::scale::extent;
 use slideway::limits::{
     self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem,
 };
@@ -8,6 +9,8 @@ use slideway::report::{ModeEndCause, Verdict, precise};
 
 /// Values closer than this share of the range are one value in a plot.
 const TOGETHER: f64 = 1e-6;
+/// Curves end so close to a locking value, as a share of what is excluded beyond it.
+const NEAR: f64 = 1e-3;
 
 /// The figure of [`slideway::limits::limits_with_curves`]: a panel for each direction and unit.
 ///
@@ -30,8 +33,10 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
             panels.push(builder.panel(report, "Moving in the opposite direction", unit, direction));
         }
     }
+    without_empty_ends(&mut panels);
+    let shown = format!("{} over {}", name(curves.quantity), in_words(&report.vary.name));
     Figure {
-        title: report.title.clone().unwrap_or_default(),
+        title: headline(report.title.as_deref(), &shown),
         subtitle: String::new(),
         panels,
         branches: builder.branches,
@@ -54,12 +59,7 @@ impl Builder<'_> {
         let (modes, found, counts, without) = direction;
         let scale = self.curves.shown_in.scale;
         let drawn = modes.iter().zip(found).flat_map(|(mode, curve)| self.mode(mode, curve, unit)).collect();
-        let name = match self.curves.quantity {
-            Quantity::NormalForce => "normal force",
-            Quantity::Friction => "friction force",
-            Quantity::Acceleration => "acceleration",
-            Quantity::Effort => "effort",
-        };
+        let name = name(self.curves.quantity);
         // A single one has no marker in the legend.
         let name = match &self.curves.series[..] {
             [only] => format!("{name} of {}", only.name),
@@ -76,8 +76,8 @@ impl Builder<'_> {
             y: Axis { name, unit: unit.to_owned(), ..Axis::default() },
             zones: zones(counts, without, [report.vary.from, report.vary.to], scale),
             marked: marked(modes, [report.vary.from, report.vary.to], scale),
-            bands: Vec::new(),
             curves: drawn,
+            ..Panel::default()
         }
     }
 
@@ -123,6 +123,54 @@ impl Builder<'_> {
             self.branches.push(Branch { name, colour, stroke });
             self.branches.len() - 1
         })
+    }
+}
+
+/// What is plotted, in words.
+pub(super) fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::NormalForce => "normal force",
+        Quantity::Friction => "friction force",
+        Quantity::Acceleration => "acceleration",
+        Quantity::Effort => "effort",
+    }
+}
+
+/// What is varied, in words.
+pub(super) fn in_words(varied: &str) -> &str {
+    if varied == limits::FRICTION { "the factor of all friction" } else { varied }
+}
+
+/// Shortens the axes of x where no panel shows anything but excluded values at an end, if that takes more
+/// than a third of the width; a third of the rest is left, and the legend tells how far the excluded values go.
+pub(super) fn without_empty_ends(panels: &mut [Panel]) {
+    let used =
+        extent(panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points).map(|p| p[0]));
+    let range = panels.first().and_then(|panel| panel.x.range);
+    let (Some([first, last]), Some([from, to])) = (used, range) else { return };
+    let is_excluded = |[begin, end]: [f64; 2]| {
+        let covers = |zone: &Zone| {
+            zone.hatching != Hatching::Dotted && zone.from <= begin + (end - begin) * NEAR && zone.to >= end
+        };
+        panels.iter().all(|panel| panel.zones.iter().any(covers))
+    };
+    if panels.iter().any(|panel| panel.x.logarithmic) || first >= last {
+        return;
+    }
+    let third = (last - first) / 3.0;
+    let before = first - from > third && is_excluded([from, first]);
+    let beyond = to - last > third && is_excluded([last, to]);
+    let shown = [if before { first - third } else { from }, if beyond { last + third } else { to }];
+    for panel in panels {
+        panel.x.range = Some(shown);
+        for zone in &mut panel.zones {
+            for (is_cut, end, way) in [(before, zone.from, "down"), (beyond, zone.to, "up")] {
+                let is_outside = end < shown[0] || end > shown[1];
+                if is_cut && is_outside && (end == from || end == to) {
+                    zone.meaning = format!("{}, {way} to {}", zone.meaning, precise(end));
+                }
+            }
+        }
     }
 }
 

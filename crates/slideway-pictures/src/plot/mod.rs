@@ -25,7 +25,7 @@
 //! ```
 
 pub(crate) mod clip;
-mod figure;
+pub(crate) mod figure;
 mod flags;
 pub(crate) mod frame;
 mod legend;
@@ -33,13 +33,15 @@ mod limits;
 mod markers;
 mod overlap;
 mod panel;
-mod scale;
+pub(crate) mod scale;
 pub(crate) mod svg;
 mod sweep;
 
-pub use figure::{Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
+pub use figure::{
+    Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedPoint, MarkedValue, Panel, PointKind, Stroke,
+    Zone,
+};
 pub use limits::limits_figure;
-pub use scale::fitting_range;
 pub use sweep::{Extract, Extractor, SweepPlot};
 
 use crate::NotFinite;
@@ -61,8 +63,8 @@ const TEXT: f64 = 14.0;
 pub(crate) const SMALL: f64 = 13.0;
 /// Width of curves (px).
 const CURVE: f64 = 2.2;
-/// By how much a curve is wider for each one that hides it (px).
-const BORDER: f64 = 3.0;
+/// Between the legend of a panel and the next panel (px).
+const BETWEEN: f64 = 14.0;
 
 /// The dash pattern of a stroke; empty for a solid line.
 fn dashes(stroke: Stroke) -> &'static str {
@@ -77,8 +79,9 @@ fn dashes(stroke: Stroke) -> &'static str {
 /// The figure as an SVG document.
 ///
 /// The same figure gives the same bytes. Elements have classes: `title`, `panel`, `frame`, `grid`, `tick`,
-/// `axis`, `curve` (with `data-branch` and `data-quantity`), `end`, `marker`, `marked` and `asymptote` (with
-/// `data-at`), `flag`, `zone`, `band`, `legend`.
+/// `axis`, `curve` and `coincident` (with `data-branch` and `data-quantity`), `end`, `cut` (an arrowhead where a
+/// curve leaves the frame), `direction`, `marker`, `point`, `marked` and `asymptote` (with `data-at`), `flag`,
+/// `zone`, `band`, `legend`.
 ///
 /// # Errors
 /// If a number is too large or too small to be drawn.
@@ -109,13 +112,14 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
     }
     y -= SMALL;
     let height = if figure.panels.len() == 1 { SINGLE_HEIGHT } else { STACKED_HEIGHT };
-    let left = figure.panels.iter().map(panel::space_on_the_left).fold(0.0, f64::max);
-    for panel in &figure.panels {
-        let layout = PanelLayout::new(panel, [MARGIN + left, WIDTH - MARGIN], y, height);
-        layout.draw(figure, theme, &mut svg);
-        y = layout.bottom();
+    let space = figure.panels.iter().map(|panel| panel::space_on_the_left(figure, panel));
+    let left = space.fold(0.0, f64::max);
+    for (index, panel) in figure.panels.iter().enumerate() {
+        let top = if index == 0 { y } else { y + BETWEEN };
+        let layout = PanelLayout::new((figure, panel), [MARGIN + left, WIDTH - MARGIN], top, height);
+        layout.draw(theme, &mut svg);
+        y = Legend::of(figure, &layout).draw(theme, layout.bottom() + 6.0, &mut svg);
     }
-    y = Legend::of(figure).draw(theme, y + 6.0, &mut svg);
     svg.document([WIDTH, y + MARGIN], &figure.title, theme.background)
 }
 

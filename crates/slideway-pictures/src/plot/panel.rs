@@ -1,13 +1,14 @@
 //! One panel of a figure.
 
 use super::clip::{Frame, simplified};
-use super::figure::{Axis, Curve, End, Figure, Hatching, Panel, Stroke};
+use super::figure::{Axis, Curve, End, Figure, Hatching, Panel, Zone};
 use super::flags::{Flag, flags};
 use super::frame::{FrameAxis, Placed, draw_axes, draw_grid};
-use super::overlap::runs_along;
-use super::scale::{Scale, fitting_range};
+use super::overlap::{Line, lines};
+use super::scale::{Scale, extent, fitting_range};
 use super::svg::{Svg, coordinate};
-use super::{BORDER, CURVE, SMALL, TEXT, dashes, hatching_fill, markers};
+use super::{CURVE, SMALL, TEXT, dashes, hatching_fill, markers};
+use crate::drawing::number;
 use crate::theme::Theme;
 use std::fmt::Write;
 
@@ -16,32 +17,34 @@ const ROW: f64 = 18.0;
 const BAND: f64 = 12.0;
 /// Space beside fitted curves, as a share of their extent.
 const SPACE_BESIDE: f64 = 0.03;
-/// A piece of a curve that is shorter may lie within a crossing with another (px).
-const SHORT: f64 = 48.0;
+/// Length of a dash of each colour of a line that stands for several (px).
+const DASH: f64 = 9.0;
+/// Size of the arrowheads where curves leave the frame (px); heads closer to each other are one.
+const HEAD: f64 = 5.0;
 /// Curves keep to this distance of their points (px).
 const TOLERANCE: f64 = 0.05;
 
 /// A panel with its place in the picture.
 pub(super) struct PanelLayout<'f> {
-    panel: &'f Panel,
+    figure: &'f Figure,
+    pub(super) panel: &'f Panel,
     placed: Placed,
     frame: Frame,
     x: Scale,
     y: Scale,
     flags: Vec<Flag<'f>>,
+    /// What stands for the curves.
+    pub(super) lines: Vec<Line>,
     top: f64,
 }
 
-fn y_range(panel: &Panel) -> [f64; 2] {
-    panel.y.range.unwrap_or_else(|| fitting_range(panel))
+fn y_range(figure: &Figure, panel: &Panel) -> [f64; 2] {
+    panel.y.range.unwrap_or_else(|| fitting_range(panel, &figure.branches))
 }
 
 /// The horizontal extent of the curves with some space beside them, where the axis has no range.
 fn x_range(panel: &Panel) -> [f64; 2] {
-    let all = panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]);
-    let fitted = all.filter(|x| x.is_finite()).fold(None, |range: Option<[f64; 2]>, x| {
-        Some(range.map_or([x, x], |[least, greatest]| [least.min(x), greatest.max(x)]))
-    });
+    let fitted = extent(panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]));
     match (panel.x.range, fitted) {
         (Some(range), _) if range[0] < range[1] => range,
         (None, Some([from, to])) if from < to => {
@@ -53,33 +56,39 @@ fn x_range(panel: &Panel) -> [f64; 2] {
     }
 }
 
-/// The length of visible parts.
-fn length(parts: &[Vec<[f64; 2]>]) -> f64 {
-    let pairs = parts.iter().flat_map(|part| part.windows(2));
-    pairs.map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
-}
-
-fn axes(panel: &Panel) -> [FrameAxis; 2] {
+fn axes(figure: &Figure, panel: &Panel) -> [FrameAxis; 2] {
     let with = |axis: &Axis, range: [f64; 2]| FrameAxis {
         name: axis.name.clone(),
         unit: axis.unit.clone(),
         range,
         logarithmic: axis.logarithmic && range[0] > 0.0,
     };
-    [with(&panel.x, x_range(panel)), with(&panel.y, y_range(panel))]
+    [with(&panel.x, x_range(panel)), with(&panel.y, y_range(figure, panel))]
 }
 
 /// What the vertical axis needs beside the frame (px).
-pub(super) fn space_on_the_left(panel: &Panel) -> f64 {
-    axes(panel)[1].space_on_the_left(super::STACKED_HEIGHT)
+pub(super) fn space_on_the_left(figure: &Figure, panel: &Panel) -> f64 {
+    axes(figure, panel)[1].space_on_the_left(super::STACKED_HEIGHT)
+}
+
+/// A curve, by its index, that leaves the frame through its lower (0) or upper edge (1) at a place.
+struct Exit {
+    curve: usize,
+    edge: usize,
+    at: [f64; 2],
 }
 
 impl<'f> PanelLayout<'f> {
     /// Between `left` and `right`, below `top`, with a frame of this height.
-    pub(super) fn new(panel: &'f Panel, [left, right]: [f64; 2], top: f64, height: f64) -> Self {
+    pub(super) fn new(
+        (figure, panel): (&'f Figure, &'f Panel),
+        [left, right]: [f64; 2],
+        top: f64,
+        height: f64,
+    ) -> Self {
         // The last number of the axis is centred at the edge.
         let right = right - 12.0;
-        let axes = axes(panel);
+        let axes = axes(figure, panel);
         let values = axes[0].range;
         let x = axes[0].scale([left, right]);
         let inside = |at: f64| values[0] <= at && at <= values[1];
@@ -90,7 +99,11 @@ impl<'f> PanelLayout<'f> {
         let frame_top = top + 10.0 + title + ROW * rows as f64 + if rows > 0 { 4.0 } else { 0.0 };
         let below = if panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
         let placed = Placed::new(axes, [left, frame_top, right, frame_top + height]).with_space_below(below);
-        Self { panel, frame: placed.rectangle(), x, y: placed.y(), placed, flags, top }
+        let (frame, y) = (placed.rectangle(), placed.y());
+        let mut layout = Self { figure, panel, placed, frame, x, y, flags, lines: Vec::new(), top };
+        let parts: Vec<Vec<Vec<[f64; 2]>>> = panel.curves.iter().map(|curve| layout.parts(curve)).collect();
+        layout.lines = lines(&panel.curves, &parts, CURVE);
+        layout
     }
 
     /// Below its numbers and the name of the axis.
@@ -98,28 +111,20 @@ impl<'f> PanelLayout<'f> {
         self.placed.bottom()
     }
 
-    pub(super) fn draw(&self, figure: &Figure, theme: &Theme, svg: &mut Svg) {
+    pub(super) fn draw(&self, theme: &Theme, svg: &mut Svg) {
         svg.open("g", &[("class", "panel")]);
         self.title(theme, svg);
         self.zones(theme, svg);
         draw_grid(&self.placed, theme, svg);
         self.marked(theme, svg);
-        let parts: Vec<Vec<Vec<[f64; 2]>>> =
-            self.panel.curves.iter().map(|curve| self.parts(curve)).collect();
-        let hiding: Vec<Vec<usize>> =
-            (0..parts.len()).map(|index| self.hiding(figure, index, &parts)).collect();
-        for (index, curve) in self.panel.curves.iter().enumerate() {
-            let border = BORDER * self.number_above(index, &hiding, &parts) as f64;
-            Self::curve(figure, curve, (&parts[index], CURVE + border), theme, svg);
-        }
-        // Markers and ends lie above all curves.
-        let several = figure.quantities.len() > 1;
-        for (index, curve) in self.panel.curves.iter().enumerate() {
-            if several {
-                self.markers(figure, index, &parts[index], theme, svg);
-            }
-            self.ends(figure, curve, theme, svg);
-        }
+        self.lines.iter().for_each(|line| self.line(line, theme, svg));
+        // What marks places of curves lies above all of them.
+        let several = self.figure.quantities.len() > 1;
+        self.lines.iter().filter(|_| several).for_each(|line| self.markers(line, theme, svg));
+        self.lines.iter().filter(|_| self.panel.directed).for_each(|line| self.arrows(line, theme, svg));
+        self.panel.curves.iter().for_each(|curve| self.ends(curve, theme, svg));
+        self.exits().iter().for_each(|exit| self.exit(exit, theme, svg));
+        self.points(theme, svg);
         draw_axes(&self.placed, theme, svg);
         self.bands(theme, svg);
         svg.close("g");
@@ -141,6 +146,13 @@ impl<'f> PanelLayout<'f> {
     fn shown(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         let (from, to) = (from.max(self.x.values[0]), to.min(self.x.values[1]));
         (from < to).then(|| [from, to].map(|value| self.x.place(value)))
+    }
+
+    /// The hatched intervals that can be seen.
+    pub(super) fn seen_zones(&self) -> impl Iterator<Item = &Zone> {
+        let is_seen =
+            |zone: &&Zone| self.shown(zone.from, zone.to).is_some_and(|[from, to]| to - from >= 1.0);
+        self.panel.zones.iter().filter(is_seen)
     }
 
     fn zones(&self, theme: &Theme, svg: &mut Svg) {
@@ -206,94 +218,69 @@ impl<'f> PanelLayout<'f> {
         self.frame.parts(&points).iter().map(|part| simplified(part, TOLERANCE)).collect()
     }
 
-    fn colour(figure: &Figure, curve: &Curve, theme: &Theme) -> &'static str {
-        let colour = figure.branches.get(curve.branch).map_or(0, |branch| branch.colour);
+    /// The colour of a branch.
+    fn colour(&self, branch: usize, theme: &Theme) -> &'static str {
+        let colour = self.figure.branches.get(branch).map_or(0, |branch| branch.colour);
         theme.series[colour % theme.series.len()]
     }
 
-    /// The later solid curves of other branches that hide the curve with this index.
-    fn hiding(&self, figure: &Figure, index: usize, parts: &[Vec<Vec<[f64; 2]>>]) -> Vec<usize> {
-        let branch = self.panel.curves[index].branch;
-        let hides = |&above: &usize| {
-            let other = self.panel.curves[above].branch;
-            let stroke = figure.branches.get(other).map(|branch| branch.stroke);
-            let is_solid = stroke.is_none_or(|stroke| stroke == Stroke::Solid);
-            other != branch && is_solid && runs_along(&parts[index], &parts[above], CURVE)
-        };
-        (index + 1..parts.len()).filter(hides).collect()
-    }
-
-    /// How many curves hide the curve with this index: it is drawn wider, so that it shows on both sides of
-    /// them. A short piece counts only if most of its branch is hidden by theirs: it may lie within a mere
-    /// crossing.
-    fn number_above(&self, index: usize, hiding: &[Vec<usize>], parts: &[Vec<Vec<[f64; 2]>>]) -> usize {
-        let curves = &self.panel.curves;
-        let is_same = |one: usize, other: usize| {
-            (curves[one].branch, curves[one].quantity) == (curves[other].branch, curves[other].quantity)
-        };
-        let mostly_hidden = |above: usize| {
-            let pieces = (0..curves.len()).filter(|&piece| is_same(piece, index));
-            let (hidden, all) = pieces.fold((0.0, 0.0), |(hidden, all), piece| {
-                let length = length(&parts[piece]);
-                let is_hidden = hiding[piece].iter().any(|&other| is_same(other, above));
-                (hidden + if is_hidden { length } else { 0.0 }, all + length)
-            });
-            2.0 * hidden >= all
-        };
-        let is_long = length(&parts[index]) >= SHORT;
-        hiding[index].iter().filter(|&&above| is_long || mostly_hidden(above)).count().min(3)
-    }
-
-    /// One curve, by its visible parts and its width.
-    fn curve(
-        figure: &Figure,
-        curve: &Curve,
-        (parts, width): (&[Vec<[f64; 2]>], f64),
-        theme: &Theme,
-        svg: &mut Svg,
-    ) {
-        let stroke =
-            figure.branches.get(curve.branch).map(|branch| dashes(branch.stroke)).unwrap_or_default();
-        let (branch, quantity) = (curve.branch.to_string(), curve.quantity.to_string());
-        for part in parts {
-            let mut path = String::new();
-            for (index, [x, y]) in part.iter().enumerate() {
-                let letter = if index == 0 { 'M' } else { 'L' };
-                let _ = write!(path, "{letter}{} {}", coordinate(*x), coordinate(*y));
-            }
-            let thickness = coordinate(width);
+    /// A line; one that stands for several branches has dashes of all their colours.
+    fn line(&self, line: &Line, theme: &Theme, svg: &mut Svg) {
+        let stroke = self.figure.branches.get(line.branches[0]).map(|branch| dashes(branch.stroke));
+        let mut path = String::new();
+        for (index, [x, y]) in line.path.iter().enumerate() {
+            let letter = if index == 0 { 'M' } else { 'L' };
+            let _ = write!(path, "{letter}{} {}", coordinate(*x), coordinate(*y));
+        }
+        let quantity = self.panel.curves[line.curve].quantity.to_string();
+        let several = line.branches.len() > 1;
+        for (index, branch) in line.branches.iter().enumerate() {
+            let (number, thickness) = (branch.to_string(), coordinate(CURVE));
             let mut attributes = vec![
-                ("class", "curve"),
-                ("data-branch", &*branch),
+                ("class", if index == 0 { "curve" } else { "coincident" }),
+                ("data-branch", &*number),
                 ("data-quantity", &*quantity),
                 ("d", &path),
                 ("fill", "none"),
-                ("stroke", Self::colour(figure, curve, theme)),
+                ("stroke", self.colour(*branch, theme)),
                 ("stroke-width", &thickness),
                 ("stroke-linejoin", "round"),
             ];
-            if !stroke.is_empty() {
-                attributes.push(("stroke-dasharray", stroke));
+            let [pattern, offset] = shared_dashes(index, line.branches.len());
+            match stroke {
+                // The first colour lies beneath those of the others.
+                _ if several && index == 0 => {}
+                _ if several => {
+                    attributes.extend([("stroke-dasharray", &*pattern), ("stroke-dashoffset", &offset)]);
+                }
+                Some(stroke) if !stroke.is_empty() => attributes.push(("stroke-dasharray", stroke)),
+                _ => {}
             }
             svg.element("path", &attributes);
         }
     }
 
-    /// Markers of the curve with this index; those of neighbouring curves are shifted against each other.
-    fn markers(&self, figure: &Figure, index: usize, parts: &[Vec<[f64; 2]>], theme: &Theme, svg: &mut Svg) {
-        let curve = &self.panel.curves[index];
-        let colour = Self::colour(figure, curve, theme);
-        let shares = figure.quantities.len() as f64;
-        let phase = ((curve.quantity as f64 + 0.37 * curve.branch as f64) / shares).fract();
-        for part in parts {
-            for place in markers::places(part, phase) {
-                markers::draw(curve.quantity, place, [colour, theme.background], svg);
-            }
+    /// Markers of a line; those of neighbouring ones are shifted against each other.
+    fn markers(&self, line: &Line, theme: &Theme, svg: &mut Svg) {
+        let quantity = self.panel.curves[line.curve].quantity;
+        let colour = self.colour(line.branches[0], theme);
+        let shares = self.figure.quantities.len() as f64;
+        let phase = ((quantity as f64 + 0.37 * line.branches[0] as f64) / shares).fract();
+        for (place, _) in markers::places(&line.path, phase) {
+            markers::draw(quantity, place, [colour, theme.background], svg);
         }
     }
 
-    fn ends(&self, figure: &Figure, curve: &Curve, theme: &Theme, svg: &mut Svg) {
-        let colour = Self::colour(figure, curve, theme);
+    /// Arrowheads along a line.
+    fn arrows(&self, line: &Line, theme: &Theme, svg: &mut Svg) {
+        let colour = self.colour(line.branches[0], theme);
+        for (place, along) in markers::places(&line.path, 0.5) {
+            markers::head("direction", (place, along), HEAD, colour, svg);
+        }
+    }
+
+    fn ends(&self, curve: &Curve, theme: &Theme, svg: &mut Svg) {
+        let colour = self.colour(curve.branch, theme);
         for (end, point) in curve.ends.iter().zip([curve.points.first(), curve.points.last()]) {
             let (End::Marked, Some([x, y])) = (end, point) else { continue };
             let place = [self.x.place(*x), self.y.place(*y)];
@@ -307,6 +294,73 @@ impl<'f> PanelLayout<'f> {
         }
     }
 
+    /// Where curves go on above or below the frame; neighbouring exits of one quantity of a branch are one.
+    fn exits(&self) -> Vec<Exit> {
+        let mut exits: Vec<Exit> = Vec::new();
+        for (curve, of) in self.panel.curves.iter().enumerate() {
+            let places = of.points.iter().map(|[x, y]| [self.x.place(*x), self.y.place(*y)]);
+            let places: Vec<[f64; 2]> = places.filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
+            for pair in places.windows(2) {
+                for [inside, outside] in [[pair[0], pair[1]], [pair[1], pair[0]]] {
+                    let Some((edge, at)) = self.frame.exit(inside, outside) else { continue };
+                    let is_known = |known: &Exit| {
+                        let other = &self.panel.curves[known.curve];
+                        (other.branch, other.quantity, known.edge) == (of.branch, of.quantity, edge)
+                            && (known.at[0] - at[0]).abs() < 2.0 * HEAD
+                    };
+                    if !exits.iter().any(is_known) {
+                        exits.push(Exit { curve, edge, at });
+                    }
+                }
+            }
+        }
+        exits
+    }
+
+    /// An arrowhead where a curve leaves the frame.
+    fn exit(&self, exit: &Exit, theme: &Theme, svg: &mut Svg) {
+        let along = if exit.edge == 1 { [0.0, -1.0] } else { [0.0, 1.0] };
+        let colour = self.colour(self.panel.curves[exit.curve].branch, theme);
+        markers::head("cut", (exit.at, along), HEAD, colour, svg);
+    }
+
+    /// Where curves are cut and what they reach beyond, for the legend; none if all of them are shown.
+    pub(super) fn cut(&self) -> Option<String> {
+        let exits = self.exits();
+        let unit = if self.panel.y.unit.is_empty() { "" } else { &format!(" {}", self.panel.y.unit) };
+        let mut places = Vec::new();
+        let mut reached = Vec::new();
+        let mut grows = false;
+        for edge in [0, 1] {
+            let curves = exits.iter().filter(|exit| exit.edge == edge);
+            let curves: Vec<&Curve> = curves.map(|exit| &self.panel.curves[exit.curve]).collect();
+            if curves.is_empty() {
+                continue;
+            }
+            places.push(format!("{}{unit}", number(self.y.values[edge])));
+            let (unbounded, bounded): (Vec<&Curve>, Vec<&Curve>) =
+                curves.into_iter().partition(|curve| curve.ends.contains(&End::Diverges));
+            grows |= !unbounded.is_empty();
+            let values = bounded.iter().flat_map(|curve| curve.points.iter().map(|point| point[1]));
+            reached.extend(extent(values).map(|range| format!("{}{unit}", number(range[edge]))));
+        }
+        let beyond = [
+            grows.then(|| "grows without bound".to_owned()),
+            (!reached.is_empty()).then(|| format!("reaches {}", reached.join(" and "))),
+        ];
+        let beyond: Vec<String> = beyond.into_iter().flatten().collect();
+        (!places.is_empty()).then(|| format!("cut at {}: {}", places.join(" and "), beyond.join("; ")))
+    }
+
+    fn points(&self, theme: &Theme, svg: &mut Svg) {
+        for point in &self.panel.points {
+            let place = [self.x.place(point.at[0]), self.y.place(point.at[1])];
+            if self.frame.holds(place) {
+                markers::point(point.kind, place, theme, svg);
+            }
+        }
+    }
+
     fn bands(&self, theme: &Theme, svg: &mut Svg) {
         for band in &self.panel.bands {
             let Some([left, right]) = self.shown(band.from, band.to) else { continue };
@@ -315,4 +369,10 @@ impl<'f> PanelLayout<'f> {
             svg.rectangle(shape, &[("class", "band"), ("fill", colour)]);
         }
     }
+}
+
+/// The dashes of a colour among several that take turns along a line, and where they begin.
+pub(super) fn shared_dashes(index: usize, count: usize) -> [String; 2] {
+    let between = DASH * count.saturating_sub(1) as f64;
+    [format!("{} {}", coordinate(DASH), coordinate(between)), coordinate(-DASH * index as f64)]
 }

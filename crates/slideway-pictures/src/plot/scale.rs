@@ -1,11 +1,14 @@
 //! Axes in numbers: round values for ticks, ranges that fit curves, and from values to places.
 
-use super::figure::{Curve, End, Panel};
+use super::figure::{Branch, Curve, End, Panel, Stroke};
 
-/// Share of a curve's extent along x that is not fitted before an end at which it grows without bound.
-const LEFT_OUT: f64 = 0.4;
-/// The same at each end if both grow.
-const LEFT_OUT_TWICE: f64 = 0.3;
+/// Share of a curve's extent along x that is not fitted before an end at which it grows without bound, and
+/// the same at each end if both grow: of what a mechanism settles on, which is read close to where it locks.
+const LEFT_OUT: [f64; 2] = [0.15, 0.12];
+/// The same of all other curves, which would dwarf those.
+const LEFT_OUT_OF_THRESHOLDS: [f64; 2] = [0.4, 0.3];
+/// The edge of an axis beyond which curves go on is a round number: that of so many ticks.
+const TICKS: usize = 6;
 /// Space above and below the curves, as a share of their range.
 const MARGIN: f64 = 0.06;
 /// Zero is shown where it is no farther from the curves than this share of their range.
@@ -105,14 +108,28 @@ pub(super) fn tick_text(value: f64, step: f64, greatest: f64) -> String {
 
 /// The range of a panel's vertical axis that its curves ask for: all of them, but for what lies near values
 /// at which they grow without bound; with zero if it is not far away.
-pub fn fitting_range(panel: &Panel) -> [f64; 2] {
-    let values = panel.curves.iter().flat_map(visible).filter(|value| value.is_finite());
-    let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), value| {
-        (least.min(value), greatest.max(value))
+pub(super) fn fitting_range(panel: &Panel, branches: &[Branch]) -> [f64; 2] {
+    let all = panel.curves.iter().flat_map(|curve| curve.points.iter().map(|point| point[1]));
+    let shown = panel.curves.iter().flat_map(|curve| {
+        let stroke = branches.get(curve.branch).map_or(Stroke::Solid, |branch| branch.stroke);
+        visible(curve, if stroke == Stroke::Solid { LEFT_OUT } else { LEFT_OUT_OF_THRESHOLDS })
     });
-    if least > greatest {
-        return [0.0, 1.0];
+    match (extent(shown), extent(all)) {
+        (Some(shown), Some(all)) => range_that_shows(shown, all),
+        _ => [0.0, 1.0],
     }
+}
+
+/// The least and the greatest of the finite values.
+pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.filter(|value| value.is_finite()).fold(None, |range: Option<[f64; 2]>, value| {
+        Some(range.map_or([value; 2], |[least, greatest]| [least.min(value), greatest.max(value)]))
+    })
+}
+
+/// A range with some room around the values that are to be seen, and with zero if it is not far away. Edges
+/// beyond which there are other values are round, so that they can be named.
+pub(crate) fn range_that_shows([least, greatest]: [f64; 2], all: [f64; 2]) -> [f64; 2] {
     let size = greatest - least;
     let (mut least, mut greatest) = (least, greatest);
     if least > 0.0 && least <= NEAR_ZERO * size {
@@ -130,13 +147,18 @@ pub fn fitting_range(panel: &Panel) -> [f64; 2] {
     } else {
         0.5 * greatest.abs()
     };
-    [least - margin, greatest + margin]
+    let step = tick_step([least, greatest + 2.0 * margin], TICKS);
+    [
+        if all[0] < least - margin { (least / step).floor() * step } else { least - margin },
+        if all[1] > greatest + margin { (greatest / step).ceil() * step } else { greatest + margin },
+    ]
 }
 
-/// The values of a curve that are to be seen.
-fn visible(curve: &Curve) -> impl Iterator<Item = f64> + '_ {
+/// The values of a curve that are to be seen; of its extent along x these shares are left out before one end
+/// at which it grows without bound, and before each of two.
+fn visible(curve: &Curve, [once, twice]: [f64; 2]) -> impl Iterator<Item = f64> + '_ {
     let diverges = curve.ends.map(|end| end == End::Diverges);
-    let share = if diverges == [true; 2] { LEFT_OUT_TWICE } else { LEFT_OUT };
+    let share = if diverges == [true; 2] { twice } else { once };
     let along = |point: Option<&[f64; 2]>| point.map_or(0.0, |point| point[0]);
     let (from, to) = (along(curve.points.first()), along(curve.points.last()));
     let first = if diverges[0] { from + share * (to - from) } else { f64::NEG_INFINITY };
@@ -196,12 +218,18 @@ mod tests {
 
     #[test]
     fn what_grows_without_bound_does_not_squash_the_rest() {
-        // y = 1/(1 - x): beyond 60 % of the way it is not fitted, where it is 2.5.
+        // y = 1/(1 - x): beyond 85 % of the way it is not fitted, where it is 6.67; of a threshold beyond 60 %,
+        // where it is 2.5. The next multiples of 2 and 0.5 end the axis.
         let points = (0..1000).map(|step| f64::from(step) / 1000.0).map(|x| [x, 1.0 / (1.0 - x)]).collect();
         let curve = Curve { branch: 0, quantity: 0, points, ends: [End::Plain, End::Diverges] };
-        let range = fitting_range(&Panel { curves: vec![curve], ..Panel::default() });
-        assert!(range[1] > 2.5 && range[1] < 2.8, "{range:?}");
-        assert!(range[0] < 0.0, "zero is near: {range:?}");
-        assert_eq!(fitting_range(&Panel::default()), [0.0, 1.0]);
+        let panel = Panel { curves: vec![curve], ..Panel::default() };
+        let of = |stroke| fitting_range(&panel, &[Branch { name: String::new(), colour: 0, stroke }]);
+        assert_eq!([of(Stroke::Solid)[1], of(Stroke::Dashed)[1]], [8.0, 2.5]);
+        assert!(of(Stroke::Solid)[0] < 0.0, "zero is near");
+        assert_eq!(fitting_range(&Panel::default(), &[]), [0.0, 1.0]);
+        // All of a curve that ends is shown, with room around it.
+        let bounded = Curve { ends: [End::Plain; 2], ..panel.curves[0].clone() };
+        let range = fitting_range(&Panel { curves: vec![bounded], ..Panel::default() }, &[]);
+        assert!(range[1] > 1000.0, "{range:?}");
     }
 }

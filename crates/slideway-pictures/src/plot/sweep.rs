@@ -1,6 +1,7 @@
 //! The figure of a sweep over one quantity: a quantity along every branch, thinned while the rows come.
 
-use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone};
+use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
+use super::limits;
 use slideway::limits::Quantity;
 use slideway::report::precise;
 use slideway::sweep::{Breakpoint, Line, PointStatus, RowKind, RowVerdict, Rows, Sweep};
@@ -35,7 +36,7 @@ const MOST_ZONES: usize = 1000;
 ///     ControlFlow::Continue(())
 /// });
 /// // The drawer jams from mu = L / (2 a) = 2/3 on.
-/// let figure = plot.figure("Drawer");
+/// let figure = plot.figure(Some("Drawer"));
 /// assert!((figure.panels[0].zones[0].from - 2.0 / 3.0).abs() < 1e-9);
 /// # Ok::<(), slideway::fault::Faults>(())
 /// ```
@@ -280,11 +281,12 @@ impl SweepPlot {
     /// The figure: a panel for each unit; each branch has a colour, and a stroke that says whether a
     /// mechanism with slightly elastic guides settles on it; exact ends of modes are marked, intervals
     /// without a solution hatched.
-    pub fn figure(&self, title: &str) -> Figure {
+    pub fn figure(&self, title: Option<&str>) -> Figure {
         let mut legend = Vec::new();
         let mut units: Vec<&str> = self.series.iter().map(|series| series.unit).collect();
         units.dedup();
-        let panels = units.iter().map(|unit| self.panel(unit, &mut legend)).collect();
+        let mut panels: Vec<Panel> = units.iter().map(|unit| self.panel(unit, &mut legend)).collect();
+        limits::without_empty_ends(&mut panels);
         let mut subtitle = vec![format!("Signs of the normal forces: {}", self.contacts.join(", "))];
         if self.left_out > 0 {
             subtitle.push(format!("{} more branches are not drawn", self.left_out));
@@ -293,7 +295,10 @@ impl SweepPlot {
             subtitle.push("Not all intervals without a solution are hatched".to_owned());
         }
         Figure {
-            title: title.to_owned(),
+            title: headline(
+                title,
+                &format!("{} over {}", limits::name(self.quantity), limits::in_words(&self.line.name)),
+            ),
             subtitle: subtitle.join(". "),
             panels,
             branches: legend,
@@ -302,12 +307,7 @@ impl SweepPlot {
     }
 
     fn panel(&self, unit: &str, legend: &mut Vec<Branch>) -> Panel {
-        let name = match self.quantity {
-            Quantity::NormalForce => "normal force",
-            Quantity::Friction => "friction force",
-            Quantity::Acceleration => "acceleration",
-            Quantity::Effort => "effort",
-        };
+        let name = limits::name(self.quantity);
         let name = match &self.series[..] {
             [only] => format!("{name} of {}", only.name),
             _ => name.to_owned(),
@@ -315,7 +315,6 @@ impl SweepPlot {
         let scale = self.line.shown_in.scale;
         let drawn = self.branches.iter().enumerate();
         Panel {
-            title: String::new(),
             x: Axis {
                 name: self.line.name.clone(),
                 unit: self.line.shown_in.unit.clone(),
@@ -325,8 +324,8 @@ impl SweepPlot {
             y: Axis { name, unit: unit.to_owned(), ..Axis::default() },
             zones: self.runs.iter().filter_map(|run| self.zone(run)).collect(),
             marked: self.marked(),
-            bands: Vec::new(),
             curves: drawn.flat_map(|(colour, branch)| self.curves(colour, branch, unit, legend)).collect(),
+            ..Panel::default()
         }
     }
 

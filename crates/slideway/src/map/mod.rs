@@ -61,6 +61,18 @@ pub enum ColourBy {
     Jam,
 }
 
+impl ColourBy {
+    /// What the colours tell, in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Solutions => "number of solutions",
+            Self::Modes => "contact modes that have a solution",
+            Self::Margin => "margin of friction",
+            Self::Jam => "directions in which it can move",
+        }
+    }
+}
+
 /// What to map.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -48,7 +48,7 @@ pub use following::{simulate, simulate_with};
 pub use moving::cause::{Cause, CauseKind};
 pub use moving::equations::Drift;
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
-pub use record::event::Event;
+pub use record::event::{Event, modes_in_words, phase_in_words};
 pub use record::history::{ContactSample, End, Energy, History, PhaseInterval, Reader, Sample, Statistics};
 pub use told::report::{
     BranchReport, CauseReport, EndKind, EndReport, EnergyReport, EventReport, Named, PhaseReport, SCHEMA,

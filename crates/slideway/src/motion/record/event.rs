@@ -6,7 +6,7 @@ use crate::mechanism::Mechanism;
 use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
 use crate::motion::moving::cause::Cause;
-use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
+use crate::pattern::phase::{ContactPhase, JointPhase, Phase, sliding_joints};
 use crate::report::number::number;
 use crate::solve::mode_in_words;
 use nalgebra::Vector2;
@@ -31,6 +31,26 @@ pub struct Event {
     pub taken: Option<usize>,
     /// What happened, in words.
     pub words: String,
+}
+
+/// Where every sliding joint touches its guide in a phase, or that it sticks: "floor flat on the lower guide;
+/// sole sticks". Sides are those of the configuration.
+pub fn modes_in_words(mechanism: &Mechanism, configuration: &Configuration, phase: &Phase) -> String {
+    let sliders = sliding_joints(mechanism);
+    let words = Words { mechanism, configuration, sliders: &sliders };
+    let one = |(index, joint): (usize, &JointId)| match phase.joints[index] {
+        JointPhase::Sticking => format!("{} sticks", words.name(*joint)),
+        JointPhase::Sliding(_) => words.mode(words.name(*joint), *joint, phase),
+    };
+    sliders.iter().enumerate().map(one).collect::<Vec<String>>().join("; ")
+}
+
+/// The same with the direction in which each joint slides: "floor is flat on the lower guide, sliding to the
+/// right; sole sticks".
+pub fn phase_in_words(mechanism: &Mechanism, configuration: &Configuration, phase: &Phase) -> String {
+    let sliders = sliding_joints(mechanism);
+    let words = Words { mechanism, configuration, sliders: &sliders };
+    words.event(&[], None, Some(phase))
 }
 
 /// Tells events of a mechanism.
