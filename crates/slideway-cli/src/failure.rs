@@ -53,7 +53,7 @@ pub(crate) enum Failure {
     UnknownEnding { path: PathBuf, known: Vec<String> },
     /// A table that is not written from beginning to end.
     NoStream,
-    /// A plot of a sweep that does not go along a line.
+    /// A plot of what does not go along a line.
     NoLine,
     /// A plot of a quantity that the model has none of.
     NothingToPlot,
@@ -142,7 +142,7 @@ impl Failure {
             }
             Self::NoStream => "this form of table can only be written to a file".to_owned(),
             Self::NoLine => {
-                "a plot needs one varied quantity with ascending values, and no samples".to_owned()
+                "a plot needs one varied quantity with ascending values, or random samples".to_owned()
             }
             Self::NothingToPlot => "the model has no such quantity to plot".to_owned(),
             Self::Halted { halt, path: None } => {

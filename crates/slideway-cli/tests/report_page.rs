@@ -51,6 +51,9 @@ fn pages_have_all_parts_and_need_nothing_else() {
         "The list is proven complete.",
         "Solution 3 of 3",
         "Preload gap 1 of 1",
+        "<h3>Margins of friction</h3>",
+        "the number of solutions changes beyond a factor of 3.901",
+        "<h3>At rest</h3>",
         "Not attainable: threshold between sliding (solution 2) and jamming.",
         "<svg ",
         "<table class=\"limits\">",
@@ -71,6 +74,21 @@ fn every_model_of_the_gallery_has_a_page() {
         let (_, html) = page(directory.path(), &[path.to_str().unwrap()]);
         assert_self_contained(&html);
         assert!(html.contains("<svg ") && html.contains("</html>"), "{}", path.display());
+    }
+}
+
+/// The drawer's efficiency is 1 - 2 mu a / L = 55 %, and its margin L / (2 a mu) = 20/9 (book, chapter Limits).
+#[test]
+fn efficiency_margins_and_rest_are_on_the_page() {
+    let directory = tempfile::tempdir().unwrap();
+    let (_, html) = page(directory.path(), &["models/drawer.toml"]);
+    for part in [
+        "<h3>Efforts and efficiency</h3>",
+        "efficiency 55 %",
+        "there is no solution beyond a factor of 2.2222",
+        "<p>It does not hold: 1 state in which it begins to move.</p>",
+    ] {
+        assert!(html.contains(part), "{part}");
     }
 }
 
@@ -116,6 +134,29 @@ fn browse(browser: &Path, profile: &Path, arguments: &[&str], page: &Path) -> Ou
         .arg(format!("file://{}", page.display()))
         .output()
         .unwrap()
+}
+
+/// A frame of a moving picture tells its mode in words, its buttons are 44 px high (WCAG 2.2, 2.5.5), and the
+/// console is silent.
+#[test]
+fn a_browser_shows_a_moving_picture_without_complaint() {
+    let Some(browser) = browser() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("motion.html");
+    let path = file.to_str().unwrap();
+    let run = slideway(&["simulate", "models/thrown-drawer.toml", "--until", "0.5s", "--animate", path]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let html = std::fs::read_to_string(&file).unwrap();
+    for part in ["prefers-reduced-motion", "ArrowLeft", "min-height: 44px"] {
+        assert!(html.contains(part), "{part}");
+    }
+    // The last frame, where it has jammed.
+    let page = PathBuf::from(format!("{path}?frame=1000"));
+    let shown = browse(&browser, &directory.path().join("profile"), &["--dump-dom"], &page);
+    let (dom, log) = (String::from_utf8_lossy(&shown.stdout), String::from_utf8_lossy(&shown.stderr));
+    assert!(!log.contains("CONSOLE"), "{log}");
+    assert!(dom.contains("<span id=\"words\">guide sticks</span>"), "{dom}");
+    assert!(dom.contains(">play</button>"), "it stands still where a frame is named");
 }
 
 /// The page forbids every request to the network by its own policy; a browser says on its console if anything

@@ -492,6 +492,21 @@ fn a_plot_shows_branches_and_locking_values() {
     assert!(of_class(&svg, "zone").is_empty());
 }
 
+/// Samples have histograms, one for each contact; the text of the picture has the numbers of the summary.
+#[test]
+fn samples_are_plotted_as_histograms() {
+    let (folder, samples) = (tempfile::tempdir().unwrap(), ["--samples", "400", "--vary", "mu=0.5..0.8"]);
+    let ((path, plot), (_, table)) = (path(&folder, "samples.svg"), path(&folder, "samples.csv"));
+    let arguments = [&["sweep", DRAWER, "--output", &table, "--plot", &plot][..], &samples].concat();
+    let run = slideway(&arguments);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let svg = std::fs::read_to_string(path).unwrap();
+    assert_eq!(svg.matches("class=\"frame\"").count(), 2);
+    assert!(svg.matches("class=\"bar\"").count() > 20);
+    assert!(svg.contains("400 samples; no solution in "), "{svg}");
+    assert!(svg.contains("normal force of guide.rear in N"));
+}
+
 /// The drawer jams from mu = L / (2 a) = 2/3 on (book, chapter Limits): there the plot is hatched, up to its
 /// edge.
 #[test]

@@ -1,6 +1,6 @@
 //! `slideway drive`
 
-use super::{CheckFormat, Destination, ModelArguments, TimeArguments};
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::Args;
 use slideway::drive::GREATEST_ROWS;
 
@@ -10,6 +10,7 @@ Examples:
   slideway drive drawer.toml --vary mu                  the push over friction
   slideway drive drawer.toml --vary L=\"0.2 m..0.5 m\" --rows 21
   slideway drive screw.toml --vary friction=0..3
+  slideway drive drawer.toml --vary mu --plot push.svg  push and efficiency over friction
 
 The efficiency is the power without friction over the power with friction, at the same motion;
 if the load pushes and the drives brake, it is the inverse. Without a range, the default is that of
@@ -40,6 +41,9 @@ pub(crate) struct DriveArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) plot: PlotArguments,
 
     #[command(flatten)]
     pub(crate) time: TimeArguments,

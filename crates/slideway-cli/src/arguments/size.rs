@@ -1,7 +1,7 @@
 //! `slideway size`
 
 use super::values::positive;
-use super::{CheckFormat, Destination, ModelArguments, TimeArguments};
+use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::size;
@@ -10,6 +10,7 @@ pub(super) const HELP: &str = "\
 Examples:
   slideway size drawer.toml --vary L --margin 2                how long the guide must be
   slideway size drawer.toml --vary a --margin 1.5 --both-directions
+  slideway size drawer.toml --vary L --margin 2 --plot margin.svg
   slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
   slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
@@ -57,6 +58,9 @@ pub(crate) struct SizeArguments {
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+
+    #[command(flatten)]
+    pub(crate) plot: PlotArguments,
 
     #[command(flatten)]
     pub(crate) time: TimeArguments,

@@ -5,21 +5,42 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
+use crate::picture;
 use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};
 use slideway::limits::Vary;
+use slideway_pictures::plot::{drive_figure, to_svg};
+
+/// Rows of the table that a plot is made of, at least: two for each pixel of a screen.
+const PLOTTED_ROWS: usize = 801;
 
 /// Says which efforts the drives need.
 pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outcome, Failure> {
+    let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
+    if plot.is_some() && arguments.vary.is_none() {
+        return Err(Failure::NoLine);
+    }
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
     let vary = arguments.vary.as_deref().map(str::parse::<Vary>).transpose();
     let vary = vary.map_err(|faults| input.refused(faults))?;
-    let options = DriveOptions::default().vary(vary).rows(arguments.rows);
     let mut watch = Watch::new(arguments.time.time_limit);
-    let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));
-    let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
+    let mut of_rows = |rows: usize| {
+        let options = DriveOptions::default().vary(vary.clone()).rows(rows);
+        let report = drive::drive_with(&model, &options, &mut |progress| watch.look(progress));
+        report.map_err(|faults| input.refused(faults))
+    };
+    // A plot takes more rows than a table.
+    let plotted =
+        plot.map(|file| Ok::<_, Failure>((of_rows(arguments.rows.max(PLOTTED_ROWS))?, file))).transpose()?;
+    let report = of_rows(arguments.rows)?;
+    let report = watch.whole(report)?;
+    if let (Some((Some(rows), (picture, file))), Some(vary)) = (plotted, &vary) {
+        let shown_in = vary.unit_in(&model).map_err(|faults| input.refused(faults))?;
+        let figure = drive_figure(&rows, &shown_in).unwrap_or_default().changed_by(&input.settings);
+        picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;
+    }
     output.tell(&report, arguments.format)?;
     let moves = report.directions.first().is_some_and(|direction| !direction.solutions.is_empty());
     Ok(if moves { Outcome::Done } else { Outcome::NoSolution })

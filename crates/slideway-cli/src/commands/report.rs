@@ -7,11 +7,13 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
 use slideway::configuration::Configuration;
+use slideway::drive::{DriveOptions, drive_with};
 use slideway::fault::Faults;
 use slideway::limits::{LimitsOptions, LimitsReport, Quantity, curves_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::solve::{SolveOptions, solve_with};
+use slideway::standstill::{HoldOptions, hold_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::{Shown, sheet};
 use slideway_pictures::page::{Figure, Page, to_html};
@@ -39,6 +41,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         return Err(Failure::NoSuchSolution { count: 0 });
     };
     let varied = varied(&model, &arguments.vary, &mut watch).map_err(|faults| input.refused(faults))?;
+    let efficiency = efficiency(&model, &mut watch);
+    let rest = rest(&model, &mut watch);
     let is_whole = watch.halt().is_none();
     let varied = watch.whole(varied.filter(|_| is_whole))?;
     let (limits, plots): (Vec<_>, Vec<_>) = varied.into_iter().unzip();
@@ -53,6 +57,8 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
         settings: &settings,
         sheet: &sheet,
         report: answer.as_ref().map_err(Vec::as_slice),
+        efficiency: &efficiency,
+        rest: &rest,
         limits: &limits,
         figures: &figures,
     };
@@ -73,6 +79,25 @@ fn be_a_page(path: &Path) -> Result<(), Failure> {
 /// What keeps the kinetic problem from being solved, in words.
 fn reasons(faults: &Faults) -> Vec<String> {
     faults.sorted().iter().map(|fault| fault.kind.to_string()).collect()
+}
+
+/// Which efforts the drives need, in sentences, or why that is not known; nothing without drives.
+fn efficiency(model: &Model, watch: &mut Watch) -> Vec<String> {
+    if model.drives.is_empty() {
+        return Vec::new();
+    }
+    match drive_with(model, &DriveOptions::default(), &mut |progress| watch.look(progress)) {
+        Ok(report) => report.map(|report| report.conclusion).unwrap_or_default(),
+        Err(faults) => reasons(&faults),
+    }
+}
+
+/// Whether it stays at rest, in sentences, or why that is not known.
+fn rest(model: &Model, watch: &mut Watch) -> Vec<String> {
+    match hold_with(model, &HoldOptions::default(), &mut |progress| watch.look(progress)) {
+        Ok(report) => report.map(|report| report.verdict_in_words()).into_iter().collect(),
+        Err(faults) => reasons(&faults),
+    }
 }
 
 /// The limits of what is wanted, with their plots. Unless something is wanted these are those of friction, if

@@ -5,11 +5,15 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
+use crate::picture;
 use crate::watch::Watch;
+use slideway::limits::Vary;
 use slideway::size::{self, SizeOptions};
+use slideway_pictures::plot::{size_figure, to_svg};
 
 /// Finds the value of a parameter at which a margin is just met.
 pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome, Failure> {
+    let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
     let input = Input::read(&arguments.model)?;
     let model = input.model()?;
@@ -23,6 +27,12 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
         size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
+    if let Some((picture, file)) = plot {
+        let shown_in = arguments.vary.parse().and_then(|vary: Vary| vary.unit_in(&model));
+        let figure = size_figure(&report, &shown_in.map_err(|faults| input.refused(faults))?);
+        let svg = to_svg(&figure.changed_by(&input.settings), arguments.plot.theme.colours());
+        picture.write(svg, &file)?;
+    }
     output.tell(&report, arguments.format)?;
     Ok(if report.met.is_empty() { Outcome::NoSolution } else { Outcome::Done })
 }

@@ -12,7 +12,7 @@ use crate::watch::{Alarm, Watch};
 use slideway::model::Settings;
 use slideway::progress::Progress;
 use slideway::sweep::{Rows, Sweep, SweepState};
-use slideway_pictures::plot::{Extractor, SweepPlot, to_svg};
+use slideway_pictures::plot::{Extract, Extractor, SamplesPart, SamplesPlot, SweepPlot, to_svg};
 use slideway_pictures::theme::Theme;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -82,13 +82,53 @@ struct Work<'w> {
 
 /// A plot beside the table.
 struct Plotting {
-    plot: SweepPlot,
-    extractor: Extractor,
+    plot: Plotted,
+    taker: Taker,
     title: Option<String>,
     settings: Settings,
     theme: &'static Theme,
     picture: Picture,
     file: Output,
+}
+
+/// What is plotted.
+enum Plotted {
+    /// Curves over one quantity.
+    Line(SweepPlot),
+    /// Histograms of samples.
+    Samples(SamplesPlot),
+}
+
+/// Takes of rows what is plotted; to be used in parallel.
+#[derive(Clone)]
+enum Taker {
+    Line(Extractor),
+    Samples(SamplesPlot),
+}
+
+/// What was taken of some rows.
+enum Taken {
+    Line(Extract),
+    Samples(SamplesPart),
+}
+
+impl Taker {
+    fn rows(&self, rows: &Rows) -> Taken {
+        match self {
+            Self::Line(extractor) => Taken::Line(extractor.rows(rows)),
+            Self::Samples(plot) => Taken::Samples(plot.rows(rows)),
+        }
+    }
+}
+
+impl Plotted {
+    fn add(&mut self, taken: Taken) {
+        match (self, taken) {
+            (Self::Line(plot), Taken::Line(extract)) => plot.add(extract),
+            (Self::Samples(plot), Taken::Samples(part)) => plot.add(&part),
+            _ => unreachable!("what is taken is of the kind of the plot"),
+        }
+    }
 }
 
 impl Plotting {
@@ -98,14 +138,21 @@ impl Plotting {
         (picture, file): (Picture, Output),
         (title, settings): (Option<&str>, &Settings),
     ) -> Result<Self, Failure> {
-        if sweep.line().is_none() {
+        if sweep.line().is_none() && sweep.has_branches() {
             return Err(Failure::NoLine);
         }
         let quantity = arguments.quantity.into();
-        let plot = SweepPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
+        let (plot, taker) = if sweep.has_branches() {
+            let plot = SweepPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
+            let taker = Taker::Line(plot.extractor());
+            (Plotted::Line(plot), taker)
+        } else {
+            let plot = SamplesPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
+            (Plotted::Samples(plot.clone()), Taker::Samples(plot))
+        };
         let theme = arguments.plot.theme.colours();
         let (title, settings) = (title.map(str::to_owned), settings.clone());
-        Ok(Self { extractor: plot.extractor(), plot, title, settings, theme, picture, file })
+        Ok(Self { plot, taker, title, settings, theme, picture, file })
     }
 
     /// Computes again what an interrupted run has done: the table does not hold all that a plot needs. Where
@@ -114,13 +161,13 @@ impl Plotting {
         if done == 0 {
             return;
         }
-        let Self { plot, extractor, .. } = self;
+        let Self { plot, taker, .. } = self;
         let mut state = sweep.start();
         let alarm = watch.alarm();
         sweep.run_while(
             &|| !alarm.rings(),
             &mut state,
-            &|rows| (rows.heads.first().map(|head| head.point), extractor.rows(rows)),
+            &|rows| (rows.heads.first().map(|head| head.point), taker.rows(rows)),
             &mut |parts, state| {
                 let wanted = parts.into_iter().filter(|(first, _)| first.is_some_and(|first| first < done));
                 wanted.for_each(|(_, part)| plot.add(part));
@@ -131,8 +178,15 @@ impl Plotting {
     }
 
     fn write(mut self, state: &SweepState) -> Result<(), Failure> {
-        self.plot.set_branches(state.branches());
-        let figure = self.plot.figure(self.title.as_deref()).changed_by(&self.settings);
+        let title = self.title.as_deref();
+        let figure = match &mut self.plot {
+            Plotted::Line(plot) => {
+                plot.set_branches(state.branches());
+                plot.figure(title)
+            }
+            Plotted::Samples(plot) => plot.figure(title, state),
+        };
+        let figure = figure.changed_by(&self.settings);
         self.picture.write(to_svg(&figure, self.theme), &self.file)
     }
 }
@@ -144,12 +198,12 @@ impl Work<'_> {
     /// Computes what is not done yet; `take` gets the rows as bytes and says whether to go on.
     fn run(&mut self, alarm: Alarm, state: &mut SweepState, take: &mut Take<'_>) {
         let Self { sweep, encoder, plot } = self;
-        let (extractor, mut plot) = match plot {
-            Some(Plotting { extractor, plot, .. }) => (Some(extractor.clone()), Some(plot)),
+        let (taker, mut plot) = match plot {
+            Some(Plotting { taker, plot, .. }) => (Some(taker.clone()), Some(plot)),
             None => (None, None),
         };
         let encode = |rows: &Rows| {
-            let part = extractor.as_ref().map(|extractor| extractor.rows(rows));
+            let part = taker.as_ref().map(|taker| taker.rows(rows));
             (encoder.rows(rows), part)
         };
         sweep.run_while(&|| !alarm.rings(), state, &encode, &mut |parts, state| {

@@ -24,7 +24,7 @@ pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
 pub use sheet::{Caption, Panel, Sheet, Shown, sheet};
 pub use view::View;
 
-pub(crate) use sheet::answer;
+pub(crate) use sheet::{answer, nice};
 
 use labels::Label;
 use sliders::Slide;

@@ -371,7 +371,7 @@ fn key(scene: &mut Scene, y: f64, most: f64) -> f64 {
 }
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above a positive value.
-fn nice(value: f64) -> f64 {
+pub(crate) fn nice(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
     }

@@ -4,7 +4,7 @@ use crate::drawing::svg::markup;
 use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, SceneOptions, View, scene};
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
-use slideway::motion::{History, Sample};
+use slideway::motion::{History, Sample, phase_in_words};
 
 /// Frames for a second on the clock.
 const FRAMES_PER_SECOND: f64 = 25.0;
@@ -47,6 +47,10 @@ pub struct Animation {
     /// Seconds on the clock between two frames.
     pub(super) frame_time: f64,
     pub(super) slow_motion: f64,
+    /// Drawing units for a newton; none without forces.
+    pub(super) force_scale: Option<f64>,
+    /// What the modes that occur are, in words, each once.
+    pub(super) words: Vec<String>,
     pub(super) theme: Theme,
 }
 
@@ -57,6 +61,8 @@ pub(super) struct FrameOf {
     pub(super) time: f64,
     /// The mode, spaced.
     pub(super) mode: String,
+    /// Index of its words.
+    pub(super) words: usize,
     /// Indices of shapes, in the order in which they are drawn.
     pub(super) shapes: Vec<usize>,
 }
@@ -76,7 +82,8 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         .filter_map(|index| reader.at(times[0] + duration * index as f64 / count as f64))
         .collect();
     let painted = Painted::new(history, &samples);
-    let (shapes, frames, bounds) = painted.frames();
+    let force_scale = painted.force_scale;
+    let (shapes, frames, bounds, words) = painted.frames();
     Animation {
         title: history.mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned()),
         bounds,
@@ -86,6 +93,8 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         times,
         frame_time: shown / count as f64,
         slow_motion,
+        force_scale,
+        words,
         theme: *theme,
     }
 }
@@ -95,6 +104,7 @@ struct Painted<'h> {
     samples: &'h [Sample],
     view: View,
     options: SceneOptions,
+    force_scale: Option<f64>,
 }
 
 impl<'h> Painted<'h> {
@@ -110,14 +120,16 @@ impl<'h> Painted<'h> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the length")]
         let rare = (forces.len() as f64 * (1.0 - RARE)) as usize;
         let greatest = forces.get(rare).or(forces.last()).copied().unwrap_or(0.0);
-        let scale = if greatest > 0.0 { LONGEST_ARROW / greatest } else { 1.0 };
+        let force_scale = (greatest > 0.0).then_some(LONGEST_ARROW / greatest);
+        let scale = force_scale.unwrap_or(1.0);
         // Words would flicker.
         let options = SceneOptions { values: false, ..SceneOptions::contact_mode(scale) };
-        Self { history, samples, view, options }
+        Self { history, samples, view, options, force_scale }
     }
 
-    /// The shapes that occur, the frames made of them, and what they need of the drawing.
-    fn frames(&self) -> (Vec<String>, Vec<FrameOf>, Bounds) {
+    /// The shapes that occur, the frames made of them, what they need of the drawing, and words of the modes.
+    fn frames(&self) -> (Vec<String>, Vec<FrameOf>, Bounds, Vec<String>) {
+        let mut words: Vec<String> = Vec::new();
         let mut shapes: Vec<String> = Vec::new();
         let mut known = std::collections::HashMap::new();
         let mut frames = Vec::with_capacity(self.samples.len());
@@ -137,10 +149,23 @@ impl<'h> Painted<'h> {
             let mode = self.mode(sample);
             let signs: Vec<String> = mode.chars().map(|sign| sign.to_string()).collect();
             let time = sample.configuration.time;
-            frames.push(FrameOf { time, mode: signs.join(" "), shapes: indices });
+            let told = self.words(sample);
+            let place = words.iter().position(|known| *known == told).unwrap_or_else(|| {
+                words.push(told);
+                words.len() - 1
+            });
+            frames.push(FrameOf { time, mode: signs.join(" "), words: place, shapes: indices });
         }
         let empty = Bounds { least: nalgebra::Vector2::zeros(), greatest: nalgebra::Vector2::zeros() };
-        (shapes, frames, bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH))
+        let bounds = bounds.unwrap_or(empty).widened(MARGIN).at_least_as_wide_as(LEAST_WIDTH);
+        (shapes, frames, bounds, words)
+    }
+
+    fn words(&self, sample: &Sample) -> String {
+        let phase = self.history.phases.get(sample.phase);
+        phase.map_or_else(String::new, |interval| {
+            phase_in_words(&self.history.mechanism, &sample.configuration, &interval.phase)
+        })
     }
 
     fn mode(&self, sample: &Sample) -> String {

@@ -2,7 +2,8 @@
 
 use super::animation::{Animation, FrameOf};
 use crate::coordinate::{NotFinite, coordinate, exact, finished, finished_parts, tenths, thousandths};
-use crate::drawing::svg::{Colour, rules};
+use crate::drawing::svg::{Colour, markup, rules};
+use crate::drawing::{Class, Element, Point, Shape, nice, number};
 use crate::escaped;
 use crate::plot::svg::wrapped;
 use crate::typeface::{STACK, width};
@@ -19,6 +20,8 @@ const BLEED: f64 = 2.0;
 const MOST_TOLD: usize = 200;
 /// Size of the words of an event.
 const WORDS: f64 = 13.0;
+/// Greatest length of the arrow that shows the scale of forces (drawing units).
+const LONGEST_SAMPLE: f64 = 60.0;
 /// Lines for the words of an event.
 const LINES: usize = 2;
 
@@ -48,34 +51,49 @@ fn html(animation: &Animation) -> String {
     let mut out = String::new();
     let _ = write!(
         out,
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n\
-         body {{ font-family: {STACK}; background: {background}; color: {ink}; margin: 1.5em auto; max-width: 60em; }}\n\
-         svg {{ width: 100%; height: auto; }}\n\
-         #time {{ width: 60%; }}\n\
-         .mode {{ font-family: monospace; }}\n\
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n<style>\n\
+         body {{ font-family: {STACK}; background: {background}; color: {ink}; margin: 1.5em auto; max-width: 60em; \
+         padding: 0 1em; }}\n\
+         svg {{ width: 100%; height: auto; max-height: 62vh; }}\n\
+         .controls {{ display: flex; flex-wrap: wrap; align-items: center; gap: 0.6em; }}\n\
+         button {{ font: inherit; min-width: 3.2em; min-height: 44px; padding: 0 1em; color: {ink}; background: {body}; \
+         border: 2px solid {muted}; border-radius: 8px; cursor: pointer; }}\n\
+         button:focus-visible, #time:focus-visible {{ outline: 3px solid {reaction}; outline-offset: 2px; }}\n\
+         #time {{ flex: 1 1 16em; height: 44px; accent-color: {reaction}; cursor: pointer; }}\n\
+         #clock {{ min-width: 8em; font-variant-numeric: tabular-nums; }}\n\
+         .mode {{ font-family: monospace; white-space: nowrap; }}\n\
+         #state {{ min-height: 3em; }}\n\
          #log {{ height: 12em; overflow-y: auto; border-top: 1px solid {muted}; padding-left: 0; list-style: none; }}\n\
-         #log li {{ padding: 0.15em 0.4em; cursor: pointer; color: {muted}; }}\n\
-         #log li.past {{ color: {ink}; }}\n\
+         #log li {{ padding: 0.5em; cursor: pointer; opacity: 0.75; }}\n\
+         #log li.past {{ opacity: 1; }}\n\
          #log li.now {{ background: {body}; font-weight: bold; }}\n\
+         kbd {{ border: 1px solid {muted}; border-radius: 4px; padding: 0 0.3em; }}\n\
          {rules}</style>\n<h1>{title}</h1>\n",
         title = escaped(&animation.title),
         background = theme.background,
         ink = theme.ink,
         muted = theme.muted,
         body = theme.body,
+        reaction = theme.reaction,
         rules = rules(&Colour::of_theme(theme)),
     );
     let _ = writeln!(
         out,
-        "<svg viewBox=\"{}\" role=\"img\" aria-label=\"{}\"><g id=\"drawing\"></g></svg>",
+        "<svg viewBox=\"{}\" role=\"img\" aria-label=\"{}\"><g id=\"drawing\"></g>{}</svg>",
         view_box(animation, 0.0),
-        escaped(&animation.title)
+        escaped(&animation.title),
+        force_scale(animation)
     );
     let _ = writeln!(
         out,
-        "<p><button id=\"play\">pause</button> <input id=\"time\" type=\"range\" min=\"0\" max=\"{}\" value=\"0\" \
-         aria-label=\"time\"> <span id=\"clock\"></span>, mode <span class=\"mode\" id=\"mode\"></span></p>\n\
-         <p>{}. Guides are widened so that the contact modes can be seen. Arrows: normal reactions and friction on the blocks, loads, and sliding velocities.</p>\n\
+        "<p class=\"controls\"><button id=\"play\">pause</button><button id=\"back\" aria-label=\"one frame back\">&#9664;</button>\
+         <button id=\"on\" aria-label=\"one frame on\">&#9654;</button> <input id=\"time\" type=\"range\" min=\"0\" \
+         max=\"{}\" value=\"0\" aria-label=\"time\"> <span id=\"clock\"></span></p>\n\
+         <p id=\"state\">Mode <span class=\"mode\" id=\"mode\"></span>: <span id=\"words\"></span></p>\n\
+         <p>{}. Guides are widened so that the contact modes can be seen. Arrows: normal reactions and friction on the blocks, \
+         loads, and sliding velocities. Keys: <kbd>space</kbd> plays and pauses, <kbd>&#8592;</kbd> and <kbd>&#8594;</kbd> go one \
+         frame, <kbd>Home</kbd> and <kbd>End</kbd> to the ends.</p>\n\
          <ol id=\"log\"></ol>",
         animation.frames.len().saturating_sub(1),
         speed(animation)
@@ -87,9 +105,12 @@ fn html(animation: &Animation) -> String {
         &mut out,
         animation.frames.iter().map(|frame| {
             let shapes: Vec<String> = frame.shapes.iter().map(ToString::to_string).collect();
-            format!("[{},{},[{}]]", exact(frame.time), literal(&frame.mode), shapes.join(","))
+            let (time, mode) = (exact(frame.time), literal(&frame.mode));
+            format!("[{time},{mode},[{}],{}]", shapes.join(","), frame.words)
         }),
     );
+    out.push_str("];\nconst words = [");
+    list(&mut out, animation.words.iter().map(|words| literal(words)));
     out.push_str("];\nconst events = [");
     list(
         &mut out,
@@ -105,17 +126,19 @@ const log = element("log");
 for (const [time, words] of events) {
   const line = document.createElement("li");
   line.textContent = time.toFixed(5) + " s  " + words;
-  line.onclick = () => { playing = false; show(frames.findIndex(frame => frame[0] >= time)); };
+  line.onclick = () => rest(frames.findIndex(frame => frame[0] >= time));
   log.append(line);
 }
-let current = 0, playing = true, started = null;
+let current = 0, started = null;
+let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
 function show(index) {
   current = index < 0 ? frames.length - 1 : index;
-  const [time, mode, parts] = frames[current];
+  const [time, mode, parts, told] = frames[current];
   element("drawing").innerHTML = parts.map(part => shapes[part]).join("");
   element("time").value = current;
   element("clock").textContent = "t = " + time.toFixed(4) + " s";
   element("mode").textContent = mode;
+  element("words").textContent = words[told];
   element("play").textContent = playing ? "pause" : "play";
   let last = null;
   [...log.children].forEach((line, number) => {
@@ -128,14 +151,34 @@ function show(index) {
     log.scrollTop = last.offsetTop - log.offsetTop - log.clientHeight / 2;
   }
 }
-element("time").oninput = () => { playing = false; show(Number(element("time").value)); };
+function rest(index) {
+  playing = false;
+  show(index);
+}
+const step = by => rest(Math.max(0, Math.min(frames.length - 1, current + by)));
+element("time").oninput = () => rest(Number(element("time").value));
+element("back").onclick = () => step(-1);
+element("on").onclick = () => step(1);
+const keys = {
+  " ": () => element("play").click(),
+  ArrowLeft: () => step(-1),
+  ArrowRight: () => step(1),
+  Home: () => rest(0),
+  End: () => rest(frames.length - 1),
+};
+addEventListener("keydown", event => {
+  const act = keys[event.key];
+  if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  act();
+});
 element("play").onclick = () => {
   playing = !playing;
   started = null;
   if (playing && current === frames.length - 1) current = 0;
   show(current);
 };
-function step(now) {
+function tick(now) {
   if (playing) {
     if (started === null) started = now - 1000 * frameTime * current;
     const index = Math.floor((now - started) / (1000 * frameTime));
@@ -144,12 +187,12 @@ function step(now) {
       show(frames.length - 1);
     } else if (index !== current) show(index);
   }
-  requestAnimationFrame(step);
+  requestAnimationFrame(tick);
 }
 const wanted = new URLSearchParams(location.search).get("frame");
 if (wanted !== null) playing = false;
 show(wanted === null ? 0 : Math.min(Number(wanted), frames.length - 1));
-requestAnimationFrame(step);
+requestAnimationFrame(tick);
 "#;
 
 /// A document that moves by itself: every frame is a group that is shown in its time.
@@ -161,7 +204,9 @@ fn svg(animation: &Animation) -> String {
     let _ = writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"{}\" role=\"img\" font-family=\"{STACK}\">\n\
-         <title>{}</title>\n<style>\n{}.frame, .told {{ display: none; }}\n</style>",
+         <title>{}</title>\n<style>\n{}.frame, .told {{ display: none; }}\n\
+         @media (prefers-reduced-motion: reduce) {{ .frame, .told {{ display: none !important; }} \
+         .first {{ display: inline !important; }} }}\n</style>",
         coordinate(size.x),
         coordinate(size.y + CAPTION),
         view_box(animation, CAPTION),
@@ -187,7 +232,8 @@ fn svg(animation: &Animation) -> String {
     uses.define(animation, &mut out);
     for (number, frame) in animation.frames.iter().enumerate() {
         let begin = animation.frame_time * number as f64;
-        let _ = writeln!(out, "<g class=\"frame\">{}", shown(begin, animation.frame_time));
+        let class = if number == 0 { "frame first" } else { "frame" };
+        let _ = writeln!(out, "<g class=\"{class}\">{}", shown(begin, animation.frame_time));
         for index in &frame.shapes[common.len()..] {
             uses.draw(animation, *index, &mut out);
         }
@@ -196,6 +242,7 @@ fn svg(animation: &Animation) -> String {
     }
     events(animation, &mut out);
     speed_below(animation, &mut out);
+    out.push_str(&force_scale(animation));
     out.push_str("</svg>\n");
     out
 }
@@ -228,6 +275,7 @@ pub(super) fn still(animation: &Animation, frame: &FrameOf) -> String {
         words_of_event(animation, *time, words, &mut out);
     }
     speed_below(animation, &mut out);
+    out.push_str(&force_scale(animation));
     out.push_str("</svg>\n");
     out
 }
@@ -249,6 +297,22 @@ fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
         frame.time,
         escaped(&frame.mode)
     );
+}
+
+/// An arrow of a round force in the lower left corner of the drawing; nothing without forces.
+fn force_scale(animation: &Animation) -> String {
+    let Some(scale) = animation.force_scale else { return String::new() };
+    let force = nice(LONGEST_SAMPLE / scale);
+    let from = Point::new(animation.bounds.least.x + INDENT, animation.bounds.greatest.y - INDENT);
+    let to = from + Point::new(force * scale, 0.0);
+    let arrow = markup(&Element { class: Class::Reaction, shape: Shape::Arrow { from, to } });
+    let text = [to.x + 8.0, to.y + 4.5].map(coordinate);
+    format!(
+        "{arrow}<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{} N</text>\n",
+        text[0],
+        text[1],
+        number(force)
+    )
 }
 
 /// The last line below the drawing.

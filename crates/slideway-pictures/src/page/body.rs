@@ -1,5 +1,6 @@
 //! The body of a page: one function for each part of it.
 
+use super::summary::summary;
 use super::{Figure, Page, text};
 use crate::drawing::svg::{self, Colours, Frame};
 use crate::drawing::{number, signs};
@@ -11,9 +12,10 @@ use std::fmt::Display;
 pub(super) fn body(page: &Page<'_>) -> String {
     let states = page.report.map(states).unwrap_or_default();
     format!(
-        "{}\n{}\n{}\n{}\n{}\n<footer class=\"quiet\">\n<p>Made by <code>{}</code>, slideway {}.</p>\n</footer>\n",
+        "{}\n<div class=\"beside\">\n{}\n{}</div>\n{}\n{}\n{}\n<footer class=\"quiet\">\n<p>Made by <code>{}</code>, slideway {}.</p>\n</footer>\n",
         header(page, !states.is_empty()),
         drawing(page),
+        summary(page),
         solutions(&states),
         limits(page),
         model(page),
@@ -41,10 +43,11 @@ fn header(page: &Page<'_>, has_states: bool) -> String {
             format!("<p class=\"answer\" id=\"answer\"><strong>{words}</strong></p>\n{reasons}")
         }
     };
+    let margins = if summary(page).is_empty() { "" } else { "<a href=\"#margins\">Margins</a>" };
     let solutions = if has_states { "<a href=\"#solutions\">Solutions</a>" } else { "" };
     let limits = if has_limits(page) { "<a\nhref=\"#limits\">Limits</a>" } else { "" };
     format!(
-        "<header>\n<h1>{}</h1>\n{answer}<nav><a href=\"#drawing\">Drawing</a>{solutions}{limits}\
+        "<header>\n<h1>{}</h1>\n{answer}<nav><a href=\"#drawing\">Drawing</a>{margins}{solutions}{limits}\
          <a href=\"#model\">Model</a></nav>\n</header>\n",
         text(&page.sheet.title)
     )
@@ -122,7 +125,9 @@ fn solutions(states: &[(String, &Solution)]) -> String {
         return String::new();
     }
     let states = all(states, |(heading, solution)| state(heading, solution));
-    format!("<section id=\"solutions\">\n<h2>Solutions</h2>\n{states}</section>\n")
+    format!(
+        "<section id=\"solutions\">\n<h2>Solutions</h2>\n<div class=\"columns\">\n{states}</div>\n</section>\n"
+    )
 }
 
 fn state(heading: &str, solution: &Solution) -> String {
@@ -204,7 +209,9 @@ fn limits(page: &Page<'_>) -> String {
         return String::new();
     }
     let (limits, figures) = (all(page.limits, limits_of), all(page.figures, figure));
-    format!("<section id=\"limits\">\n<h2>Limits</h2>\n{limits}{figures}</section>\n")
+    format!(
+        "<section id=\"limits\">\n<h2>Limits</h2>\n<div class=\"columns\">\n<div>\n{limits}</div>\n<div>\n{figures}</div>\n</div>\n</section>\n"
+    )
 }
 
 /// The limits over one quantity.

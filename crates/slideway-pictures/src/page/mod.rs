@@ -5,10 +5,11 @@
 
 //!
 //! # Files
-//! `head.html` is the head with the style, with names in double braces for what `head` fills in; `body.rs`
-//! writes the rest.
+//! `head.html` is the head with the style, with names in double braces for what `head` fills in; `summary.rs`
+//! writes the section of margins, efforts and rest, `body.rs` everything else.
 
 mod body;
+mod summary;
 
 use crate::coordinate::{NotFinite, finished};
 use crate::drawing::Sheet;
@@ -36,6 +37,10 @@ pub struct Page<'a> {
     pub sheet: &'a Sheet,
     /// All solutions, or why there is no answer.
     pub report: Result<&'a SolveReport, &'a [String]>,
+    /// Which efforts the drives need, and the efficiency, in sentences; empty without drives.
+    pub efficiency: &'a [String],
+    /// Whether it stays at rest, in sentences.
+    pub rest: &'a [String],
     /// For which values modes exist.
     pub limits: &'a [LimitsReport],
     /// Further figures.

@@ -1,5 +1,8 @@
 //! Curves within a frame: cut at its edges, and without points that nobody would see.
 
+/// What goes less far beyond the frame is not seen to leave it (px).
+const SEEN: f64 = 0.5;
+
 /// A rectangle: left, top, right, bottom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Frame {
@@ -46,15 +49,15 @@ impl Frame {
     /// Through which edge, the lower (0) or the upper one (1), and where a segment leaves the frame that begins
     /// within it; none if it does not.
     pub(super) fn exit(&self, inside: [f64; 2], outside: [f64; 2]) -> Option<(usize, [f64; 2])> {
-        let edge = if outside[1] > self.bottom {
+        let edge = if outside[1] > self.bottom + SEEN {
             0
-        } else if outside[1] < self.top {
+        } else if outside[1] < self.top - SEEN {
             1
         } else {
             return None;
         };
         let [_, at] = self.segment(inside, outside).filter(|_| self.holds(inside))?;
-        let is_there = if edge == 0 { at[1] >= self.bottom - 0.5 } else { at[1] <= self.top + 0.5 };
+        let is_there = if edge == 0 { at[1] >= self.bottom - SEEN } else { at[1] <= self.top + SEEN };
         is_there.then_some((edge, at))
     }
 

@@ -72,6 +72,8 @@ pub struct Panel {
     pub marked: Vec<MarkedValue>,
     /// Coloured stretches along the x axis, such as contact modes over time.
     pub bands: Vec<Band>,
+    /// Bars that stand side by side or on one another.
+    pub bars: Vec<Bar>,
     /// Curves.
     pub curves: Vec<Curve>,
     /// Whether arrowheads on the curves show the order of their points.
@@ -162,6 +164,8 @@ pub enum PointKind {
     Jam,
     /// It ends in motion: a triangle.
     End,
+    /// What the model itself has: a diagonal cross.
+    Model,
 }
 
 impl PointKind {
@@ -172,6 +176,7 @@ impl PointKind {
             Self::Stop => "stops",
             Self::Jam => "jams",
             Self::End => "end, still moving",
+            Self::Model => "the model",
         }
     }
 }
@@ -209,6 +214,19 @@ pub enum Hatching {
     Falling,
     /// Dots: what is shown was found at single values and is not proven between them.
     Dotted,
+}
+
+/// A bar of a histogram.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// Its left and its right side.
+    pub sides: [f64; 2],
+    /// Where it stands, and its upper end.
+    pub ends: [f64; 2],
+    /// Index into the series of the theme, modulo their number.
+    pub colour: usize,
+    /// What it means, for the legend.
+    pub meaning: String,
 }
 
 /// A coloured stretch along the x axis.

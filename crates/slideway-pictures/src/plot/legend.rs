@@ -67,6 +67,7 @@ impl Legend {
             legend.add(Sample::Cut, &words);
         }
         layout.seen_zones().for_each(|zone| legend.add(Sample::Hatched(zone.hatching), &zone.meaning));
+        panel.bars.iter().for_each(|bar| legend.add(Sample::Filled(bar.colour), &bar.meaning));
         panel.bands.iter().for_each(|band| legend.add(Sample::Filled(band.colour), &band.meaning));
         legend
     }

@@ -136,6 +136,16 @@ pub(super) fn name(quantity: Quantity) -> &'static str {
     }
 }
 
+/// With what the names of its columns in a sweep begin.
+pub(super) fn column_prefix(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::NormalForce => "normal_force.",
+        Quantity::Friction => "friction_force.",
+        Quantity::Acceleration => "acceleration.",
+        Quantity::Effort => "effort.",
+    }
+}
+
 /// What is varied, in words.
 pub(super) fn in_words(varied: &str) -> &str {
     if varied == limits::FRICTION { "the factor of all friction" } else { varied }

@@ -102,10 +102,11 @@ pub(super) fn point(kind: PointKind, [x, y]: [f64; 2], theme: &Theme, svg: &mut 
         }
         PointKind::Stop => polygon(SHAPES[1], theme.ink, svg),
         PointKind::End => polygon(SHAPES[2], theme.background, svg),
-        PointKind::Jam => {
+        PointKind::Jam | PointKind::Model => {
+            let colour = if kind == PointKind::Jam { theme.warning } else { theme.ink };
             for corner in [[1.2 * SIZE, 1.2 * SIZE], [1.2 * SIZE, -1.2 * SIZE]] {
                 let ends = [[x - corner[0], y - corner[1]], [x + corner[0], y + corner[1]]];
-                svg.line(ends[0], ends[1], &[style[0], ("stroke", theme.warning), ("stroke-width", "3.2")]);
+                svg.line(ends[0], ends[1], &[style[0], ("stroke", colour), ("stroke-width", "3.2")]);
             }
         }
     }

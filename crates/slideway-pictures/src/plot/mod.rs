@@ -25,6 +25,7 @@
 //! ```
 
 pub(crate) mod clip;
+mod drive;
 pub(crate) mod figure;
 mod flags;
 pub(crate) mod frame;
@@ -33,15 +34,20 @@ mod limits;
 mod markers;
 mod overlap;
 mod panel;
+mod samples;
 pub(crate) mod scale;
+mod size;
 pub(crate) mod svg;
 mod sweep;
 
+pub use drive::drive_figure;
 pub use figure::{
-    Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedPoint, MarkedValue, Panel, PointKind, Stroke,
-    Zone,
+    Axis, Band, Bar, Branch, Curve, End, Figure, Hatching, MarkedPoint, MarkedValue, Panel, PointKind,
+    Stroke, Zone,
 };
 pub use limits::limits_figure;
+pub use samples::{SamplesPart, SamplesPlot};
+pub use size::size_figure;
 pub use sweep::{Extract, Extractor, SweepPlot};
 
 use crate::NotFinite;
@@ -81,7 +87,7 @@ fn dashes(stroke: Stroke) -> &'static str {
 /// The same figure gives the same bytes. Elements have classes: `title`, `panel`, `frame`, `grid`, `tick`,
 /// `axis`, `curve` and `coincident` (with `data-branch` and `data-quantity`), `end`, `cut` (an arrowhead where a
 /// curve leaves the frame), `direction`, `marker`, `point`, `marked` and `asymptote` (with `data-at`), `flag`,
-/// `zone`, `band`, `legend`.
+/// `zone`, `band`, `bar`, `legend`.
 ///
 /// # Errors
 /// If a number is too large or too small to be drawn.

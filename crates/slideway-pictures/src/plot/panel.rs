@@ -44,7 +44,8 @@ fn y_range(figure: &Figure, panel: &Panel) -> [f64; 2] {
 
 /// The horizontal extent of the curves with some space beside them, where the axis has no range.
 fn x_range(panel: &Panel) -> [f64; 2] {
-    let fitted = extent(panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]));
+    let along = panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point[0]);
+    let fitted = extent(along.chain(panel.bars.iter().flat_map(|bar| bar.sides)));
     match (panel.x.range, fitted) {
         (Some(range), _) if range[0] < range[1] => range,
         (None, Some([from, to])) if from < to => {
@@ -116,6 +117,7 @@ impl<'f> PanelLayout<'f> {
         self.title(theme, svg);
         self.zones(theme, svg);
         draw_grid(&self.placed, theme, svg);
+        self.bars(theme, svg);
         self.marked(theme, svg);
         self.lines.iter().for_each(|line| self.line(line, theme, svg));
         // What marks places of curves lies above all of them.
@@ -165,6 +167,17 @@ impl<'f> PanelLayout<'f> {
                 svg.rectangle(shape, &[("fill", theme.muted), ("fill-opacity", "0.10")]);
             }
             svg.rectangle(shape, &[("class", "zone"), ("fill", &fill)]);
+        }
+    }
+
+    fn bars(&self, theme: &Theme, svg: &mut Svg) {
+        for bar in &self.panel.bars {
+            let ([left, right], [bottom, top]) =
+                (bar.sides.map(|side| self.x.place(side)), bar.ends.map(|end| self.y.place(end)));
+            let shape = [left, top, right - left, bottom - top];
+            let colour = theme.series[bar.colour % theme.series.len()];
+            let style = [("class", "bar"), ("fill", colour), ("stroke", theme.background)];
+            svg.rectangle(shape, &style);
         }
     }
 

@@ -109,12 +109,13 @@ pub(super) fn tick_text(value: f64, step: f64, greatest: f64) -> String {
 /// The range of a panel's vertical axis that its curves ask for: all of them, but for what lies near values
 /// at which they grow without bound; with zero if it is not far away.
 pub(super) fn fitting_range(panel: &Panel, branches: &[Branch]) -> [f64; 2] {
+    let bars = || panel.bars.iter().flat_map(|bar| bar.ends);
     let all = panel.curves.iter().flat_map(|curve| curve.points.iter().map(|point| point[1]));
     let shown = panel.curves.iter().flat_map(|curve| {
         let stroke = branches.get(curve.branch).map_or(Stroke::Solid, |branch| branch.stroke);
         visible(curve, if stroke == Stroke::Solid { LEFT_OUT } else { LEFT_OUT_OF_THRESHOLDS })
     });
-    match (extent(shown), extent(all)) {
+    match (extent(shown.chain(bars())), extent(all.chain(bars()))) {
         (Some(shown), Some(all)) => range_that_shows(shown, all),
         _ => [0.0, 1.0],
     }

@@ -213,12 +213,7 @@ impl SweepPlot {
     /// Strokes tell of attainability, so the sweep has to examine it.
     pub fn new(sweep: &Sweep, quantity: Quantity) -> Option<Self> {
         let line = sweep.line()?;
-        let prefix = match quantity {
-            Quantity::NormalForce => "normal_force.",
-            Quantity::Friction => "friction_force.",
-            Quantity::Acceleration => "acceleration.",
-            Quantity::Effort => "effort.",
-        };
+        let prefix = limits::column_prefix(quantity);
         let columns = sweep.columns().iter().enumerate().skip(1);
         let series = columns.filter_map(|(column, of)| {
             let name = of.name.strip_prefix(prefix)?.to_owned();

@@ -3,7 +3,7 @@
 use super::varied::{ShownIn, Varied};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
-use crate::model::Value;
+use crate::model::{Model, Value};
 use std::fmt;
 use std::str::FromStr;
 
@@ -65,6 +65,15 @@ impl Vary {
             return Err(fault(FaultKind::Axis { text: self.to_string(), problem }));
         }
         Ok([from, to])
+    }
+
+    /// The unit in which its values in a model are to be shown: that of both ends of the range, as written,
+    /// else that of the SI.
+    ///
+    /// # Errors
+    /// An unknown name.
+    pub fn unit_in(&self, model: &Model) -> Result<ShownIn, Faults> {
+        Ok(self.shown_in(&Varied::new(model, &self.name)?))
     }
 
     /// The unit in which its values are shown.

@@ -43,6 +43,15 @@ impl Report for SolveReport {
     }
 }
 
+impl SolveReport {
+    /// How far all friction may grow before the answer changes, in words; empty where there is nothing to tell.
+    pub fn margins_in_words(&self) -> String {
+        let mut text = Page::new(self, Style::Plain);
+        text.margins();
+        text.text().trim().to_owned()
+    }
+}
+
 type Text<'r> = Page<'r, SolveReport>;
 
 impl Text<'_> {

@@ -54,6 +54,9 @@ pub struct SizeReport {
     pub without_position: Vec<RangeWithoutPosition>,
     /// The margin at evenly spaced values, and where the wanted one is just met.
     pub samples: Vec<Sample>,
+    /// The margin at all values that were tried, in ascending order; for plots, not in the JSON output.
+    #[serde(skip)]
+    pub tried: Vec<Sample>,
     /// What the search can miss, in words.
     pub guarantee: String,
     /// What it comes to, in words.
@@ -161,6 +164,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         met: found.met.iter().map(interval).collect(),
         without_position: found.gaps.iter().map(gap).collect(),
         samples: samples(found, *steps, options.margin),
+        tried: found.places.iter().map(sample).collect(),
         guarantee: words::guarantee(*range, *steps),
         conclusion: Vec::new(),
     };

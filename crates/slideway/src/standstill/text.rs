@@ -24,6 +24,16 @@ impl Report for HoldReport {
     }
 }
 
+impl HoldReport {
+    /// Whether it stays at rest, and what is known of the load that is varied, in lines of words.
+    pub fn verdict_in_words(&self) -> String {
+        let mut text = Page::new(self, Style::Plain);
+        text.verdict();
+        text.load();
+        text.text().trim().to_owned()
+    }
+}
+
 type Text<'r> = Page<'r, HoldReport>;
 
 impl Text<'_> {

@@ -1,0 +1,30 @@
+//! Margins of friction, efforts and efficiency, and what happens at rest, in sentences.
+
+use super::{Page, text};
+
+/// The section; nothing where none of these is known.
+pub(super) fn summary(page: &Page<'_>) -> String {
+    let margins = page.report.map(|report| vec![report.margins_in_words()]).unwrap_or_default();
+    let parts = [
+        ("Margins of friction", &*margins),
+        ("Efforts and efficiency", page.efficiency),
+        ("At rest", page.rest),
+    ];
+    let part = |(title, sentences): (&str, &[String])| {
+        let lines =
+            sentences.iter().flat_map(|sentence| sentence.lines()).filter(|line| !line.trim().is_empty());
+        let lines: String = lines.map(|line| format!("<p>{}</p>\n", text(line.trim()))).collect();
+        if lines.is_empty() {
+            lines
+        } else {
+            format!("<section class=\"part\">\n<h3>{title}</h3>\n{lines}</section>\n")
+        }
+    };
+    let parts: String = parts.into_iter().map(part).collect();
+    if parts.is_empty() {
+        return parts;
+    }
+    format!(
+        "<section id=\"margins\">\n<h2>Margins, efforts, rest</h2>\n<div class=\"columns\">\n{parts}</div>\n</section>\n"
+    )
+}

@@ -1,0 +1,224 @@
+//! The figure of driven motion: efforts and efficiency over what is varied.
+
+use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
+use super::limits::{in_words, without_empty_ends};
+use crate::drawing::signs;
+use slideway::drive::{Course, CourseDirection, CourseRow, DriveReport, Sense};
+use slideway::limits::ShownIn;
+use slideway::report::precise;
+
+/// The figure of a [`DriveReport`] with a course, the values of which are shown in a unit: for each direction
+/// of motion and each unit a panel with the efforts, with and without friction, and one with the efficiency;
+/// none without a course. Its rows should be dense.
+pub fn drive_figure(report: &DriveReport, shown_in: &ShownIn) -> Option<Figure> {
+    let course = report.course.as_ref()?;
+    let mut builder = Builder { report, course, shown_in, branches: Vec::new() };
+    let mut units: Vec<&str> = report.drives.iter().map(|drive| drive.unit).collect();
+    units.dedup();
+    let mut panels = Vec::new();
+    for direction in &course.directions {
+        panels.extend(units.iter().map(|unit| builder.efforts(direction, unit)));
+        let efficiency = builder.efficiency(direction);
+        panels.extend(Some(efficiency).filter(|panel| !panel.curves.is_empty()));
+    }
+    without_empty_ends(&mut panels);
+    let shown = format!("effort over {}", in_words(&course.vary.name));
+    Some(Figure {
+        title: headline(report.title.as_deref(), &shown),
+        subtitle: "Modes: signs of the normal forces of all contacts in their order".to_owned(),
+        panels,
+        branches: builder.branches,
+        quantities: report.drives.iter().map(|drive| drive.name.clone()).collect(),
+    })
+}
+
+struct Builder<'r> {
+    report: &'r DriveReport,
+    course: &'r Course,
+    shown_in: &'r ShownIn,
+    branches: Vec<Branch>,
+}
+
+/// Rows of one mode at values that follow one another, and what its ends are.
+struct Stretch<'r> {
+    pattern: &'r str,
+    rows: Vec<&'r CourseRow>,
+    ends: [End; 2],
+}
+
+impl Builder<'_> {
+    fn efforts(&mut self, direction: &CourseDirection, unit: &str) -> Panel {
+        let mut curves = Vec::new();
+        let all = self.report.drives.iter().enumerate();
+        let drives: Vec<usize> =
+            all.filter(|(_, drive)| drive.unit == unit).map(|(index, _)| index).collect();
+        for stretch in stretches(direction) {
+            let branch = self.branch(stretch.pattern, direction.direction);
+            for &drive in &drives {
+                let value = |row: &CourseRow| row.efforts.as_ref().map(|efforts| efforts[drive]);
+                curves.push(self.curve(&stretch.rows, (branch, drive), stretch.ends, value));
+            }
+        }
+        let frictionless = self.entry("without friction", 6, Stroke::Dotted);
+        for &drive in &drives {
+            let value = |row: &CourseRow| row.frictionless.as_ref().map(|efforts| efforts[drive]);
+            let rows: Vec<&CourseRow> = direction.rows.iter().collect();
+            curves.push(self.curve(&rows, (frictionless, drive), [End::Plain; 2], value));
+        }
+        let name = match &self.report.drives[..] {
+            [only] => format!("effort of {}", only.name),
+            _ => "effort".to_owned(),
+        };
+        let y = Axis { name, unit: unit.to_owned(), ..Axis::default() };
+        Panel { curves, marked: self.marked(direction), ..self.panel(direction, "effort", y) }
+    }
+
+    /// The efficiency in per cent, where it has a meaning.
+    fn efficiency(&mut self, direction: &CourseDirection) -> Panel {
+        let mut curves = Vec::new();
+        for stretch in stretches(direction) {
+            let branch = self.branch(stretch.pattern, direction.direction);
+            let value = |row: &CourseRow| Some(100.0 * row.efficiency?.value?);
+            let curve = self.curve(&stretch.rows, (branch, 0), [End::Plain; 2], value);
+            curves.extend(Some(curve).filter(|curve| curve.points.len() > 1));
+        }
+        let y = Axis { name: "efficiency".to_owned(), unit: "%".to_owned(), ..Axis::default() };
+        Panel { curves, ..self.panel(direction, "efficiency", y) }
+    }
+
+    fn panel(&self, direction: &CourseDirection, what: &str, y: Axis) -> Panel {
+        let vary = &self.course.vary;
+        let way = match direction.direction {
+            Sense::Model => "as in the model",
+            Sense::Reversed => "in the opposite direction",
+        };
+        let scale = self.shown_in.scale;
+        Panel {
+            title: format!("Moving {way}: {what}"),
+            x: Axis {
+                name: vary.name.clone(),
+                unit: self.shown_in.unit.clone(),
+                range: Some([vary.from / scale, vary.to / scale]),
+                logarithmic: false,
+            },
+            y,
+            zones: self.zones(direction),
+            ..Panel::default()
+        }
+    }
+
+    fn curve(
+        &self,
+        rows: &[&CourseRow],
+        (branch, quantity): (usize, usize),
+        ends: [End; 2],
+        value: impl Fn(&CourseRow) -> Option<f64>,
+    ) -> Curve {
+        let points = rows.iter().filter_map(|row| Some([row.at / self.shown_in.scale, value(row)?]));
+        Curve { branch, quantity, points: points.collect(), ends }
+    }
+
+    /// The branch of a mode; its words are known where the model has it.
+    fn branch(&mut self, pattern: &str, direction: Sense) -> usize {
+        let here = self.report.directions.iter().filter(|known| known.direction == direction);
+        let solution = here.flat_map(|known| &known.solutions).find(|known| known.pattern == pattern);
+        let words = solution.map(|solution| {
+            let joints = solution.joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode));
+            format!(":\u{a0}{}", joints.collect::<Vec<String>>().join("; "))
+        });
+        let name = format!("{}{}", signs(pattern), words.unwrap_or_default());
+        let modes = self.branches.iter().filter(|branch| branch.stroke == Stroke::Solid).count();
+        self.entry(&name, modes, Stroke::Solid)
+    }
+
+    fn entry(&mut self, name: &str, colour: usize, stroke: Stroke) -> usize {
+        let known = self.branches.iter().position(|branch| branch.name == name);
+        known.unwrap_or_else(|| {
+            self.branches.push(Branch { name: name.to_owned(), colour, stroke });
+            self.branches.len() - 1
+        })
+    }
+
+    fn marked(&self, direction: &CourseDirection) -> Vec<MarkedValue> {
+        let mut marked: Vec<MarkedValue> = Vec::new();
+        for blow_up in &direction.blow_ups {
+            let at = blow_up.at / self.shown_in.scale;
+            if marked.last().is_none_or(|last| last.at != at) {
+                let label = format!("{}: grows without bound", precise(at).replace('-', "\u{2212}"));
+                marked.push(MarkedValue { at, label, asymptote: true });
+            }
+        }
+        marked
+    }
+
+    /// Values without a solution, up to the growth without bound beside them, and those without a position.
+    fn zones(&self, direction: &CourseDirection) -> Vec<Zone> {
+        let scale = self.shown_in.scale;
+        let zone = |from: f64, to: f64, hatching: Hatching, meaning: &str| Zone {
+            from: from / scale,
+            to: to / scale,
+            hatching,
+            meaning: meaning.to_owned(),
+        };
+        let is_locked = |row: &CourseRow| row.pattern.is_none() && row.frictionless.is_some();
+        let runs = direction.rows.chunk_by(|one, other| is_locked(one) == is_locked(other));
+        let mut before: Option<&CourseRow> = None;
+        let mut zones = Vec::new();
+        let mut runs = runs.peekable();
+        while let Some(run) = runs.next() {
+            let grown = |row: &CourseRow| row.efforts.is_none() && row.pattern.is_some();
+            if is_locked(&run[0]) {
+                let after = runs.peek().map(|next| &next[0]).filter(|row| grown(row));
+                let from = before.filter(|row| grown(row)).map_or(run[0].at, |row| row.at);
+                let to = after.map_or(run[run.len() - 1].at, |row| row.at);
+                zones.push(zone(from, to, Hatching::Rising, "excluded: no solution, friction locks it"));
+            }
+            before = run.last();
+        }
+        zones.extend(direction.without_mode_problem.iter().map(|range| {
+            zone(range.from, range.to, Hatching::Falling, "excluded: cannot be assembled or solved")
+        }));
+        zones
+    }
+}
+
+/// The rows of each mode, cut where it is missing at a value and where its efforts grow without bound.
+fn stretches(direction: &CourseDirection) -> Vec<Stretch<'_>> {
+    let mut stretches: Vec<(usize, bool, Stretch<'_>)> = Vec::new();
+    // Values at which there is only growth without bound are between two places.
+    let mut place = 0;
+    for rows in direction.rows.chunk_by(|one, other| one.at == other.at) {
+        let is_between = rows.iter().all(|row| row.pattern.is_some() && row.efforts.is_none());
+        for row in rows {
+            let Some(pattern) = row.pattern.as_deref() else { continue };
+            let open = stretches
+                .iter_mut()
+                .rev()
+                .find(|(next, is_open, stretch)| *is_open && stretch.pattern == pattern && *next == place);
+            let next = if is_between { place } else { place + 1 };
+            match (open, row.efforts.is_none()) {
+                (Some((end, _, stretch)), false) => {
+                    *end = next;
+                    stretch.rows.push(row);
+                }
+                (Some((_, is_open, stretch)), true) => {
+                    *is_open = false;
+                    stretch.ends[1] = End::Diverges;
+                    // Beyond, the same mode may come from infinity.
+                    stretches.push((next, true, from_infinity(pattern)));
+                }
+                (None, true) => stretches.push((next, true, from_infinity(pattern))),
+                (None, false) => {
+                    let stretch = Stretch { pattern, rows: vec![row], ends: [End::Plain; 2] };
+                    stretches.push((next, true, stretch));
+                }
+            }
+        }
+        place += usize::from(!is_between);
+    }
+    stretches.into_iter().map(|(.., stretch)| stretch).filter(|stretch| stretch.rows.len() > 1).collect()
+}
+
+fn from_infinity(pattern: &str) -> Stretch<'_> {
+    Stretch { pattern, rows: Vec::new(), ends: [End::Diverges, End::Plain] }
+}

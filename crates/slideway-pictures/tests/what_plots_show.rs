@@ -1,0 +1,187 @@
+//! What plots show of what they are given: where curves are cut, what coincides, what is marked. Numbers are those
+//! of closed forms.
+
+use slideway::drive::{DriveOptions, drive};
+use slideway::gallery;
+use slideway::limits::{LimitsOptions, Quantity, ShownIn, Vary, limits_with_curves};
+use slideway::map::{ColourBy, MapOptions, map};
+use slideway::model::{Model, Settings};
+use slideway::motion::{SimulateOptions, simulate};
+use slideway::size::{SizeOptions, size};
+use slideway_pictures::motion::{AnimationOptions, animation, motion_figure, portrait_figure};
+use slideway_pictures::plot::{Figure, PointKind, drive_figure, limits_figure, size_figure, to_svg};
+use slideway_pictures::theme::LIGHT;
+
+fn model(name: &str, settings: &Settings) -> Model {
+    Model::parse(gallery::find(name).expect("in the gallery").text)
+        .and_then(|model| model.with(settings))
+        .expect("a sound model")
+}
+
+fn svg(figure: &Figure) -> String {
+    to_svg(figure, &LIGHT).expect("finite places")
+}
+
+/// The texts of a picture.
+fn texts(svg: &str) -> Vec<String> {
+    let elements = svg.split("<text ").skip(1);
+    let content = elements.filter_map(|element| element.split_once('>')?.1.split('<').next());
+    content.map(|text| text.replace('\u{a0}', " ")).collect()
+}
+
+/// The drawer locks at mu = L / (2 a) = 2/3, 20/9 times its friction; the push is Q / (1 - 2 mu a / L), 20 N
+/// without friction.
+#[test]
+fn what_is_excluded_leaves_room_for_the_rest_and_cuts_are_named() {
+    let drawer = model("drawer", &Settings::default());
+    let options = LimitsOptions::new(Vary::between("friction", 0.0, 10.0)).effort(0);
+    let (report, curves) = limits_with_curves(&drawer, &options, Quantity::Effort).expect("limits");
+    let settings = Settings::default().parameter("Q", "20 N").position("x", 0.0);
+    let figure = limits_figure(&report, &curves).changed_by(&settings);
+    // A quarter of the width is left for what goes on to 10.
+    let [from, to] = figure.panels[0].x.range.expect("a range");
+    assert!(from == 0.0 && (to - 20.0 / 9.0 * 4.0 / 3.0).abs() < 1e-4, "{to}");
+    let picture = svg(&figure);
+    let texts = texts(&picture);
+    for wanted in [
+        "A drawer pushed off-centre: effort over the factor of all friction",
+        "With Q = 20 N, at x = 0",
+        // At 85 % of the way to locking it is 20 N / 0.15 = 133 N; the axis has ticks every 50 N.
+        "cut at 150 N: grows without bound",
+        "excluded: no solution, friction locks it, up to 10",
+    ] {
+        assert!(texts.iter().any(|text| text == wanted), "{wanted}: {texts:?}");
+    }
+    assert_eq!(picture.matches("class=\"cut\"").count(), 2, "one on the curve, one in the legend");
+}
+
+/// The drawer that is braked: reactions grow to 633 N in the last moments before it stops (book, chapter Motion),
+/// and are 2.6 N before.
+#[test]
+fn forces_that_last_are_shown_and_the_greatest_is_named() {
+    let drawer = model("thrown-drawer", &Settings::default().parameter("x_s", "0.2 m"));
+    let history = simulate(&drawer, &SimulateOptions::new(0.45)).expect("a motion");
+    let figure = motion_figure(&history);
+    let [least, greatest] = figure.panels[1].y.range.expect("a range that leaves something out");
+    assert!(least < -10.0 && greatest > 10.0 && greatest < 100.0, "{least} {greatest}");
+    let picture = svg(&figure);
+    let texts = texts(&picture);
+    assert!(
+        texts.iter().any(|text| text.starts_with("cut at") && text.contains("reaches \u{2212}63")),
+        "{texts:?}"
+    );
+    assert!(
+        texts.iter().any(|text| text == "\u{2212} +: guide tipped: upper right, lower left"),
+        "{texts:?}"
+    );
+    let points: Vec<PointKind> =
+        portrait_figure(&history).panels[0].points.iter().map(|point| point.kind).collect();
+    assert_eq!(points, [PointKind::Stop, PointKind::Start]);
+}
+
+/// Both ends of the oscillating block carry m g / 2 all the time: one line in two colours, with both names.
+#[test]
+fn what_coincides_is_one_line_with_both_names() {
+    let oscillator = model("frictional-oscillator", &Settings::default());
+    let history = simulate(&oscillator, &SimulateOptions::new(0.5)).expect("a motion");
+    let picture = svg(&motion_figure(&history));
+    let forces = picture.split("class=\"panel\"").nth(2).expect("the panel of forces");
+    let (panel, legend) = forces.split_once("class=\"legend\"").expect("a legend");
+    let count = |class: &str| panel.matches(&format!("class=\"{class}\"")).count();
+    assert_eq!((count("curve"), count("coincident")), (3, 3), "one line for each phase");
+    assert!(legend.contains(">floor.front and floor.rear coincide<"), "{legend}");
+    assert!(!legend.contains(">floor.front<"), "{legend}");
+    let kinds: Vec<PointKind> =
+        portrait_figure(&history).panels[0].points.iter().map(|point| point.kind).collect();
+    assert_eq!(kinds, [PointKind::Start, PointKind::End], "still moving");
+    let portrait = svg(&portrait_figure(&history));
+    assert!(portrait.matches("class=\"direction\"").count() > 10);
+    // The page of the moving picture tells modes in words, once each, and has a scale of forces.
+    let page = animation(&history, &AnimationOptions::default(), &LIGHT).to_html().expect("finite places");
+    for words in ["to the right", "to the left"] {
+        assert_eq!(
+            page.matches(&format!("\"floor is flat on the lower guide, sliding {words}\"")).count(),
+            1
+        );
+    }
+    assert!(
+        page.contains(">2 N</text>") || page.contains(">5 N</text>") || page.contains(">1 N</text>"),
+        "a scale"
+    );
+}
+
+/// P = Q / (1 - 2 mu a / L) = 20 N / (1 - 1.5 mu) as in the model, whose efficiency is 1 - 1.5 mu, and
+/// 20 N / (1 + 1.5 mu) in the opposite direction.
+#[test]
+fn efforts_and_efficiency_over_friction() {
+    let drawer = model("drawer", &Settings::default());
+    let options = DriveOptions::default().vary(Some(Vary::between("mu", 0.0, 1.0))).rows(41);
+    let shown_in = ShownIn { unit: String::new(), scale: 1.0 };
+    let report = drive(&drawer, &options).expect("a report");
+    let figure = drive_figure(&report, &shown_in).expect("a course");
+    let titles: Vec<&str> = figure.panels.iter().map(|panel| &*panel.title).collect();
+    assert_eq!(titles[..2], ["Moving as in the model: effort", "Moving as in the model: efficiency"]);
+    let of = |panel: usize, value: &dyn Fn(f64) -> f64| {
+        let curve = &figure.panels[panel].curves[0];
+        assert!(curve.points.len() > 20, "{curve:?}");
+        for [mu, shown] in &curve.points {
+            assert!((shown - value(*mu)).abs() < 1e-9 * value(*mu).abs(), "{mu}: {shown}");
+        }
+    };
+    of(0, &|mu| 20.0 / (1.0 - 1.5 * mu));
+    of(1, &|mu| 100.0 * (1.0 - 1.5 * mu));
+    of(2, &|mu| 20.0 / (1.0 + 1.5 * mu));
+    let [zone] = &figure.panels[0].zones[..] else { panic!("one excluded interval") };
+    assert!((zone.from - 2.0 / 3.0).abs() < 1e-12 && zone.to == 1.0, "{zone:?}");
+    assert!(texts(&svg(&figure)).iter().any(|text| text == "0.66666667: grows without bound"));
+    assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report"), &shown_in), None);
+}
+
+/// The margin of the drawer is L / (2 a mu) = L / 0.18 m: 2 at L = 0.36 m, 20/9 in the model.
+#[test]
+fn margins_over_a_length() {
+    let drawer = model("drawer", &Settings::default());
+    let vary = Vary::between("L", "200 mm", "900 mm");
+    let shown_in = vary.unit_in(&drawer).expect("a name");
+    let report = size(&drawer, &SizeOptions::new(vary, 2.0)).expect("a report");
+    let figure = size_figure(&report, &shown_in);
+    let [panel] = &figure.panels[..] else { panic!("one panel") };
+    for [length, margin] in &panel.curves[0].points {
+        assert!((margin - length / 180.0).abs() < 1e-9, "{length}: {margin}");
+    }
+    assert!((panel.bands[0].from - 360.0).abs() < 1e-9 && panel.bands[0].to == 900.0);
+    assert_eq!((panel.points[0].kind, panel.points[0].at[0]), (PointKind::Model, 400.0));
+    assert!((panel.points[0].at[1] - 20.0 / 9.0).abs() < 1e-9);
+    let texts = texts(&svg(&figure));
+    for wanted in ["360: just met", "wanted: 2", "L in mm", "the model"] {
+        assert!(texts.iter().any(|text| text == wanted), "{wanted}: {texts:?}");
+    }
+}
+
+#[test]
+fn maps_tell_each_mode_once_and_what_locks_is_red() {
+    let plane = |name: &str, x: Vary, y: Vary, colour_by| {
+        let report =
+            map(&model(name, &Settings::default()), &MapOptions::new(x, y).colour_by(colour_by).size(20, 20));
+        let settings = Settings::default().parameter("r", "30 mm");
+        slideway_pictures::map::to_svg(&report.expect("a map"), &settings, &LIGHT).expect("finite places")
+    };
+    let picture = plane(
+        "slider-crank",
+        Vary::between("phi", "-175 deg", "175 deg"),
+        Vary::between("mu", 0.0, 1.5),
+        ColourBy::Modes,
+    );
+    let words = texts(&picture);
+    assert!(words[0].starts_with("A slider-crank with a frictional piston: contact modes"), "{words:?}");
+    assert!(words.iter().any(|text| text == "With r = 30 mm"), "{words:?}");
+    for mode in ["+ +", "+ \u{2212}", "\u{2212} +", "\u{2212} \u{2212}"] {
+        let told = words.iter().filter(|text| text.starts_with(&format!("{mode}: ")) || *text == mode);
+        assert_eq!(told.count(), 1, "{mode}: {words:?}");
+    }
+    let jam =
+        plane("drawer", Vary::between("mu", 0.0, 1.0), Vary::between("L", 0.2, 0.5), ColourBy::Solutions);
+    let locked =
+        jam.split("<path ").find(|element| element.contains("data-class=\"0\"")).expect("a first class");
+    assert!(locked.contains("fill=\"#d8382c\""), "{locked}");
+}
