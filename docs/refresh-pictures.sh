@@ -40,6 +40,10 @@ plot klepp-preload.svg models/klepp-2002.toml --vary mu_1=0..0.8 --both-directio
 "$slideway" sweep models/klepp-2002.toml --vary mu_1=0..0.8:801 --plot "$pictures/sweep-klepp.svg" --force >/dev/null 2>&1
 plot drawer-push.svg models/drawer.toml --vary mu=0..1 --quantity effort
 plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --quantity acceleration
+"$slideway" drive models/drawer.toml --vary mu --plot "$pictures/drive-drawer.svg" --force >/dev/null
+"$slideway" size models/drawer.toml --vary "L=200 mm..900 mm" --margin 2 --plot "$pictures/size-drawer.svg" --force >/dev/null
+"$slideway" sweep models/drawer.toml --vary "mu=normal(0.6, 0.05)" --samples 20000 --plot "$pictures/samples-drawer.svg" --force \
+    >/dev/null 2>&1
 
 # Maps.
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force

@@ -49,16 +49,18 @@ impl Frame {
     /// Through which edge, the lower (0) or the upper one (1), and where a segment leaves the frame that begins
     /// within it; none if it does not.
     pub(super) fn exit(&self, inside: [f64; 2], outside: [f64; 2]) -> Option<(usize, [f64; 2])> {
-        let edge = if outside[1] > self.bottom + SEEN {
-            0
+        let (edge, at) = if outside[1] > self.bottom + SEEN {
+            (0, self.bottom)
         } else if outside[1] < self.top - SEEN {
-            1
+            (1, self.top)
         } else {
             return None;
         };
-        let [_, at] = self.segment(inside, outside).filter(|_| self.holds(inside))?;
-        let is_there = if edge == 0 { at[1] >= self.bottom - SEEN } else { at[1] <= self.top + SEEN };
-        is_there.then_some((edge, at))
+        // A point may lie on the edge but for rounding.
+        let is_inside = self.top - SEEN <= inside[1] && inside[1] <= self.bottom + SEEN;
+        let share = ((at - inside[1]) / (outside[1] - inside[1])).clamp(0.0, 1.0);
+        let place = [inside[0] + share * (outside[0] - inside[0]), at];
+        (is_inside && self.holds(place)).then_some((edge, place))
     }
 
     /// The parts of a polyline within the frame.
@@ -129,6 +131,21 @@ mod tests {
         assert!(FRAME.parts(&[[-5.0, -5.0], [-1.0, 20.0]]).is_empty());
         // One segment right through.
         assert_eq!(FRAME.parts(&[[-5.0, 5.0], [15.0, 5.0]]), [vec![[0.0, 5.0], [10.0, 5.0]]]);
+    }
+
+    #[test]
+    fn a_segment_that_leaves_upwards_or_downwards_has_an_exit() {
+        let frame = Frame { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
+        assert_eq!(frame.exit([2.0, 5.0], [4.0, -5.0]), Some((1, [3.0, 0.0])));
+        assert_eq!(frame.exit([2.0, 5.0], [4.0, 25.0]), Some((0, [2.5, 10.0])));
+        // From a point that rounding puts just beyond the edge.
+        assert_eq!(frame.exit([2.0, -1e-9], [4.0, -5.0]).map(|(edge, _)| edge), Some(1));
+        // Through a side, to a place that is not seen to lie beyond, and beyond all along.
+        for (inside, outside) in
+            [([2.0, 5.0], [40.0, -1.0]), ([2.0, 5.0], [4.0, -0.2]), ([2.0, -5.0], [4.0, -9.0])]
+        {
+            assert_eq!(frame.exit(inside, outside), None);
+        }
     }
 
     #[test]
