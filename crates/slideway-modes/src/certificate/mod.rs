@@ -36,7 +36,7 @@ pub use crate::interval::{Interval, Sign};
 pub use crate::interval_matrix::IntervalMatrix;
 pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub(super) use decision::decide_while;
-pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
+pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
 pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};

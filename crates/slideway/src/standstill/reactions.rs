@@ -6,13 +6,13 @@ use super::state::State;
 use crate::ids::{DriveId, JointId};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Effort, Joint, JointKind};
-use crate::pattern::{Expression, Region, Unsolved};
+use crate::pattern::{AffineExpression, Region, Unsolved};
 
 /// The range of an expression in a region of a state, in this unit.
 pub(super) fn range(
     state: &State<'_>,
     region: &Region,
-    expression: &Expression,
+    expression: &AffineExpression,
     unit: f64,
 ) -> Result<Range, Unsolved> {
     let [least, greatest] = region.extent(&state.function(expression))?;

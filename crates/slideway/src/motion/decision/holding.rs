@@ -4,7 +4,7 @@ use super::BOUNDARY;
 use super::assessment::{Assessment, assess_group};
 use super::instant::Instant;
 use super::outputs::Group;
-use super::plan::{Fall, Plan, System};
+use super::plan::{Fall, GroupPattern, Plan};
 use super::rules::Outlook;
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
@@ -157,7 +157,7 @@ impl<'m> Holding<'m> {
     fn plan(&mut self, group: &Group, time: f64) -> Result<Option<Plan>, Faults> {
         let amounts = self.amounts.at(time)?;
         Ok(self.assess(group, &amounts).and_then(|found| {
-            let system = System { phase: &found.phase, group, stopped: &self.stopped };
+            let system = GroupPattern { phase: &found.phase, group, stopped: &self.stopped };
             Plan::new(&mut self.instant, &system, (&amounts, &self.responses))
         }))
     }

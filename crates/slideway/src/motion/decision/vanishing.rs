@@ -13,7 +13,7 @@ use nalgebra::DVector;
 const NEARLY_ZERO: f64 = 1e-4;
 
 /// Makes exactly zero in the previous phase what the event has found to be zero.
-pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::Instant<'_>, previous: &Phase) {
+pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>, previous: &Phase) {
     if event.zero.is_empty() {
         return;
     }

@@ -7,7 +7,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::Blow;
-use crate::motion::decision::rules::{Continuation, Continuations, Decisions, Instant};
+use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
 use crate::motion::options::SimulateOptions;
@@ -214,7 +214,7 @@ impl<'a, 'm> Run<'a, 'm> {
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
             let mechanism = self.smooth.equations.mechanism;
-            let instant = Instant {
+            let instant = EventInstant {
                 mechanism,
                 configuration: &configuration,
                 signs: &signs,

@@ -11,7 +11,7 @@ use crate::modes::Side;
 use crate::motion::decision::holding::Holding;
 use crate::motion::decision::{Successor, Successors, continuations, sticking_margin, successors};
 use crate::motion::moving::equations::sliding_joints;
-use crate::motion::{ContactPhase, Instant, JointPhase, Phase};
+use crate::motion::{ContactPhase, EventInstant, JointPhase, Phase};
 
 /// A sequence of numbers between 0 and 1 (D. E. Knuth's MMIX generator).
 struct Numbers(u64);
@@ -74,7 +74,14 @@ fn fast(
         if *stopped { 0.0 } else { velocity.signum() }
     };
     let signs: Vec<f64> = sliding_joints(mechanism).iter().zip(stopped).map(sign).collect();
-    continuations(&Instant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous })
+    continuations(&EventInstant {
+        mechanism,
+        configuration,
+        signs: &signs,
+        zero: &[],
+        rounding: 0.0,
+        previous,
+    })
 }
 
 /// What the states came to that were compared.
