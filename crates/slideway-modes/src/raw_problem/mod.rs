@@ -61,7 +61,7 @@ pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
     BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution,
-    SCHEMA, Unknowns, WithinRounding,
+    RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 #[cfg(any(feature = "json", feature = "npz"))]
 pub use shape::Shape;
