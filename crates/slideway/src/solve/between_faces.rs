@@ -1,6 +1,6 @@
 //! States in which a guided slider is between its faces and no sign pattern tells it ([`super::faces`]).
 
-use super::parts::Stages;
+use super::stages::Stages;
 use super::{SolveOptions, solve_with_friction};
 use crate::fault::Faults;
 use crate::model::Model;

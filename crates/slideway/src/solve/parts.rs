@@ -1,14 +1,11 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
-use super::mode_problem::{check_size, mode_problem, velocity_signs};
-use super::trail::Trail;
-use crate::configuration::{Configuration, Follower};
-use crate::fault::Faults;
-use crate::ids::{DriveId, JointId};
+use super::stages::ProblemData;
+use crate::ids::JointId;
 use crate::influence::Influence;
-use crate::kinetics::{Accuracy, Influences, KineticEquations, Reaction};
+use crate::kinetics::{Accuracy, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
-use crate::model::{Model, PreloadLine, SliderKind};
+use crate::model::{PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
@@ -28,109 +25,10 @@ pub(crate) struct Parts {
     has_jump: Vec<bool>,
 }
 
-/// A model in its state, ready for its mode problem.
-pub(crate) struct Stages {
-    pub(crate) mechanism: Mechanism,
-    pub(crate) configuration: Configuration,
-    pub(crate) influence: Influence,
-    pub(crate) velocity_signs: DVector<f64>,
-    pub(crate) accuracy: Accuracy,
-}
-
-impl Stages {
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
-        Self::following(&mut Follower::default(), Mechanism::new(model)?)
-    }
-
-    /// Those of a mechanism, its positions from those of the last ones if these are near.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn following(follower: &mut Follower, mut mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
-        let configuration = follower.configuration(&mechanism)?;
-        configuration.put_friction(&mut mechanism)?;
-        let equations = KineticEquations::new(&mechanism, &configuration)?;
-        Self::of(mechanism, configuration, equations.influences())
-    }
-
-    /// The same with the equations, too, from the states of the last ones if these are near.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn along(trail: &mut Trail, mut mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
-        let (configuration, influences) = trail.state(&mechanism)?;
-        configuration.put_friction(&mut mechanism)?;
-        Self::of(mechanism, configuration, influences)
-    }
-
-    fn of(
-        mechanism: Mechanism,
-        configuration: Configuration,
-        influences: Influences,
-    ) -> Result<Self, Faults> {
-        let accuracy = influences.accuracy();
-        let influence = Influence::of(influences);
-        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        Ok(Self { mechanism, configuration, influence, velocity_signs, accuracy })
-    }
-
-    /// The mode problem with every coefficient of friction multiplied by a factor.
-    ///
-    /// # Errors
-    /// A fault if a number is beyond the range of floating point.
-    pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
-        Parts::scaled(&self.mechanism, &self.influence, &self.velocity_signs, &|_| friction)
-    }
-
-    /// The same with the efforts of the drives as further outputs, behind the couples.
-    ///
-    /// # Errors
-    /// As [`Stages::parts`].
-    pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
-        let mechanism = rougher(&self.mechanism, &|_| friction);
-        let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
-        let drives = 0..mechanism.drives.len();
-        let efforts: Vec<usize> =
-            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
-        Ok(Parts::new((&mechanism, &self.influence, &self.velocity_signs), &problem, &efforts))
-    }
-}
-
-/// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
-pub(super) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
-    let mut mechanism = mechanism.clone();
-    for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
-        contact.mu = contact.mu.map(|mu| mu * factor(k));
-    }
-    mechanism
-}
-
 impl Parts {
-    /// The mode problem with the coefficients of friction of each contact multiplied by a factor of its own.
-    ///
-    /// # Errors
-    /// A fault if a number is beyond the range of floating point.
-    pub(crate) fn scaled(
-        mechanism: &Mechanism,
-        influence: &Influence,
-        velocity_signs: &DVector<f64>,
-        factor: &dyn Fn(usize) -> f64,
-    ) -> Result<Self, Faults> {
-        let mechanism = rougher(mechanism, factor);
-        let problem = mode_problem(&mechanism, influence, velocity_signs)?;
-        Ok(Self::new((&mechanism, influence, velocity_signs), &problem, &[]))
-    }
-
     /// The numbers of a mode problem, with the couples and then these unknowns as outputs.
-    fn new(
-        (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
-        problem: &ModeProblem,
-        others: &[usize],
-    ) -> Self {
+    pub(super) fn new(data: ProblemData<'_>, problem: &ModeProblem, others: &[usize]) -> Self {
+        let ProblemData { mechanism, influence, velocity_signs } = data;
         let contacts = problem.contacts();
         let couples = couples(mechanism, influence);
         let outputs: Vec<usize> = couples.iter().map(|(_, row)| *row).chain(others.iter().copied()).collect();

@@ -2,7 +2,7 @@
 
 use super::answer::Answer;
 use super::found::SearchFound;
-use super::parts::{Stages, rougher};
+use super::stages::{ProblemData, Stages, rougher};
 use super::{SolveOptions, searched};
 use crate::enclosure::{UncertainParameters, enclosure};
 use crate::fault::Faults;
@@ -28,8 +28,8 @@ pub(crate) fn solve_with_friction(
     let equations = KineticEquations::new(&mechanism, configuration)?;
     let uncertain = UncertainParameters::default().with_friction(Interval::point(friction));
     let enclosed = enclosure(model, &uncertain, &stages.mechanism, configuration);
-    let (result, jumps) =
-        searched(&enclosed, (&mechanism, influence, velocity_signs), &options.search, progress)?;
+    let data = ProblemData { mechanism: &mechanism, ..stages.data() };
+    let (result, jumps) = searched(&enclosed, data, &options.search, progress)?;
     let answer = Answer {
         mechanism: &mechanism,
         configuration,
