@@ -1,6 +1,5 @@
 //! How far friction may grow before the answer changes.
 
-use super::mode_problem::has_free_face;
 use super::stages::ProblemData;
 use super::state::pattern;
 use crate::fault::Faults;
@@ -23,7 +22,7 @@ pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>) {
     let mechanism = data.mechanism;
     // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no
     // mode that could be followed.
-    let is_free = |k: usize| has_free_face(mechanism, &all.line.has_jump, k);
+    let is_free = |k: usize| data.free_face(&all.line.has_jump, k).is_some();
     let hangs =
         |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
     if report.solutions.iter().chain(&report.preload_gap_states).any(hangs) {

@@ -1,5 +1,6 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
+use super::faces::{FreeFace, with_either_side};
 use super::stages::ProblemData;
 use crate::ids::JointId;
 use crate::influence::Influence;
@@ -23,6 +24,7 @@ pub(crate) struct Parts {
     right_hand_side: DVector<f64>,
     bounds: Vec<OutputBound>,
     has_jump: Vec<bool>,
+    free_faces: Vec<Option<FreeFace>>,
 }
 
 impl Parts {
@@ -65,12 +67,14 @@ impl Parts {
                 influence.frictionless[outputs[row - contacts]]
             }
         });
+        let has_jump = problem.jumps_of_contacts();
         Self {
             columns: BySide { positive: cp, negative: cn },
             jumps: BySide { positive: dp, negative: dn },
             right_hand_side,
             bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
-            has_jump: (0..contacts).map(|contact| problem.has_jump(contact)).collect(),
+            free_faces: (0..contacts).map(|contact| data.free_face(&has_jump, contact)).collect(),
+            has_jump,
         }
     }
 
@@ -91,7 +95,19 @@ impl Parts {
             right_hand_side: [self.right_hand_side.clone(), slope],
             bounds: self.bounds.clone(),
             has_jump: self.has_jump.iter().zip(&end.has_jump).map(|(one, other)| *one || *other).collect(),
+            sides_differ: (0..self.free_faces.len())
+                .map(|k| free_face([self, end].into_iter(), k) == Some(FreeFace::Nothing))
+                .collect(),
         }
+    }
+
+    /// The patterns of a state by the faces at which preloads rub, where nothing tells it; `zero` has its
+    /// contacts without normal force.
+    pub(crate) fn faces(&self, pattern: &[ContactState], zero: &[usize]) -> Vec<Vec<ContactState>> {
+        let is_free =
+            |&k: &usize| pattern[k] != ContactState::Gap && self.free_faces[k] == Some(FreeFace::Nothing);
+        let free: Vec<usize> = zero.iter().copied().filter(is_free).collect();
+        with_either_side(pattern, &free)
     }
 
     /// The sum of others with these weights, of which there is at least one; none if they are not of one
@@ -114,6 +130,11 @@ impl Parts {
         each(|parts| &mut parts.columns.negative, |parts| &parts.columns.negative, &mut sum);
         each(|parts| &mut parts.jumps.positive, |parts| &parts.jumps.positive, &mut sum);
         each(|parts| &mut parts.jumps.negative, |parts| &parts.jumps.negative, &mut sum);
+        let all = || weighted.iter().map(|(_, parts)| *parts);
+        for k in 0..sum.has_jump.len() {
+            sum.has_jump[k] = all().any(|parts| parts.has_jump[k]);
+            sum.free_faces[k] = free_face(all(), k);
+        }
         sum.right_hand_side *= *weight;
         others
             .iter()
@@ -197,17 +218,11 @@ impl Parts {
         Screen::new(contacts).states(&problem, accuracy.part).is_ok()
     }
 
-    /// The contacts of guided sliders with a free face
-    /// ([`has_free_face`](super::mode_problem::has_free_face)) at which their preload changes the couple:
-    /// only with one of these may there be a state between its faces that no sign pattern tells.
+    /// The contacts of guided sliders whose couple alone tells at which face their preload rubs: only with one
+    /// of these may there be a state between its faces that no sign pattern tells.
     pub(crate) fn with_free_faces(&self) -> Vec<usize> {
-        let contacts = self.columns.positive.ncols();
-        let BySide { positive, negative } = &self.jumps;
-        let is_free = |bound: &&OutputBound| {
-            let jumps = |row: usize| positive[(row, bound.contact)] != negative[(row, bound.contact)];
-            jumps(contacts + bound.output) && !(0..contacts).any(jumps)
-        };
-        self.bounds.iter().filter(is_free).map(|bound| bound.contact).collect()
+        let is_free = |contact: &usize| self.free_faces[*contact] == Some(FreeFace::Couple);
+        self.bounds.iter().map(|bound| bound.contact).filter(is_free).collect()
     }
 
     /// How far a line from these numbers to others leads before they are changed by as much as they are: the
@@ -233,6 +248,12 @@ impl Parts {
             .max((&end.right_hand_side - &self.right_hand_side).amax());
         columns.chain(share(right(self), change)).reduce(f64::min)
     }
+}
+
+/// What tells the face of a contact between several problems: what one of them has, they have.
+fn free_face<'p>(all: impl Iterator<Item = &'p Parts> + Clone, k: usize) -> Option<FreeFace> {
+    let is_told = all.clone().any(|parts| parts.has_jump[k]);
+    all.map(|parts| parts.free_faces[k]).max().flatten().filter(|_| !is_told)
 }
 
 /// The bound of each guided slider's couple, and its row among the unknowns.
