@@ -280,7 +280,7 @@ fn decide_exactly(
     let contacts = pattern.len();
     let echelon = IntegerSystem::new(problem.centre, pattern).eliminate_while(proceed)?;
     if !echelon.is_regular() {
-        let set = ExactSet::new(&echelon, pattern, BASES, proceed);
+        let set = ExactSet::of_echelon(&echelon, pattern, BASES, proceed);
         return proceed().then_some(Decision::Singular { set });
     }
     let solution = ExactSolution::new(&echelon, contacts);
