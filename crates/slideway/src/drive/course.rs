@@ -162,7 +162,7 @@ impl Tabulated<'_> {
         };
         let pressed =
             present.filter_map(|mode| Some(row(pattern(&mode.pattern), efforts.of(&mode.pattern)?)));
-        let between_faces = self.varied.states_between_faces((value, 1.0), None, self.work);
+        let between_faces = self.varied.states_between_faces(value, 1.0, None, self.work);
         let between_faces = between_faces
             .into_iter()
             .map(|state| row(state.pattern, state.drives.iter().map(|drive| drive.effort + 0.0).collect()));

@@ -217,6 +217,15 @@ fn between_faces([plus, minus]: [usize; 2], preload: [f64; 2]) -> Vec<AffineExpr
     signs.into_iter().map(corner).collect()
 }
 
+/// The couple of a guided slider.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GuidedCouple {
+    /// Its place among the unknowns.
+    pub(crate) unknown: usize,
+    /// Half the length of the pressed face (m).
+    pub(crate) half_length: f64,
+}
+
 /// |C| <= |N| L/2 of a guided slider: the slacks of both signs of the couple.
 pub(crate) fn without_tipping(
     pressure: &AffineExpression,

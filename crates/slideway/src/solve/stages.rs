@@ -86,6 +86,11 @@ impl Stages {
         }
     }
 
+    /// The same with every coefficient of friction multiplied by a factor.
+    pub(crate) fn rougher(&self, factor: f64) -> RougherStages<'_> {
+        RougherStages { stages: self, factor }
+    }
+
     /// The mode problem with every coefficient of friction multiplied by a factor.
     ///
     /// # Errors
@@ -105,6 +110,13 @@ impl Stages {
             drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
         ProblemData { mechanism: &mechanism, ..self.data() }.parts(&efforts)
     }
+}
+
+/// The stages of a model with all coefficients of friction multiplied by a factor: no model describes it.
+#[derive(Clone, Copy)]
+pub(crate) struct RougherStages<'s> {
+    pub(crate) stages: &'s Stages,
+    pub(crate) factor: f64,
 }
 
 /// What a mode problem is made of.

@@ -278,11 +278,15 @@ impl State<'_> {
             slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
         }
         for slider in &self.setup.sliders {
-            if let SlidingJoint { couple: Some((place, half)), contacts, .. } = slider
+            if let SlidingJoint { couple: Some(couple), contacts, .. } = slider
                 && let [k] = contacts[..]
             {
-                let half = half / self.setup.units.length;
-                slacks.extend(without_tipping(&self.friction[k].pressure, &self.reaction(*place), half));
+                let half = couple.half_length / self.setup.units.length;
+                slacks.extend(without_tipping(
+                    &self.friction[k].pressure,
+                    &self.reaction(couple.unknown),
+                    half,
+                ));
             }
         }
         for (index, joint) in self.pattern.joints.iter().enumerate() {

@@ -239,7 +239,7 @@ impl Flow<'_> {
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Vec<Slack>)>, Faults> {
         let instant = self.instant.later(configuration)?;
         let question = instant.question(self.stopped, Some(self.phase));
-        let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
+        let assessment = match assess(&instant, &question, self.phase, f64::INFINITY) {
             Ok(Some(assessment)) => assessment,
             Ok(None) => return Ok(Later::Ends),
             Err(_) => return Ok(Later::Unsolved),

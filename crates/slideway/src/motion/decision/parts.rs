@@ -107,7 +107,7 @@ impl PhaseSearch<'_> {
 
     fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, Unsolved> {
         let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
-        assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
+        assess_group(self.instant, self.question, (phase, group), enough)
     }
 
     /// Whether nothing happens in a group: no joint of it has just stopped or turned, and what it did is at

@@ -109,10 +109,19 @@ pub trait Decisions {
         &mut self,
         _mechanism: &'m Mechanism,
         _configuration: &Configuration,
-        _resting: (&Phase, &[bool]),
+        _resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         Ok(None)
     }
+}
+
+/// What stands still.
+#[derive(Debug, Clone, Copy)]
+pub struct Resting<'a> {
+    /// What all joints and contacts do.
+    pub phase: &'a Phase,
+    /// For each body whether it stands still and stays as long as joints stick.
+    pub bodies: &'a [bool],
 }
 
 /// What is known of the time ahead of what stands still.

@@ -216,9 +216,9 @@ impl<'s> System<'s> {
             );
         }
         for (row, joint) in self.instant.couple_outputs() {
-            let (Some((half, _)), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
+            let (Some(couple), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
             let Some(friction) = &self.friction[*k] else { continue };
-            let half = half / self.instant.units.length;
+            let half = couple.half_length / self.instant.units.length;
             for slack in without_tipping(&friction.pressure, &self.output(row), half) {
                 add(Subject::Couple(*k), slack);
             }

@@ -1,7 +1,9 @@
 //! Every state of joints and contacts is tried.
 
 use super::holding::Holding;
-use super::rules::{Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook};
+use super::rules::{
+    Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
+};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -71,7 +73,7 @@ impl Decisions for Thorough {
         &mut self,
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        resting: (&Phase, &[bool]),
+        resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)))
     }

@@ -1,6 +1,5 @@
 //! What is zero at an event is exactly zero.
 
-use super::BOUNDARY;
 use super::assessment::{Assessment, assess};
 use super::instant::Instant;
 use super::rules;
@@ -18,7 +17,7 @@ pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>,
         return;
     }
     let stopped = vec![false; instant.joints.len()];
-    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, (BOUNDARY, ENOUGH));
+    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, ENOUGH);
     if let Ok(Some(before)) = before {
         let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
         instant.vanish(&contacts, &before);
