@@ -218,8 +218,8 @@ impl Parts {
         Screen::new(contacts).states(&problem, accuracy.part).is_ok()
     }
 
-    /// The contacts of guided sliders whose couple alone tells at which face their preload rubs: only with one
-    /// of these may there be a state between its faces that no sign pattern tells.
+    /// The contacts of guided sliders whose couple alone tells at which face their preload rubs: only with
+    /// one of these may there be a state between its faces that no sign pattern tells.
     pub(crate) fn with_free_faces(&self) -> Vec<usize> {
         let is_free = |contact: &usize| self.free_faces[*contact] == Some(FreeFace::Couple);
         self.bounds.iter().map(|bound| bound.contact).filter(is_free).collect()
