@@ -125,7 +125,7 @@ pub use solutions::{
     SingularMode, Solutions, UndecidedPattern,
 };
 pub use status::{Proof, Status};
-pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};
+pub use uniqueness::{Unfinished, Uniqueness, UniquenessLimits, uniqueness, uniqueness_with};
 
 /// The example of the README runs.
 #[cfg(doctest)]

@@ -4,6 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
 use super::range::in_range;
+use super::right_hand_sides::EveryRightHandSide;
 use crate::status::{Proof, Status};
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
@@ -44,6 +45,10 @@ pub struct RawReport {
     /// themselves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub within_rounding: Option<WithinRounding>,
+    /// Whether there is exactly one solution for every right-hand side, where that was asked:
+    /// [`RawProblem::every_right_hand_side`](super::RawProblem::every_right_hand_side).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every_right_hand_side: Option<EveryRightHandSide>,
     /// The solutions, not more than was asked for.
     pub solutions: Vec<RawSolution>,
     /// States with an unknown in its preload gap, likewise (theory, section 3).

@@ -16,7 +16,8 @@ use super::{npy, npz};
 /// likewise with the prefix. `status`, `complete`, `partial`, `open`, `type`, `count`, `gap_state_count`,
 /// `continuum_count` and `schema` are those of [`RawReport`]; `face_solution_count`, `face_gap_state_count`
 /// and `face_continuum_count` those of its `faces`. If there is no solution, `within_rounding` tells whether
-/// there is one within rounding of the numbers, and `within_rounding_z`, ... have it as their row.
+/// there is one within rounding of the numbers, and `within_rounding_z`, ... have it as their row. Where it
+/// was asked, `every_right_hand_side` is the answer of [`RawReport::every_right_hand_side`].
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let mut archive = Archive { size: report.size, arrays: Vec::new() };
     let status = serde_json::to_value(report.status).ok();
@@ -42,6 +43,9 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
     if let Some(within) = &report.within_rounding {
         archive.push("within_rounding", npy::write_texts(&[], &[within.answer.as_str()]));
         archive.unknowns(report, "within_rounding_", &within.unknowns.iter());
+    }
+    if let Some(every) = &report.every_right_hand_side {
+        archive.push("every_right_hand_side", npy::write_texts(&[], &[every.answer.word()]));
     }
     archive.solutions(report);
     archive.gap_states(&report.gap_states);
