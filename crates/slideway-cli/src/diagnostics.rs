@@ -6,7 +6,7 @@ use crate::faulty_input::FaultyInput;
 use annotate_snippets::{
     Annotation, AnnotationKind, Group, Level, Message, Origin, Renderer, Snippet, Title,
 };
-use slideway::fault::{Fault, FaultKind, Source};
+use slideway::fault::{Fault, FaultKind, Place, Source};
 use slideway::model::SettingKind;
 use slideway::printable;
 use slideway::raw_problem::{RawFault, RawFaults};
@@ -95,19 +95,20 @@ impl Texts {
 
     fn group(&self, fault: &Fault) -> Group<'static> {
         let group = Group::with_title(title(&fault.kind.to_string()));
-        let group = match &fault.place {
+        let argument = argument(fault);
+        let group = match argument.as_ref().map(|(_, place)| place).or(fault.place.as_ref()) {
             Some(place) => {
-                let (path, text, offset) = match place.source {
-                    Source::Model => (self.model_name.as_str(), self.model.as_str(), 0),
-                    Source::Setting(index) => {
+                let (path, text, offset) = match (place.source, &argument) {
+                    (Source::Setting(index), _) => {
                         let (text, offset) = &self.settings[index];
                         ("command line", text.as_str(), *offset)
                     }
+                    (Source::Argument, Some(((text, offset), _))) => ("command line", text.as_str(), *offset),
+                    _ => (self.model_name.as_str(), self.model.as_str(), 0),
                 };
                 let span = within(text, &(place.span.start + offset..place.span.end + offset));
                 group.element(snippet(text, span).path(printable::line(path).into_owned()))
             }
-            None if on_command_line(fault) => group,
             None => group.element(origin(&self.model_name)),
         };
         group.elements(fault.kind.hint().as_deref().map(help))
@@ -133,10 +134,41 @@ fn within(text: &str, span: &Range<usize>) -> Range<usize> {
 }
 
 fn on_command_line(fault: &Fault) -> bool {
-    match &fault.place {
-        Some(place) => place.source != Source::Model,
-        None => matches!(fault.kind, FaultKind::MalformedSetting { .. } | FaultKind::Axis { .. }),
+    argument(fault).is_some() || fault.place.as_ref().is_some_and(|place| place.source != Source::Model)
+}
+
+/// An argument with its option, and where its own text begins there.
+type Shown = (String, usize);
+
+/// The argument in which a fault lies that is no setting, and the place in it: that of the fault, or a name
+/// without a place that stands on the command line by itself, such as that of a load.
+fn argument(fault: &Fault) -> Option<(Shown, Place)> {
+    match (&fault.argument, &fault.place, &fault.kind) {
+        (Some(text), Some(place), _) => {
+            Some((with_option(text).unwrap_or_else(|| (text.to_string(), 0)), place.clone()))
+        }
+        (None, None, FaultKind::UnknownName { name, .. }) => {
+            let place = Place { source: Source::Argument, span: 0..name.len() };
+            Some((with_option(name)?, place))
+        }
+        _ => None,
     }
+}
+
+/// The argument of the command line that says the same, blanks aside, with the option before it.
+fn with_option(text: &str) -> Option<Shown> {
+    let bare = |text: &str| text.split_whitespace().collect::<String>();
+    let arguments: Vec<String> =
+        std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    let option = arguments.windows(2).find_map(|pair| {
+        let joined = pair[1].split_once('=').filter(|(option, _)| option.starts_with("--"));
+        match joined {
+            Some((option, value)) if bare(value) == bare(text) => Some(option.to_owned()),
+            _ if pair[0].starts_with('-') && bare(&pair[1]) == bare(text) => Some(pair[0].clone()),
+            _ => None,
+        }
+    })?;
+    Some((format!("{option} {text}"), option.len() + 1))
 }
 
 /// "3 faults in drawer.toml"

@@ -6,6 +6,7 @@ use crate::faulty_input::FaultyInput;
 use slideway::fault::{Fault, FaultKind, Faults};
 use slideway::gallery;
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
+use slideway::units::UnitSystem;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -21,6 +22,8 @@ pub(crate) struct Input {
     pub(crate) settings: Settings,
     /// Settings that could not be read.
     malformed: Vec<Fault>,
+    /// In which units numbers are to be shown, if not as the model says.
+    units: Option<UnitSystem>,
 }
 
 impl Input {
@@ -31,7 +34,8 @@ impl Input {
     pub(crate) fn read(arguments: &ModelArguments) -> Result<Self, Failure> {
         let path = arguments.file.as_path();
         let (settings, malformed) = arguments.settings();
-        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed };
+        let units = arguments.units();
+        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed, units };
         match read_bytes(path, SIZE_LIMIT)? {
             Some(bytes) => Ok(Self { bytes, ..input }),
             None => Err(input.refused(Fault::general(FaultKind::TooLarge { limit: SIZE_LIMIT }).into())),
@@ -49,7 +53,10 @@ impl Input {
             Err(faults) => Err(faults),
         };
         match with_settings {
-            Ok(model) if self.malformed.is_empty() => Ok(model),
+            Ok(model) if self.malformed.is_empty() => Ok(match self.units {
+                Some(system) => model.with_units(system),
+                None => model,
+            }),
             found => {
                 let mut faults = found.err().unwrap_or_default();
                 self.malformed.iter().for_each(|fault| faults.push(fault.clone()));

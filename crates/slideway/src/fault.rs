@@ -11,6 +11,7 @@ use crate::expression::{Dimension, ExpressionFaultKind};
 use crate::printable;
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A text in which a fault can lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,6 +21,8 @@ pub enum Source {
     /// The value of the n-th setting (`--set`, `--at`, `--rate`), counted from 0 in the order of
     /// [`crate::model::Settings::entries`].
     Setting(usize),
+    /// [`Fault::argument`].
+    Argument,
 }
 
 /// A stretch of one of the texts.
@@ -45,17 +48,25 @@ pub struct Fault {
     pub kind: FaultKind,
     /// Where; nothing where the fault concerns the input as a whole.
     pub place: Option<Place>,
+    /// The text of an argument that is no setting, such as `mu=0..1`, if the fault lies in one.
+    pub argument: Option<Arc<str>>,
 }
 
 impl Fault {
     /// A fault at a place.
     pub fn new(kind: FaultKind, place: Place) -> Self {
-        Self { kind, place: Some(place) }
+        Self { kind, place: Some(place), argument: None }
+    }
+
+    /// A fault of an argument that is no setting.
+    pub fn of_argument(kind: FaultKind, text: &str, span: Range<usize>) -> Self {
+        let place = Place { source: Source::Argument, span };
+        Self { kind, place: Some(place), argument: Some(Arc::from(text)) }
     }
 
     /// A fault of the input as a whole.
     pub fn general(kind: FaultKind) -> Self {
-        Self { kind, place: None }
+        Self { kind, place: None, argument: None }
     }
 }
 
@@ -113,6 +124,20 @@ impl Faults {
             _ => true,
         });
         self
+    }
+
+    /// The same, where what lies in a setting or has no place lies in an argument: `span` gives the place
+    /// there for the one in the setting.
+    #[must_use]
+    pub(crate) fn in_argument(self, text: &str, span: impl Fn(Option<Range<usize>>) -> Range<usize>) -> Self {
+        let moved = |fault: Fault| match fault.place {
+            Some(Place { source: Source::Setting(_), span: place }) => {
+                Fault::of_argument(fault.kind, text, span(Some(place)))
+            }
+            None => Fault::of_argument(fault.kind, text, span(None)),
+            Some(_) => fault,
+        };
+        Self { list: self.list.into_iter().map(moved).collect() }
     }
 
     /// Leaves out what may only follow from text that could not be read: whatever seems to be absent.
@@ -485,6 +510,9 @@ impl FaultKind {
                 Some("friction decides which stop pushes; change the travel of one of them a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
+            Self::MalformedRange { text, .. } if text.contains("...") => {
+                Some("two dots stand between the ends of a range: FROM..TO")
+            }
             Self::MalformedSetting { .. } => Some("for instance `mu=0.2` or `\"alpha=80 deg\"`"),
             Self::SingularPosition { .. } => Some(
                 "draw it in a nearby position; from a drawing that is not singular, --at can lead past this one",

@@ -77,6 +77,7 @@ pub mod size;
 pub mod solve;
 pub mod standstill;
 pub mod sweep;
+pub mod units;
 
 pub use check::check;
 pub use drawing::{Drawing, GROUND};
@@ -92,6 +93,7 @@ pub use size::{SizeOptions, size};
 pub use solve::{SolveOptions, solve};
 pub use standstill::{HoldOptions, hold};
 pub use sweep::{Sweep, SweepOptions};
+pub use units::UnitSystem;
 
 pub use slideway_modes as modes;
 pub use slideway_modes::{interval, printable, progress};

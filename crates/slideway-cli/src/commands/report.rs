@@ -121,6 +121,7 @@ fn command(arguments: &ReportArguments, input: &Input, settings: &[String]) -> S
         let value = if option == "--time" { &setting.value.to_string() } else { text };
         words.push(format!("{option} \"{value}\""));
     }
+    words.extend(arguments.model.units_option());
     words.extend(arguments.vary.iter().map(|vary| format!("--vary \"{vary}\"")));
     words.join(" ")
 }

@@ -24,6 +24,7 @@ use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Model, SliderKind, Stop};
 use crate::report::finite;
 use crate::solve::{check_size, mode_problem, velocity_signs};
+use crate::units::Units;
 use serde::Serialize;
 use std::fmt;
 
@@ -38,6 +39,9 @@ pub struct CheckReport {
     pub schema: &'static str,
     /// The model's title.
     pub title: Option<String>,
+    /// The units in which texts show its numbers.
+    #[serde(skip)]
+    pub units: Units,
     /// Whether nothing stands in the way of [`crate::solve::solve`] in this state: there are no findings.
     /// (What only the enumeration of the modes can tell, such as too many preload gaps, is not tried.)
     pub sound: bool,
@@ -276,6 +280,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     finite(CheckReport {
         schema: SCHEMA,
         title: mechanism.title.clone(),
+        units: model.units.clone(),
         sound: faults.is_empty(),
         findings: faults.sorted().iter().map(|fault| finding(&fault.kind)).collect(),
         mobility: mobility_summary(&mechanism, &mobility),

@@ -138,6 +138,9 @@ impl Model {
                 let old = self.parameter_dimension(index);
                 let formula = self.setting_formula(setting, source, old)?;
                 self.replace_formula(Some(self.parameters[index].value), formula);
+                if let Some(unit) = setting.value.unit() {
+                    self.units = std::mem::take(&mut self.units).with_parameter(name, unit);
+                }
             }
             SettingKind::Position | SettingKind::Rate => {
                 let Some(index) = self.coordinates.iter().position(|c| c.name.as_ref() == name) else {

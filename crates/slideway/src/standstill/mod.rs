@@ -149,6 +149,7 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
     finite(HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
+        units: model.units.clone(),
         verdict,
         holds: verdict.holds(),
         state: state(&setup),
