@@ -25,13 +25,14 @@ pub(crate) struct Note {
 
 /// The message with its hint; coloured, for a stream that strips colours where they are not wanted.
 pub(crate) fn note(note: &Note) -> String {
-    let group = Group::with_title(title(&note.message)).elements(note.hint.as_deref().map(help));
+    let group =
+        Group::with_title(title(Level::ERROR, &note.message)).elements(note.hint.as_deref().map(help));
     Renderer::styled().render(&[group])
 }
 
 /// What is wrong.
-fn title(message: &str) -> Title<'static> {
-    Level::ERROR.primary_title(printable::line(message).into_owned())
+fn title(level: Level<'static>, message: &str) -> Title<'static> {
+    level.primary_title(printable::line(message).into_owned())
 }
 
 /// What to do about it.
@@ -49,24 +50,35 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
     let texts = Texts::of(faulty);
     let sorted = faulty.faults.sorted();
     let renderer = Renderer::styled();
-    let mut parts: Vec<String> =
-        sorted.iter().take(SHOWN).map(|fault| renderer.render(&[texts.group(fault)])).collect();
-    parts.push(renderer.render(&[Group::with_title(title(&closing_line(&sorted, &texts.model_name)))]));
+    let part = |fault: &&Fault| renderer.render(&[texts.group(fault, Level::ERROR)]);
+    let mut parts: Vec<String> = sorted.iter().take(SHOWN).map(part).collect();
+    let closing = closing_line(&sorted, &texts.model_name);
+    parts.push(renderer.render(&[Group::with_title(title(Level::ERROR, &closing))]));
     parts.join("\n\n")
+}
+
+/// All warnings of an input in the order of their places.
+pub(crate) fn warnings(doubtful: &FaultyInput) -> String {
+    let texts = Texts::of(doubtful);
+    let renderer = Renderer::styled();
+    let part = |fault: &&Fault| renderer.render(&[texts.group(fault, Level::WARNING)]) + "\n";
+    doubtful.faults.sorted().iter().map(part).collect::<Vec<_>>().join("\n")
 }
 
 /// All faults of a problem given by matrices, and how many there are.
 pub(crate) fn raw_faults(name: &str, faults: &RawFaults) -> String {
     let renderer = Renderer::styled();
     let part = |fault: &RawFault| {
-        let group = Group::with_title(title(&fault.to_string())).element(origin(name));
+        let group = Group::with_title(title(Level::ERROR, &fault.to_string())).element(origin(name));
         renderer.render(&[group.elements(fault.hint().as_deref().map(help))])
     };
     let mut parts: Vec<String> = faults.iter().take(SHOWN).map(part).collect();
     let count = faults.iter().len();
     let more = if count > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
     let count = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
-    parts.push(renderer.render(&[Group::with_title(title(&format!("{count} in {name}{more}")))]));
+    parts.push(
+        renderer.render(&[Group::with_title(title(Level::ERROR, &format!("{count} in {name}{more}")))]),
+    );
     parts.join("\n\n")
 }
 
@@ -93,8 +105,8 @@ impl Texts {
         Self { model_name: faulty.name.clone(), model: faulty.text.clone(), settings: settings.collect() }
     }
 
-    fn group(&self, fault: &Fault) -> Group<'static> {
-        let group = Group::with_title(title(&fault.kind.to_string()));
+    fn group(&self, fault: &Fault, level: Level<'static>) -> Group<'static> {
+        let group = Group::with_title(title(level, &fault.kind.to_string()));
         let argument = argument(fault);
         let group = match argument.as_ref().map(|(_, place)| place).or(fault.place.as_ref()) {
             Some(place) => {
@@ -174,12 +186,15 @@ fn with_option(text: &str) -> Option<Shown> {
 /// "3 faults in drawer.toml"
 fn closing_line(faults: &[&Fault], model: &str) -> String {
     let in_settings = faults.iter().filter(|fault| on_command_line(fault)).count();
-    let count = if faults.len() == 1 { "1 fault".to_owned() } else { format!("{} faults", faults.len()) };
+    let are_warnings = faults.iter().all(|fault| matches!(fault.kind, FaultKind::Doubt(_)));
+    let [one, several] = if are_warnings { ["warning", "warnings"] } else { ["fault", "faults"] };
+    let count = if faults.len() == 1 { format!("1 {one}") } else { format!("{} {several}", faults.len()) };
+    let strict = if are_warnings { ", errors by --strict" } else { "" };
     let place = match in_settings {
         0 => format!("in {model}"),
         all if all == faults.len() => "on the command line".to_owned(),
         _ => format!("in {model} and on the command line"),
     };
     let more = if faults.len() > SHOWN { format!(", of which {SHOWN} are shown") } else { String::new() };
-    format!("{count} {place}{more}")
+    format!("{count} {place}{more}{strict}")
 }

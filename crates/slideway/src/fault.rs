@@ -3,8 +3,10 @@
 //! Faults are collected, so that a person learns of all of them at once.
 
 mod axis;
+mod doubt;
 
 pub use axis::AxisProblem;
+pub use doubt::Doubt;
 pub use slideway_modes::names::nearest;
 
 use crate::expression::{Dimension, ExpressionFaultKind};
@@ -333,6 +335,10 @@ pub enum FaultKind {
     #[error("`{text}`: {problem}")]
     Axis { text: String, problem: AxisProblem },
 
+    // What makes sense, but is perhaps not meant.
+    #[error("{0}")]
+    Doubt(Doubt),
+
     // Degrees of freedom and coordinates.
     #[error("the structure is statically indeterminate: {} redundant", constraints(*excess))]
     Redundant { excess: usize, joints: Vec<String>, suggestion: Option<String> },
@@ -448,6 +454,7 @@ impl FaultKind {
         match self {
             Self::Expression(kind) => kind.hint().or_else(|| expression_hint(kind)),
             Self::Axis { problem, .. } => problem.hint(),
+            Self::Doubt(doubt) => Some(doubt.hint()),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }

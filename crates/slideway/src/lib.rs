@@ -78,6 +78,7 @@ pub mod solve;
 pub mod standstill;
 pub mod sweep;
 pub mod units;
+pub mod warning;
 
 pub use check::check;
 pub use drawing::{Drawing, GROUND};

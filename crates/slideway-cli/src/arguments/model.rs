@@ -33,6 +33,10 @@ pub(crate) struct ModelArguments {
     /// newtons. Overrides the `units` of the model file; JSON and tables are in SI units.
     #[arg(long, value_enum, value_name = "UNITS")]
     units: Option<ShownUnits>,
+
+    /// Take warnings for errors: what makes sense, but is perhaps not meant, such as `along = 90`.
+    #[arg(long)]
+    pub(crate) strict: bool,
 }
 
 /// In which units numbers are shown.

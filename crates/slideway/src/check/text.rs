@@ -46,7 +46,9 @@ impl Text<'_> {
 
     fn verdict(&mut self) {
         let report = self.report;
-        let (colour, verdict) = if report.sound {
+        let (colour, verdict) = if report.sound && !report.warnings.is_empty() {
+            (AnsiColor::Yellow, "It can be solved in this state, but look at the warnings.".to_owned())
+        } else if report.sound {
             (AnsiColor::Green, "Sound: it can be solved in this state.".to_owned())
         } else {
             let findings = count(report.findings.len(), "finding", "findings");
@@ -58,6 +60,14 @@ impl Text<'_> {
             if let Some(hint) = &finding.hint {
                 self.line(&format!("    help: {hint}"));
             }
+        }
+        if !report.warnings.is_empty() {
+            let warnings = count(report.warnings.len(), "warning", "warnings");
+            self.painted(AnsiColor::Yellow.on_default().bold(), &format!("{warnings}:"), "");
+        }
+        for warning in &report.warnings {
+            self.line(&format!("  - {}", warning.message));
+            self.line(&format!("    help: {}", warning.hint));
         }
         self.line("");
     }
@@ -112,22 +122,33 @@ impl Text<'_> {
         let report = self.report;
         let units = &report.units;
         let [mass, inertia, length] = ["kg", "kg m^2", "m"].map(|si| units.of(si));
+        let angle = units.of("rad");
+        let has_moved = report.bodies.iter().any(|body| body.moved_by != 0.0 || body.turned_by != 0.0);
         let bodies = report.bodies.iter().map(|body| {
-            vec![body.name.clone(), mass.number(body.mass), inertia.number(body.moment_of_inertia)]
+            let mut row =
+                vec![body.name.clone(), mass.number(body.mass), inertia.number(body.moment_of_inertia)];
+            row.extend(has_moved.then(|| length.number(body.moved_by)));
+            row.extend(has_moved.then(|| angle.number(body.turned_by)));
+            row
         });
-        let header = ["body", &mass.title("mass"), &inertia.title("moment of inertia")];
+        let mut header = vec!["body".to_owned(), mass.title("mass"), inertia.title("moment of inertia")];
+        header.extend(has_moved.then(|| length.title("moved from the drawing by")));
+        header.extend(has_moved.then(|| angle.title("turned by")));
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
         self.table(&header, &bodies.collect::<Vec<_>>(), 1);
         let joints = report.joints.iter().map(|joint| {
             vec![
                 joint.name.clone(),
                 joint.kind.to_string(),
                 joint.joins.join(", "),
+                joint.positive.clone().unwrap_or_default(),
                 joint.constraints.to_string(),
                 joint.overlap.map_or(String::new(), |overlap| length.number(overlap)),
             ]
         });
-        let header = ["joint", "kind", "joins", "constraints", &length.title("overlap")];
-        self.table(&header, &joints.collect::<Vec<_>>(), 3);
+        let header =
+            ["joint", "kind", "joins", "positive direction", "constraints", &length.title("overlap")];
+        self.table(&header, &joints.collect::<Vec<_>>(), 4);
         let [force, speed] = ["N", "m/s"].map(|si| units.of(si));
         let contacts = report.contacts.iter().map(|contact| contact_row(contact, [&force, &speed]));
         let header = ["contact", "mu", "mu_static", &force.title("preload"), &speed.title("sliding")];
@@ -137,12 +158,14 @@ impl Text<'_> {
             vec![
                 coordinate.name.clone(),
                 coordinate.kind.to_string(),
+                coordinate.positive.clone(),
                 driven_by(report, &coordinate.name),
                 units.of(coordinate.unit).show(coordinate.value),
                 units.of_rate(coordinate.unit).show(coordinate.rate),
             ]
         });
-        self.table(&["coordinate", "kind", "drive", "value", "rate"], &coordinates.collect::<Vec<_>>(), 3);
+        let header = ["coordinate", "kind", "positive direction", "drive", "value", "rate"];
+        self.table(&header, &coordinates.collect::<Vec<_>>(), 4);
     }
 
     /// What the tables do not show: friction over velocity, end stops.

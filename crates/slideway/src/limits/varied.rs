@@ -219,6 +219,15 @@ impl Varied {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// The unit in which the model has it, or things of its kind, if it was typed.
+    pub(crate) fn typed_unit(&self) -> Option<Unit> {
+        match self.kind {
+            Kind::Friction => None,
+            Kind::Parameter => self.model.units.typed_parameter(&self.name).cloned(),
+            Kind::Coordinate => self.model.units.typed(coordinate_unit(&self.model, &self.name)),
+        }
+    }
+
     /// The SI unit, empty for pure numbers.
     pub(crate) fn unit(&self) -> String {
         match self.kind {

@@ -84,6 +84,24 @@ impl Vary {
         Ok(varied.typed_as(self.range.as_ref()))
     }
 
+    /// A warning for each end without a unit of what the model has in another unit than that of the SI.
+    pub fn warnings(&self, model: &Model) -> Faults {
+        let mut found = Faults::default();
+        let (Some([from, to]), Ok(varied)) = (&self.range, Varied::new(model, &self.name)) else {
+            return found;
+        };
+        let start = self.name.len() + 1;
+        let second = start + from.to_string().len() + TO.len();
+        for (end, start) in [(from, start), (to, second)] {
+            let doubt = end.without_unit(&self.name, varied.typed_unit());
+            let span = start..start + end.to_string().len();
+            found.extend(
+                doubt.map(|doubt| Fault::of_argument(FaultKind::Doubt(doubt), &self.to_string(), span)),
+            );
+        }
+        found
+    }
+
     /// A fault of the range.
     fn fault(&self, kind: FaultKind) -> Fault {
         let text = self.to_string();

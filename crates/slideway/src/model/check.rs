@@ -98,8 +98,8 @@ impl Model {
     /// The SI unit of a parameter: empty for pure numbers, for angles that were typed without a unit, and where
     /// its dimension does not follow from the model.
     pub fn parameter_unit(&self, parameter: &str) -> String {
-        if let Some(si) = self.units.si_of_parameter(parameter) {
-            return si.to_owned();
+        if let Some(unit) = self.units.typed_parameter(parameter) {
+            return unit.si().to_owned();
         }
         let index = self.parameters.iter().position(|other| &*other.name == parameter);
         index.and_then(|index| self.parameter_dimension(index)).map_or_else(String::new, Dimension::unit)

@@ -98,6 +98,8 @@ pub struct Model {
     pub formulas: Arc<Vec<Formula>>,
     /// The units in which its numbers are shown.
     pub units: Units,
+    /// What was perhaps not meant in the settings that were applied.
+    pub(crate) doubts: Vec<Fault>,
     /// The parameters in an order in which each uses only those before it.
     evaluation_order: Vec<usize>,
 }

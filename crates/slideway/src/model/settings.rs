@@ -103,6 +103,7 @@ impl Model {
         let mut model = self.clone();
         let mut faults = Faults::default();
         for (index, setting) in settings.entries().iter().enumerate() {
+            model.doubts.extend(self.bare_setting(setting, Source::Setting(index)));
             if let Err(fault) = model.change(setting, Source::Setting(index)) {
                 faults.append(fault);
             }
@@ -121,6 +122,24 @@ impl Model {
             formula.expression = std::mem::take(&mut formula.expression).negated();
         }
         model
+    }
+
+    /// A warning if a number is typed without a unit where the model has another one than that of the SI.
+    fn bare_setting(&self, setting: &Setting, source: Source) -> Option<Fault> {
+        let coordinate = || self.coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
+        let unit = match setting.kind {
+            SettingKind::Parameter => self.units.typed_parameter(&setting.name).cloned(),
+            SettingKind::Position => {
+                self.units.typed(if coordinate()?.kind.is_angle() { "rad" } else { "m" })
+            }
+            SettingKind::Rate => {
+                self.units.typed(if coordinate()?.kind.is_angle() { "rad/s" } else { "m/s" })
+            }
+            SettingKind::Time => self.units.typed("s"),
+        };
+        let doubt = setting.value.without_unit(&setting.name, unit)?;
+        let place = Place { source, span: setting.name.len() + 1..setting.text().len() };
+        Some(Fault::new(FaultKind::Doubt(doubt), place))
     }
 
     fn change(&mut self, setting: &Setting, source: Source) -> Result<(), Faults> {

@@ -3,6 +3,7 @@
 use super::range::TO;
 use super::{Formula, Model, Value};
 use crate::expression::{Names, written_units};
+use crate::fault::Doubt;
 use crate::units::{TypedUnits, Unit};
 
 impl Model {
@@ -37,6 +38,16 @@ impl Value {
             None => Unit::behind(text),
             Some((from, to)) => Unit::behind(from).filter(|unit| Unit::behind(to).as_ref() == Some(unit)),
         }
+    }
+
+    /// A doubt if it is typed without a unit where the model has another one than that of the SI. Numbers that
+    /// come from programs are in SI units on purpose.
+    pub(crate) fn without_unit(&self, what: &str, unit: Option<Unit>) -> Option<Doubt> {
+        let Self::Text(text) = self else { return None };
+        let value = text.trim().parse::<f64>().ok().filter(|value| *value != 0.0)?;
+        let unit = unit.filter(|unit| unit.scale() != 1.0)?;
+        let (si, unit) = (unit.si().to_owned(), unit.name().to_owned());
+        Some(Doubt::BareNumber { what: what.to_owned(), value, si, unit })
     }
 }
 

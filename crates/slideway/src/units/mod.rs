@@ -127,9 +127,14 @@ impl Units {
         if self.system == UnitSystem::AsTyped { unit } else { self.of(unit.si()) }
     }
 
-    /// The SI unit of a parameter that was typed in a unit.
-    pub(crate) fn si_of_parameter(&self, name: &str) -> Option<&str> {
-        self.typed.parameters.get(name).map(Unit::si)
+    /// The unit that a parameter was typed in.
+    pub(crate) fn typed_parameter(&self, name: &str) -> Option<&Unit> {
+        self.typed.parameters.get(name)
+    }
+
+    /// The unit in which most quantities with this SI unit were typed.
+    pub(crate) fn typed(&self, si: &str) -> Option<Unit> {
+        self.typed.most(si).cloned()
     }
 }
 

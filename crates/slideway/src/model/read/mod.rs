@@ -167,6 +167,7 @@ impl<'t> Reader<'t> {
             events,
             formulas: Arc::new(std::mem::take(&mut self.formulas)),
             units: Units::default(),
+            doubts: Vec::new(),
             evaluation_order: Vec::new(),
         }
     }
