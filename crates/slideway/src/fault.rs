@@ -11,6 +11,7 @@ pub use slideway_modes::names::nearest;
 
 use crate::expression::{Dimension, ExpressionFaultKind};
 use crate::printable;
+use crate::units::Unit;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -359,18 +360,18 @@ pub enum FaultKind {
     #[error("{state} was not reached from the drawing: the joint equations become singular at {reached}")]
     NotFollowed { state: String, reached: String, steps: usize },
     #[error(
-        "the overlap of {joint} has shrunk to {} m at a displacement of {} m",
-        rounded(*overlap),
-        rounded(*displacement)
+        "the overlap of {joint} has shrunk to {} at a displacement of {}",
+        unit.precise(*overlap),
+        unit.precise(*displacement)
     )]
-    OverlapVanished { joint: String, overlap: f64, displacement: f64 },
+    OverlapVanished { joint: String, overlap: f64, displacement: f64, unit: Unit },
     #[error(
-        "{joint} is at a displacement of {} m, outside its travel from {} m to {} m",
-        rounded(*displacement),
-        rounded(*least),
-        rounded(*greatest)
+        "{joint} is at a displacement of {}, outside its travel from {} to {}",
+        unit.precise(*displacement),
+        unit.precise(*least),
+        unit.precise(*greatest)
     )]
-    TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64 },
+    TravelExceeded { joint: String, displacement: f64, least: f64, greatest: f64, unit: Unit },
     #[error("the length of {load} is zero, so its force has no direction")]
     ZeroLength { load: String },
 
@@ -624,13 +625,6 @@ fn listed(names: &[String]) -> String {
         [names @ .., last] if !names.is_empty() => format!("{} and {last}", names.join(", ")),
         names => names.concat(),
     }
-}
-
-/// A length with as many digits as matter.
-fn rounded(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let trimmed = text.trim_end_matches('0').trim_end_matches('.');
-    if value != 0.0 && matches!(trimmed, "0" | "-0") { format!("{value:.1e}") } else { trimmed.to_owned() }
 }
 
 fn opening(joint: &str, loop_joints: &[String]) -> String {

@@ -341,7 +341,7 @@ fn inertia(mechanism: &Mechanism, configuration: &Configuration) -> InertiaSumma
     if motions.ncols() == 0 {
         return InertiaSummary { regular: true, motions_without: Vec::new() };
     }
-    let motions_without = motions_without_inertia(mechanism, configuration, &motions);
+    let motions_without = motions_without_inertia(mechanism, configuration, &motions, None);
     InertiaSummary { regular: motions_without.is_empty(), motions_without }
 }
 

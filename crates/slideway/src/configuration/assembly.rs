@@ -240,22 +240,25 @@ pub(super) fn singular_state(mechanism: &Mechanism, poses: &[Pose]) -> Fault {
 /// Travel limits and overlaps of the sliding joints.
 pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
     let mut faults = Faults::default();
+    let length = || mechanism.units.of("m");
     for joint in &mechanism.joints {
         let JointKind::Slider(slider) = &joint.kind else { continue };
+        let place = &joint.place;
         let displacement = configuration.slide(mechanism, slider).displacement;
         if let Some(overlap) = configuration.overlap(mechanism, slider)
             && overlap <= 1e-9 * slider.length
         {
-            let kind = FaultKind::OverlapVanished { joint: joint.name.to_string(), overlap, displacement };
-            faults.push(Fault::new(kind, joint.place.clone()));
+            let (joint, unit) = (joint.name.to_string(), length());
+            let kind = FaultKind::OverlapVanished { joint, overlap, displacement, unit };
+            faults.push(Fault::new(kind, place.clone()));
         }
         let [lowest, highest] = slider.limits();
         if let Some([least, greatest]) = slider.travel
             && !(lowest..=highest).contains(&displacement)
         {
-            let kind =
-                FaultKind::TravelExceeded { joint: joint.name.to_string(), displacement, least, greatest };
-            faults.push(Fault::new(kind, joint.place.clone()));
+            let (joint, unit) = (joint.name.to_string(), length());
+            let kind = FaultKind::TravelExceeded { joint, displacement, least, greatest, unit };
+            faults.push(Fault::new(kind, place.clone()));
         }
     }
     faults.or(())

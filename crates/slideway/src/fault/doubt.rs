@@ -20,7 +20,7 @@ pub enum Doubt {
     #[error("{body} is {distance} from its place in the drawing, {sizes} times the size of the mechanism")]
     FarFromDrawing { body: String, distance: String, sizes: String },
     #[error("{what} is {value}: dry friction rarely exceeds 1")]
-    GreatFriction { what: String, value: f64 },
+    GreatFriction { what: String, value: String },
 }
 
 impl Doubt {

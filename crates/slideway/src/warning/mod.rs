@@ -170,7 +170,7 @@ fn great_friction(model: &Model) -> Vec<Fault> {
             }
             _ => (formula.what.to_string(), formula.origin.place()),
         };
-        warning(Doubt::GreatFriction { what, value }, place)
+        warning(Doubt::GreatFriction { what, value: number(value) }, place)
     };
     great.map(one).collect()
 }
