@@ -50,9 +50,15 @@ pub(crate) fn faults(faulty: &FaultyInput) -> String {
     let texts = Texts::of(faulty);
     let sorted = faulty.faults.sorted();
     let renderer = Renderer::styled();
-    let part = |fault: &&Fault| renderer.render(&[texts.group(fault, Level::ERROR)]);
+    // Warnings beside faults may be the reason for them; by themselves they have been made faults.
+    let (warnings, others): (Vec<&Fault>, Vec<&Fault>) = sorted.iter().partition(|fault| is_warning(fault));
+    let counted = if others.is_empty() { warnings } else { others };
+    let part = |fault: &&Fault| {
+        let level = if counted.contains(fault) { Level::ERROR } else { Level::WARNING };
+        renderer.render(&[texts.group(fault, level)])
+    };
     let mut parts: Vec<String> = sorted.iter().take(SHOWN).map(part).collect();
-    let closing = closing_line(&sorted, &texts.model_name);
+    let closing = closing_line(&counted, &texts.model_name);
     parts.push(renderer.render(&[Group::with_title(title(Level::ERROR, &closing))]));
     parts.join("\n\n")
 }
@@ -145,6 +151,10 @@ fn within(text: &str, span: &Range<usize>) -> Range<usize> {
     start..end
 }
 
+fn is_warning(fault: &Fault) -> bool {
+    matches!(fault.kind, FaultKind::Doubt(_))
+}
+
 fn on_command_line(fault: &Fault) -> bool {
     argument(fault).is_some() || fault.place.as_ref().is_some_and(|place| place.source != Source::Model)
 }
@@ -186,7 +196,7 @@ fn with_option(text: &str) -> Option<Shown> {
 /// "3 faults in drawer.toml"
 fn closing_line(faults: &[&Fault], model: &str) -> String {
     let in_settings = faults.iter().filter(|fault| on_command_line(fault)).count();
-    let are_warnings = faults.iter().all(|fault| matches!(fault.kind, FaultKind::Doubt(_)));
+    let are_warnings = faults.iter().all(|fault| is_warning(fault));
     let [one, several] = if are_warnings { ["warning", "warnings"] } else { ["fault", "faults"] };
     let count = if faults.len() == 1 { format!("1 {one}") } else { format!("{} {several}", faults.len()) };
     let strict = if are_warnings { ", errors by --strict" } else { "" };

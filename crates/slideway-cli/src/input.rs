@@ -103,7 +103,10 @@ impl Input {
     pub(crate) fn model_without_warnings(&self) -> Result<Model, Failure> {
         let model = Model::parse_bytes(&self.bytes);
         let with_settings = match model {
-            Ok(model) => model.with(&self.settings),
+            Ok(model) => model.with(&self.settings).map_err(|mut faults| {
+                faults.append(model.warnings_of(&self.settings));
+                faults
+            }),
             Err(faults) => Err(faults),
         };
         match with_settings {

@@ -31,6 +31,7 @@ macro_rules! told {
 told! {
     bare_angle: 0 ["solve", ANGLE];
     bare_number: 0 ["solve", DRAWER, "--set", "depth=450"];
+    bare_number_beside_its_fault: 2 ["solve", "models/slider-crank.toml", "--set", "r=50"];
     bare_coordinate: 0 ["solve", DRAWER, "--at", "out=0.1"];
     bare_range: 0 ["limits", DRAWER, "--vary", "depth=0.2..450 mm"];
     bare_axis: 0 ["map", DRAWER, "--x", "mu=0..1", "--y", "a=0.1..0.2", "--size", "20x20", "--output", MAP, "--force"];
@@ -49,7 +50,7 @@ told! {
     unknown_unit_of_an_end: 2 ["limits", DRAWER, "--vary", "depth=0 mm..1 furlong"];
     reversed_range: 2 ["size", DRAWER, "--vary", "depth=2 m..1 m", "--margin", "2"];
     range_needed: 2 ["limits", DRAWER, "--vary", "depth"];
-    both_axes: 2 ["map", DRAWER, "--x", "mu=1", "--y", "a=0...1", "--output", MAP];
+    both_axes: 2 ["map", DRAWER, "--x", "mu=1", "--y", "a=0...1", "--output", "unwritten.svg"];
     malformed_settings: 2 ["solve", DRAWER, "--set", "mu", "--at", "out=", "--rate", "=1"];
 }
 

@@ -102,8 +102,8 @@ impl Model {
     pub fn with(&self, settings: &Settings) -> Result<Self, Faults> {
         let mut model = self.clone();
         let mut faults = Faults::default();
+        model.doubts.extend(self.bare_settings(settings));
         for (index, setting) in settings.entries().iter().enumerate() {
-            model.doubts.extend(self.bare_setting(setting, Source::Setting(index)));
             if let Err(fault) = model.change(setting, Source::Setting(index)) {
                 faults.append(fault);
             }
@@ -124,7 +124,19 @@ impl Model {
         model
     }
 
-    /// A warning if a number is typed without a unit where the model has another one than that of the SI.
+    /// The warnings of settings, which may be the reason for their faults: numbers that are typed without a
+    /// unit where the model has another one than that of the SI.
+    pub fn warnings_of(&self, settings: &Settings) -> Faults {
+        let mut found = Faults::default();
+        found.extend(self.bare_settings(settings));
+        found
+    }
+
+    fn bare_settings(&self, settings: &Settings) -> Vec<Fault> {
+        let numbered = settings.entries().iter().enumerate();
+        numbered.filter_map(|(index, setting)| self.bare_setting(setting, Source::Setting(index))).collect()
+    }
+
     fn bare_setting(&self, setting: &Setting, source: Source) -> Option<Fault> {
         let coordinate = || self.coordinates.iter().find(|coordinate| *coordinate.name == *setting.name);
         let unit = match setting.kind {
