@@ -246,6 +246,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             bodies: mechanism.bodies.len(),
             contacts: mechanism.contacts.len(),
             drives: mechanism.drives.len(),
+            units: mechanism.units.clone(),
         },
         contacts: mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),
         tolerance: options.tolerance,

@@ -112,10 +112,9 @@ impl Page<'_, SimulateReport> {
             self.report.initial.iter().chain(&self.report.last).map(|coordinate| coordinate.rate.abs());
         let greatest = rates.fold(1e-6, f64::max);
         let one = |coordinate: &crate::report::CoordinateState| {
-            let crate::report::CoordinateState { name, unit, value, rate } = coordinate;
             // What is left of a velocity at rest is rounding.
-            let rate = against(*rate, greatest);
-            format!("{name} = {} {unit}, rate {rate} {unit}/s", number(*value))
+            let rate = if against(coordinate.rate, greatest) == "0" { 0.0 } else { coordinate.rate };
+            crate::report::CoordinateState { rate, ..coordinate.clone() }.in_words(&self.report.model.units)
         };
         let parts: Vec<String> = state.iter().map(one).collect();
         self.line(&format!("{when}: {}", parts.join("; ")));
