@@ -1,10 +1,10 @@
-//! What contacts do in a pattern, and the sets of normal forces that a pattern may admit.
+//! The states of contacts in a pattern, and the sets of normal forces that a pattern may admit.
 
 use nalgebra::DVector;
 
 use crate::problem::side::Side;
 
-/// What one contact does in a pattern: pressed on one of its sides, or between its faces.
+/// The state of one contact in a pattern: pressed on one of its sides, or between its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ContactState {
     /// `N > 0`.
@@ -19,7 +19,7 @@ impl ContactState {
     pub(crate) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
     pub(crate) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
 
-    /// The side on which the contact is pressed; none in the gap.
+    /// The side on which the contact is pressed; `None` in the gap.
     pub fn side(self) -> Option<Side> {
         match self {
             Self::Positive => Some(Side::Positive),
@@ -61,14 +61,14 @@ pub enum SolutionSet {
     Ray {
         /// The end of the ray.
         from: DVector<f64>,
-        /// The direction, its largest component being 1 in size.
+        /// The direction, with a largest component of size 1.
         direction: DVector<f64>,
     },
-    /// Convex combinations of the vertices plus non-negative combinations of the directions.
+    /// Convex combinations of the vertices plus nonnegative combinations of the directions.
     Polytope {
         /// The vertices.
         vertices: Vec<DVector<f64>>,
-        /// Extreme directions, the largest component of each being 1 in size.
+        /// Extreme directions, each with a largest component of size 1.
         directions: Vec<DVector<f64>>,
     },
     /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases) allows.
@@ -87,7 +87,7 @@ impl SolutionSet {
         }
     }
 
-    /// The vertices of the set, none if it is empty or was not computed.
+    /// The vertices of the set; none if it is empty or was not computed.
     pub fn vertices(&self) -> Vec<&DVector<f64>> {
         match self {
             Self::Empty | Self::NotComputed => Vec::new(),
@@ -98,7 +98,7 @@ impl SolutionSet {
         }
     }
 
-    /// The extreme directions of the set, none if it is bounded or was not computed.
+    /// The extreme directions of the set; none if it is bounded or was not computed.
     pub fn directions(&self) -> Vec<&DVector<f64>> {
         match self {
             Self::Ray { direction, .. } => vec![direction],
@@ -107,7 +107,7 @@ impl SolutionSet {
         }
     }
 
-    /// Whether the set holds more than one point.
+    /// Whether the set contains more than one point.
     pub fn is_continuum(&self) -> bool {
         matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
     }
