@@ -13,7 +13,7 @@ use nalgebra::DVector;
 pub struct PhaseState {
     /// All unknowns of the kinetic equations: accelerations, reactions, efforts of the drives.
     pub unknowns: DVector<f64>,
-    /// Their positions.
+    /// The layout of these unknowns.
     pub layout: Layout,
     /// Accelerations of the chosen coordinates (m/s^2, rad/s^2).
     pub coordinate_accelerations: Vec<f64>,
