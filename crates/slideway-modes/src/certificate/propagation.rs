@@ -13,6 +13,7 @@ const SWEEPS: usize = 8;
 const WORTHWHILE: f64 = 0.05;
 
 /// The result of [`propagate`].
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Propagation {
     /// No pattern with the given states has a solution.
@@ -26,6 +27,9 @@ pub enum Propagation {
 }
 
 /// Proves bounds on the normal forces of all solutions of the patterns with the given states.
+///
+/// The search has a faster implementation of its own. This one is slow and independent of it; tests and
+/// benchmarks compare the two, so it is not part of the documentation.
 ///
 /// `partial` has one entry per contact: its state, or `None` for a contact that may be pressed on either side
 /// or rest in its gap. With the equations preconditioned to `x = R b + (I - R A) x - R B |x| + R j tau`,
@@ -54,6 +58,7 @@ pub enum Propagation {
 /// assert_eq!(bounds[1].sign(), Some(Sign::Negative));
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
+#[doc(hidden)]
 pub fn propagate<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Option<ContactState>]) -> Propagation {
     let problem = problem.into();
     assert_eq!(partial.len(), problem.contacts(), "one entry per contact");

@@ -63,7 +63,7 @@ pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
     BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution,
-    SCHEMA, Unknowns, WithinRounding,
+    RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 pub use right_hand_sides::{EveryAnswer, EveryRightHandSide};
 #[cfg(any(feature = "json", feature = "npz"))]

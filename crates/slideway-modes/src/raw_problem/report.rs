@@ -135,14 +135,14 @@ impl Unknowns {
     }
 
     /// The names of the unknowns to which a nonzero signed value belongs, each with the sign under that name.
-    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(&'static str, f64)] {
+    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(RawUnknown, f64)] {
         match kind {
-            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[("z", 1.0)],
-            RawKind::Lcp | RawKind::Hlcp => &[("w", 1.0)],
-            RawKind::Ave if signed > 0.0 => &[("x", 1.0)],
-            RawKind::Ave => &[("x", -1.0)],
-            RawKind::Modes if signed > 0.0 => &[("normal_forces", 1.0), ("y", 1.0)],
-            RawKind::Modes => &[("normal_forces", -1.0), ("y", 1.0)],
+            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[(RawUnknown::Z, 1.0)],
+            RawKind::Lcp | RawKind::Hlcp => &[(RawUnknown::W, 1.0)],
+            RawKind::Ave if signed > 0.0 => &[(RawUnknown::X, 1.0)],
+            RawKind::Ave => &[(RawUnknown::X, -1.0)],
+            RawKind::Modes if signed > 0.0 => &[(RawUnknown::NormalForces, 1.0), (RawUnknown::Y, 1.0)],
+            RawKind::Modes => &[(RawUnknown::NormalForces, -1.0), (RawUnknown::Y, 1.0)],
         }
     }
 
@@ -162,12 +162,34 @@ impl Unknowns {
 pub struct WithinRounding {
     /// Every number may differ by this fraction of its size.
     pub relative: f64,
-    /// "solution": some such numbers have the reported solution; "none": none of them have any, which is
-    /// proven; "unknown".
-    pub answer: &'static str,
+    /// Whether such numbers have a solution.
+    pub answer: WithinRoundingAnswer,
     /// The solution.
     #[serde(flatten)]
     pub unknowns: Option<Unknowns>,
+}
+
+/// Whether numbers that differ from the given ones only by rounding have a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WithinRoundingAnswer {
+    /// Some such numbers have the reported solution.
+    Solution,
+    /// No such numbers have a solution, which is proven.
+    None,
+    /// Neither was established.
+    Unknown,
+}
+
+impl WithinRoundingAnswer {
+    /// "solution", "none" or "unknown"
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Solution => "solution",
+            Self::None => "none",
+            Self::Unknown => "unknown",
+        }
+    }
 }
 
 /// One solution, or one state with an unknown in its gap.
@@ -210,12 +232,44 @@ pub struct RawSolution {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct BeyondRange {
-    /// The name of the unknown: "z", "w", "x", "normal_forces", "y" or "lambda".
-    pub name: &'static str,
+    /// The name of the unknown.
+    pub name: RawUnknown,
     /// The index of the unknown, from 0.
     pub index: usize,
     /// The exact value rounded to 17 digits ("1.5e310"), or words if it was not computed.
     pub value: String,
+}
+
+/// The names of unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RawUnknown {
+    /// `z` of a complementarity problem.
+    Z,
+    /// `w` of a complementarity problem.
+    W,
+    /// `x` of an absolute value equation.
+    X,
+    /// The signed normal forces of a mode problem.
+    NormalForces,
+    /// `y`, the sizes of the normal forces.
+    Y,
+    /// The share lambda of an unknown in its gap.
+    Lambda,
+}
+
+impl RawUnknown {
+    /// "z", "w", "x", "`normal_forces`", "y" or "lambda"
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Z => "z",
+            Self::W => "w",
+            Self::X => "x",
+            Self::NormalForces => "normal_forces",
+            Self::Y => "y",
+            Self::Lambda => "lambda",
+        }
+    }
 }
 
 /// An unknown in its preload gap.

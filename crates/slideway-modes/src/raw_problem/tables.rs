@@ -41,7 +41,7 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let open: Vec<&str> = report.open.iter().map(String::as_str).collect();
     archive.push("open", npy::write_texts(&[open.len()], &open));
     if let Some(within) = &report.within_rounding {
-        archive.push("within_rounding", npy::write_texts(&[], &[within.answer]));
+        archive.push("within_rounding", npy::write_texts(&[], &[within.answer.as_str()]));
         archive.unknowns(report, "within_rounding_", &within.unknowns.iter());
     }
     if let Some(every) = &report.every_right_hand_side {
@@ -111,7 +111,7 @@ impl Archive {
         let rows: Vec<i64> = all.iter().map(|(row, _)| *row).collect();
         let index: Vec<i64> =
             all.iter().map(|(_, one)| i64::try_from(one.index).unwrap_or(i64::MAX)).collect();
-        let names: Vec<&str> = all.iter().map(|(_, one)| one.name).collect();
+        let names: Vec<&str> = all.iter().map(|(_, one)| one.name.as_str()).collect();
         let values: Vec<&str> = all.iter().map(|(_, one)| one.value.as_str()).collect();
         let size = [all.len()];
         self.push(&format!("{prefix}beyond_range_row"), npy::write_integers(&size, &rows));

@@ -11,6 +11,7 @@
 
 use nalgebra::DVector;
 
+use super::UNDERFLOW;
 use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
@@ -21,8 +22,6 @@ const MARGIN: f64 = 1e-11;
 /// Entries of a Farkas vector below this are set to zero, so that products with coefficients do not
 /// underflow.
 const SMALLEST_WEIGHT: f64 = f64::from_bits((1023 - 400) << 52);
-/// Bound on the loss by underflow in products with loads; loads have size 1, and weights are at most about 1.
-const UNDERFLOW: f64 = 1e-290;
 /// Maximum number of shifts of a Farkas vector to make its verification strict.
 const SHIFTS: usize = 2;
 /// Relative difference that [`ModeProblem`](crate::ModeProblem) does not treat as a jump.

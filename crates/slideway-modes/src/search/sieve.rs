@@ -13,10 +13,9 @@
 //! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but it has one bound for all
 //! entries and therefore excludes less if the data have wide bounds, as over a stretch of a parameter.
 
+use super::UNDERFLOW;
 use crate::problem::{Column, ContactState, ProblemView, Side};
 
-/// Bound on the loss by underflow, far below any admitted number.
-const UNDERFLOW: f64 = 1e-290;
 /// Nonzero numbers of the data must be between this and its reciprocal in size.
 const SMALLEST: f64 = 1e-100;
 /// The largest permitted row sum of `|I - R A|`.

@@ -2,7 +2,7 @@
 
 use super::{
     BeyondRange, ContinuumPart, EveryAnswer, EveryRightHandSide, RawKind, RawReport, RawShares, RawSolution,
-    Unknowns, WithinRounding,
+    Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -87,7 +87,7 @@ impl Text<'_> {
         };
         let rounding = format!("rounding of the numbers (relative {relative:e})");
         let Some(unknowns) = unknowns else {
-            self.line(&if *answer == "none" {
+            self.line(&if *answer == WithinRoundingAnswer::None {
                 format!("Within {rounding} there is none, either: proven.")
             } else {
                 format!("Whether there is one within {rounding} is undecided.")
@@ -309,7 +309,7 @@ fn rows(kind: RawKind, unknowns: &Unknowns, beyond_range: &[BeyondRange]) -> Str
 
 /// A value as text; of an unknown, by name and number, that has none as it is told beside.
 fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
-    let is_it = |one: &&BeyondRange| one.name == name && one.index == index;
+    let is_it = |one: &&BeyondRange| one.name.as_str() == name && one.index == index;
     match beyond_range.iter().find(is_it) {
         Some(one) => one.value.clone(),
         None if value.is_nan() => "beyond the range of numbers".to_owned(),
