@@ -50,8 +50,8 @@ pub struct ModeProblemLine {
     pub bounds: Vec<OutputBound>,
     /// Whether the right-hand side jumps at a contact, so that it has preload-gap states.
     pub has_jump: Vec<bool>,
-    /// Whether the two sides of a contact are different states even where `y_k = 0`, because of something that
-    /// the problem does not contain.
+    /// Whether the two sides of a contact are different states even where `y_k = 0`, because of something
+    /// that the problem does not contain.
     pub sides_differ: Vec<bool>,
 }
 

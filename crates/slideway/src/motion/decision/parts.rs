@@ -253,8 +253,8 @@ impl PhaseSearch<'_> {
         list.into_iter().map(part).collect()
     }
 
-    /// Determines the verdict on what each group can do; returns for each group the place of each of its parts
-    /// in the order of preference.
+    /// Determines the verdict on what each group can do; returns for each group the place of each of its
+    /// parts in the order of preference.
     pub(super) fn order(&self, parts: &mut [Vec<GroupPhase>]) -> Vec<Vec<usize>> {
         let groups = self.instant.groups.iter().zip(parts);
         groups.map(|(group, parts)| self.order_of(group, parts)).collect()
