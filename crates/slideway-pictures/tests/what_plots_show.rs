@@ -3,7 +3,7 @@
 
 use slideway::drive::{DriveOptions, drive};
 use slideway::gallery;
-use slideway::limits::{LimitsOptions, Quantity, ShownIn, Vary, limits_with_curves};
+use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
 use slideway::map::{ColourBy, MapOptions, map};
 use slideway::model::{Model, Settings};
 use slideway::motion::{SimulateOptions, simulate};
@@ -114,9 +114,8 @@ fn what_coincides_is_one_line_with_both_names() {
 fn efforts_and_efficiency_over_friction() {
     let drawer = model("drawer", &Settings::default());
     let options = DriveOptions::default().vary(Some(Vary::between("mu", 0.0, 1.0))).rows(41);
-    let shown_in = ShownIn { unit: String::new(), scale: 1.0 };
     let report = drive(&drawer, &options).expect("a report");
-    let figure = drive_figure(&report, &shown_in).expect("a course");
+    let figure = drive_figure(&report).expect("a course");
     let titles: Vec<&str> = figure.panels.iter().map(|panel| &*panel.title).collect();
     assert_eq!(titles[..2], ["Moving as in the model: effort", "Moving as in the model: efficiency"]);
     let of = |panel: usize, value: &dyn Fn(f64) -> f64| {
@@ -132,7 +131,7 @@ fn efforts_and_efficiency_over_friction() {
     let [zone] = &figure.panels[0].zones[..] else { panic!("one excluded interval") };
     assert!((zone.from - 2.0 / 3.0).abs() < 1e-12 && zone.to == 1.0, "{zone:?}");
     assert!(texts(&svg(&figure)).iter().any(|text| text == "0.66666667: grows without bound"));
-    assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report"), &shown_in), None);
+    assert_eq!(drive_figure(&drive(&drawer, &DriveOptions::default()).expect("a report")), None);
 }
 
 /// The margin of the drawer is L / (2 a mu) = L / 0.18 m: 2 at L = 0.36 m, 20/9 in the model.
@@ -140,9 +139,8 @@ fn efforts_and_efficiency_over_friction() {
 fn margins_over_a_length() {
     let drawer = model("drawer", &Settings::default());
     let vary = Vary::between("L", "200 mm", "900 mm");
-    let shown_in = vary.unit_in(&drawer).expect("a name");
     let report = size(&drawer, &SizeOptions::new(vary, 2.0)).expect("a report");
-    let figure = size_figure(&report, &shown_in);
+    let figure = size_figure(&report);
     let [panel] = &figure.panels[..] else { panic!("one panel") };
     for [length, margin] in &panel.curves[0].points {
         assert!((margin - length / 180.0).abs() < 1e-9, "{length}: {margin}");

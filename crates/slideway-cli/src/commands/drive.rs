@@ -8,7 +8,6 @@ use crate::output::Output;
 use crate::picture;
 use crate::watch::Watch;
 use slideway::drive::{self, DriveOptions};
-use slideway::limits::Vary;
 use slideway_pictures::plot::{drive_figure, to_svg};
 
 /// Rows of the table that a plot is made of, at least: two for each pixel of a screen.
@@ -21,10 +20,9 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
         return Err(Failure::NoLine);
     }
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
-    let vary = arguments.vary.as_deref().map(str::parse::<Vary>).transpose();
-    let vary = vary.map_err(|faults| input.refused(faults))?;
+    let vary = arguments.vary.as_deref().map(|vary| input.vary(&model, vary)).transpose()?;
     let mut watch = Watch::new(arguments.time.time_limit);
     let mut of_rows = |rows: usize| {
         let options = DriveOptions::default().vary(vary.clone()).rows(rows);
@@ -36,9 +34,8 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
         plot.map(|file| Ok::<_, Failure>((of_rows(arguments.rows.max(PLOTTED_ROWS))?, file))).transpose()?;
     let report = of_rows(arguments.rows)?;
     let report = watch.whole(report)?;
-    if let (Some((Some(rows), (picture, file))), Some(vary)) = (plotted, &vary) {
-        let shown_in = vary.unit_in(&model).map_err(|faults| input.refused(faults))?;
-        let figure = drive_figure(&rows, &shown_in).unwrap_or_default().changed_by(&input.settings);
+    if let Some((Some(rows), (picture, file))) = plotted {
+        let figure = drive_figure(&rows).unwrap_or_default().changed_by(&input.settings);
         picture.write(to_svg(&figure, arguments.plot.theme.colours()), &file)?;
     }
     output.tell(&report, arguments.format)?;

@@ -7,7 +7,6 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::picture;
 use crate::watch::Watch;
-use slideway::limits::Vary;
 use slideway::size::{self, SizeOptions};
 use slideway_pictures::plot::{size_figure, to_svg};
 
@@ -15,22 +14,21 @@ use slideway_pictures::plot::{size_figure, to_svg};
 pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome, Failure> {
     let plot = picture::beside(&arguments.plot, &arguments.destination, &arguments.model, output)?;
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
+    let vary = input.vary(&model, &arguments.vary)?;
     let loads = model.loads.iter().map(|load| &load.name);
     let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = arguments.against(names).and_then(|against| {
-        let options = SizeOptions::new(arguments.vary.parse()?, arguments.margin)
+        let options = SizeOptions::new(vary, arguments.margin)
             .against(against)
             .both_directions(arguments.both_directions);
         size::size_with(&model, &options, &mut |progress| watch.look(progress))
     });
     let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;
     if let Some((picture, file)) = plot {
-        let shown_in = arguments.vary.parse().and_then(|vary: Vary| vary.unit_in(&model));
-        let figure = size_figure(&report, &shown_in.map_err(|faults| input.refused(faults))?);
-        let svg = to_svg(&figure.changed_by(&input.settings), arguments.plot.theme.colours());
+        let svg = to_svg(&size_figure(&report).changed_by(&input.settings), arguments.plot.theme.colours());
         picture.write(svg, &file)?;
     }
     output.tell(&report, arguments.format)?;

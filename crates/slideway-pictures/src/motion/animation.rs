@@ -5,6 +5,7 @@ use crate::drawing::{Bounds, ContactForces, ContactState, ContactStates, Scene, 
 use crate::theme::Theme;
 use slideway::configuration::Configuration;
 use slideway::motion::{History, Sample, phase_in_words};
+use slideway::units::Unit;
 
 /// Frames for a second on the clock.
 const FRAMES_PER_SECOND: f64 = 25.0;
@@ -49,6 +50,8 @@ pub struct Animation {
     pub(super) slow_motion: f64,
     /// Drawing units for a newton; none without forces.
     pub(super) force_scale: Option<f64>,
+    /// The unit of forces.
+    pub(super) force_unit: Unit,
     /// What the modes that occur are, in words, each once.
     pub(super) words: Vec<String>,
     pub(super) theme: Theme,
@@ -94,6 +97,7 @@ pub fn animation(history: &History, options: &AnimationOptions, theme: &Theme) -
         frame_time: shown / count as f64,
         slow_motion,
         force_scale,
+        force_unit: history.mechanism.units.of("N"),
         words,
         theme: *theme,
     }

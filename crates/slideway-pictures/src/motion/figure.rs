@@ -6,6 +6,7 @@ use crate::plot::scale::{extent, range_that_shows};
 use crate::plot::{Axis, Band, Branch, Curve, Figure, MarkedPoint, Panel, PointKind, Stroke};
 use crate::theme::LIGHT;
 use slideway::motion::{Cause, History, PhaseInterval, Series, modes_in_words};
+use slideway::units::{Unit, Units};
 
 /// Points of a curve, shared among the phases.
 const POINTS: f64 = 1500.0;
@@ -27,7 +28,7 @@ const MANY: f64 = 4.0;
 /// the rest, and the legend tells what they reach.
 pub fn motion_figure(history: &History) -> Figure {
     let samples = Samples::of(history);
-    let mut builder = Builder { samples: &samples, branches: Vec::new() };
+    let mut builder = Builder { samples: &samples, units: &history.mechanism.units, branches: Vec::new() };
     let mechanism = &history.mechanism;
     let mut panels = Vec::new();
     for (angles, unit) in [(false, "m"), (true, "rad")] {
@@ -81,19 +82,21 @@ pub fn motion_figure(history: &History) -> Figure {
 pub fn portrait_figure(history: &History) -> Figure {
     let samples = Samples::of(history);
     let coordinates = history.mechanism.coordinates.iter();
+    let units = &history.mechanism.units;
     let mut branches = Vec::new();
     let panel = |coordinate: &slideway::mechanism::Coordinate| {
         let name = coordinate.name.to_string();
-        let unit = if coordinate.kind.is_angle() { "rad" } else { "m" };
-        let axis = |name: String, unit: String| Axis { name, unit, ..Axis::default() };
-        let rate = format!("rate of {name}");
+        let si = if coordinate.kind.is_angle() { "rad" } else { "m" };
+        let shown_in = [units.of(si), units.of_rate(si)];
+        let axis = |name: String, unit: &Unit| Axis { name, unit: unit.name().to_owned(), ..Axis::default() };
+        let (rate, column) = (format!("rate of {name}"), format!("{name}.rate"));
         let pieces = samples.pieces.iter();
         let curves: Vec<Curve> =
-            pieces.map(|piece| curve(piece, (&name, &format!("{name}.rate")), branches.len())).collect();
+            pieces.map(|piece| curve(piece, [&name, &column], &shown_in, branches.len())).collect();
         branches.push(branch(&rate, 0));
         Panel {
-            x: axis(name, unit.to_owned()),
-            y: axis(rate, format!("{unit}/s")),
+            x: axis(name, &shown_in[0]),
+            y: axis(rate, &shown_in[1]),
             points: points(history, &curves),
             curves,
             directed: true,
@@ -231,6 +234,7 @@ fn groups(history: &History) -> Vec<Vec<&PhaseInterval>> {
 
 struct Builder<'s> {
     samples: &'s Samples,
+    units: &'s Units,
     branches: Vec<Branch>,
 }
 
@@ -238,10 +242,12 @@ impl Builder<'_> {
     /// A panel with the time as its axis; curves are given by their names and columns.
     fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[(String, String)]) -> Panel {
         let mut drawn = Vec::new();
+        let shown_in = [Unit::si_unit("s"), self.units.of(unit)];
         for (colour, (name, column)) in curves.iter().enumerate() {
             let index = self.branches.len();
             self.branches.push(branch(name, colour));
-            drawn.extend(self.samples.pieces.iter().map(|piece| curve(piece, ("t", column), index)));
+            let pieces = self.samples.pieces.iter();
+            drawn.extend(pieces.map(|piece| curve(piece, ["t", column], &shown_in, index)));
         }
         Panel {
             title: title.to_owned(),
@@ -251,18 +257,19 @@ impl Builder<'_> {
                 range: Some(self.samples.range),
                 ..Axis::default()
             },
-            y: Axis { name: name.to_owned(), unit: unit.to_owned(), ..Axis::default() },
+            y: Axis { name: name.to_owned(), unit: shown_in[1].name().to_owned(), ..Axis::default() },
             curves: drawn,
             ..Panel::default()
         }
     }
 }
 
-/// One column over another.
-fn curve(series: &Series, (x, y): (&str, &str), branch: usize) -> Curve {
+/// One column over another, each in its unit.
+fn curve(series: &Series, [x, y]: [&str; 2], [x_unit, y_unit]: &[Unit; 2], branch: usize) -> Curve {
     let values = |name: &str| series.column(name).map_or(&[][..], |column| &column.values);
     let pairs = values(x).iter().zip(values(y));
-    let points = pairs.filter_map(|(x, y)| Some([(*x)?, (*y)?])).collect();
+    let points =
+        pairs.filter_map(|(x, y)| Some([x_unit.number_of((*x)?), y_unit.number_of((*y)?)])).collect();
     Curve { branch, quantity: 0, points, ends: <[crate::plot::End; 2]>::default() }
 }
 

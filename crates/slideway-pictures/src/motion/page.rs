@@ -3,7 +3,7 @@
 use super::animation::{Animation, FrameOf};
 use crate::coordinate::{NotFinite, coordinate, exact, finished, finished_parts, tenths, thousandths};
 use crate::drawing::svg::{Colour, markup, rules};
-use crate::drawing::{Class, Element, Point, Shape, nice, number};
+use crate::drawing::{Class, Element, Point, Shape, nice, quantity};
 use crate::escaped;
 use crate::plot::svg::wrapped;
 use crate::typeface::{STACK, width};
@@ -302,16 +302,16 @@ fn clock(animation: &Animation, frame: &FrameOf, out: &mut String) {
 /// An arrow of a round force in the lower left corner of the drawing; nothing without forces.
 fn force_scale(animation: &Animation) -> String {
     let Some(scale) = animation.force_scale else { return String::new() };
-    let force = nice(LONGEST_SAMPLE / scale);
+    let force = nice(LONGEST_SAMPLE / scale, &animation.force_unit);
     let from = Point::new(animation.bounds.least.x + INDENT, animation.bounds.greatest.y - INDENT);
     let to = from + Point::new(force * scale, 0.0);
     let arrow = markup(&Element { class: Class::Reaction, shape: Shape::Arrow { from, to } });
     let text = [to.x + 8.0, to.y + 4.5].map(coordinate);
     format!(
-        "{arrow}<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{} N</text>\n",
+        "{arrow}<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{}</text>\n",
         text[0],
         text[1],
-        number(force)
+        escaped(&quantity(force, &animation.force_unit))
     )
 }
 

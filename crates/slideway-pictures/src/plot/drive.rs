@@ -4,15 +4,13 @@ use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Pan
 use super::limits::{in_words, without_empty_ends};
 use crate::drawing::signs;
 use slideway::drive::{Course, CourseDirection, CourseRow, DriveReport, Sense};
-use slideway::limits::ShownIn;
 use slideway::report::precise;
 
-/// The figure of a [`DriveReport`] with a course, the values of which are shown in a unit: for each direction
-/// of motion and each unit a panel with the efforts, with and without friction, and one with the efficiency;
+/// The figure of a [`DriveReport`] with a course: for each direction of motion and each unit a panel with the efforts, with and without friction, and one with the efficiency;
 /// none without a course. Its rows should be dense.
-pub fn drive_figure(report: &DriveReport, shown_in: &ShownIn) -> Option<Figure> {
+pub fn drive_figure(report: &DriveReport) -> Option<Figure> {
     let course = report.course.as_ref()?;
-    let mut builder = Builder { report, course, shown_in, branches: Vec::new() };
+    let mut builder = Builder { report, course, branches: Vec::new() };
     let mut units: Vec<&str> = report.drives.iter().map(|drive| drive.unit).collect();
     units.dedup();
     let mut panels = Vec::new();
@@ -35,7 +33,6 @@ pub fn drive_figure(report: &DriveReport, shown_in: &ShownIn) -> Option<Figure> 
 struct Builder<'r> {
     report: &'r DriveReport,
     course: &'r Course,
-    shown_in: &'r ShownIn,
     branches: Vec<Branch>,
 }
 
@@ -49,19 +46,22 @@ struct Stretch<'r> {
 impl Builder<'_> {
     fn efforts(&mut self, direction: &CourseDirection, unit: &str) -> Panel {
         let mut curves = Vec::new();
+        let shown = self.report.units.of(unit);
         let all = self.report.drives.iter().enumerate();
         let drives: Vec<usize> =
             all.filter(|(_, drive)| drive.unit == unit).map(|(index, _)| index).collect();
         for stretch in stretches(direction) {
             let branch = self.branch(stretch.pattern, direction.direction);
             for &drive in &drives {
-                let value = |row: &CourseRow| row.efforts.as_ref().map(|efforts| efforts[drive]);
+                let value =
+                    |row: &CourseRow| row.efforts.as_ref().map(|efforts| shown.number_of(efforts[drive]));
                 curves.push(self.curve(&stretch.rows, (branch, drive), stretch.ends, value));
             }
         }
         let frictionless = self.entry("without friction", 6, Stroke::Dotted);
         for &drive in &drives {
-            let value = |row: &CourseRow| row.frictionless.as_ref().map(|efforts| efforts[drive]);
+            let value =
+                |row: &CourseRow| row.frictionless.as_ref().map(|efforts| shown.number_of(efforts[drive]));
             let rows: Vec<&CourseRow> = direction.rows.iter().collect();
             curves.push(self.curve(&rows, (frictionless, drive), [End::Plain; 2], value));
         }
@@ -69,7 +69,7 @@ impl Builder<'_> {
             [only] => format!("effort of {}", only.name),
             _ => "effort".to_owned(),
         };
-        let y = Axis { name, unit: unit.to_owned(), ..Axis::default() };
+        let y = Axis { name, unit: shown.name().to_owned(), ..Axis::default() };
         Panel { curves, marked: self.marked(direction), ..self.panel(direction, "effort", y) }
     }
 
@@ -92,12 +92,12 @@ impl Builder<'_> {
             Sense::Model => "as in the model",
             Sense::Reversed => "in the opposite direction",
         };
-        let scale = self.shown_in.scale;
+        let scale = self.course.vary.shown_in.scale();
         Panel {
             title: format!("Moving {way}: {what}"),
             x: Axis {
                 name: vary.name.clone(),
-                unit: self.shown_in.unit.clone(),
+                unit: self.course.vary.shown_in.name().to_owned(),
                 range: Some([vary.from / scale, vary.to / scale]),
                 logarithmic: false,
             },
@@ -114,7 +114,8 @@ impl Builder<'_> {
         ends: [End; 2],
         value: impl Fn(&CourseRow) -> Option<f64>,
     ) -> Curve {
-        let points = rows.iter().filter_map(|row| Some([row.at / self.shown_in.scale, value(row)?]));
+        let points =
+            rows.iter().filter_map(|row| Some([row.at / self.course.vary.shown_in.scale(), value(row)?]));
         Curve { branch, quantity, points: points.collect(), ends }
     }
 
@@ -142,7 +143,7 @@ impl Builder<'_> {
     fn marked(&self, direction: &CourseDirection) -> Vec<MarkedValue> {
         let mut marked: Vec<MarkedValue> = Vec::new();
         for blow_up in &direction.blow_ups {
-            let at = blow_up.at / self.shown_in.scale;
+            let at = blow_up.at / self.course.vary.shown_in.scale();
             if marked.last().is_none_or(|last| last.at != at) {
                 let label = format!("{}: grows without bound", precise(at).replace('-', "\u{2212}"));
                 marked.push(MarkedValue { at, label, asymptote: true });
@@ -153,7 +154,7 @@ impl Builder<'_> {
 
     /// Values without a solution, up to the growth without bound beside them, and those without a position.
     fn zones(&self, direction: &CourseDirection) -> Vec<Zone> {
-        let scale = self.shown_in.scale;
+        let scale = self.course.vary.shown_in.scale();
         let zone = |from: f64, to: f64, hatching: Hatching, meaning: &str| Zone {
             from: from / scale,
             to: to / scale,

@@ -5,6 +5,7 @@ use super::limits;
 use crate::drawing::number;
 use slideway::limits::Quantity;
 use slideway::sweep::{Rows, Sweep, SweepState};
+use slideway::units::Units;
 use std::collections::BTreeMap;
 
 /// The most bins of a tally that are not empty.
@@ -21,6 +22,7 @@ const LEFT_OUT: f64 = 0.025;
 #[derive(Debug, Clone)]
 pub struct SamplesPlot {
     quantity: Quantity,
+    units: Units,
     series: Vec<Series>,
     /// For each series, from samples with one solution and from those with several.
     counts: Vec<[Counts; 2]>,
@@ -52,7 +54,12 @@ impl SamplesPlot {
             })
             .collect();
         let is_drawn = !sweep.has_branches() && !series.is_empty();
-        is_drawn.then(|| Self { quantity, counts: vec![Default::default(); series.len()], series })
+        is_drawn.then(|| Self {
+            quantity,
+            units: sweep.units().clone(),
+            counts: vec![Default::default(); series.len()],
+            series,
+        })
     }
 
     /// What the histograms need of rows; to be used in parallel.
@@ -101,7 +108,8 @@ impl SamplesPlot {
         all.merge(&counts[1]);
         let y = Axis { name: "share of samples".to_owned(), unit: "%".to_owned(), ..Axis::default() };
         let name = format!("{} of {}", limits::name(self.quantity), series.name);
-        let x = Axis { name, unit: series.unit.to_owned(), ..Axis::default() };
+        let shown_in = self.units.of(series.unit);
+        let x = Axis { name, unit: shown_in.name().to_owned(), ..Axis::default() };
         let Some((exponent, shown)) = all.shown() else { return Panel { x, y, ..Panel::default() } };
         let left_out =
             all.total() - all.at(exponent).range(shown[0]..=shown[1]).map(|(_, count)| count).sum::<u64>();
@@ -119,7 +127,7 @@ impl SamplesPlot {
                 let from = base.get(&bin).copied().unwrap_or(0.0);
                 let to = from + percent(count);
                 base.insert(bin, to);
-                let sides = [bin as f64 * width, (bin + 1) as f64 * width];
+                let sides = [bin, bin + 1].map(|side| shown_in.number_of(side as f64 * width));
                 bars.push(Bar { sides, ends: [from, to], colour, meaning: format!("{words}{beyond}") });
             }
         }

@@ -4,17 +4,17 @@ use super::figure::{Axis, Band, Branch, Curve, End, Figure, MarkedPoint, MarkedV
 use super::figure::{Hatching, Stroke, Zone, headline};
 use super::limits::in_words;
 use super::scale::{extent, range_that_shows};
-use slideway::limits::ShownIn;
 use slideway::report::precise;
 use slideway::size::{MarginKind, MetEnd, SampleKind, SizeReport};
 
 /// Margins are shown up to so many times the wanted one, or that of the model.
 const SHOWN: f64 = 2.0;
 
-/// The figure of a [`SizeReport`], the values of which are shown in a unit: the margin at all values that were
-/// tried, the wanted one, where it is met, and the model.
-pub fn size_figure(report: &SizeReport, shown_in: &ShownIn) -> Figure {
-    let scale = shown_in.scale;
+/// The figure of a [`SizeReport`]: the margin at all values that were tried, the wanted one, where it is met,
+/// and the model.
+pub fn size_figure(report: &SizeReport) -> Figure {
+    let shown_in = &report.vary.shown_in;
+    let scale = shown_in.scale();
     let wanted = format!("wanted: {}", precise(report.margin));
     let branches = vec![
         Branch { name: "margin".to_owned(), colour: 0, stroke: Stroke::Solid },
@@ -48,7 +48,7 @@ pub fn size_figure(report: &SizeReport, shown_in: &ShownIn) -> Figure {
     let panel = Panel {
         x: Axis {
             name: report.vary.name.clone(),
-            unit: shown_in.unit.clone(),
+            unit: shown_in.name().to_owned(),
             range: Some(range),
             logarithmic: false,
         },

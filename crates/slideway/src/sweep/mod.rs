@@ -64,7 +64,7 @@ pub use columns::Column;
 pub use distribution::{Sampling, Spread};
 pub use line::Line;
 pub use options::{GridAxis, GridValues, SampledAxis, SampledValues, SweepOptions, SweepPoints};
-pub use rows::{Breakpoint, PointStatus, RowHead, RowKind, RowVerdict, Rows};
+pub use rows::{Breakpoint, PointStatus, Refusal, RowHead, RowKind, RowVerdict, Rows};
 pub use summary::{Probability, Tally};
 
 use crate::fault::{AxisProblem, Faults};
@@ -72,6 +72,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::Callback;
 use crate::solve::check_size;
+use crate::units::Units;
 use axis::{Axis, Values};
 use breakpoints::Inserted;
 use columns::Columns;
@@ -190,6 +191,11 @@ impl Sweep {
     /// The contacts, in the order of the patterns.
     pub fn contacts(&self) -> impl Iterator<Item = &str> {
         self.plan.mechanism.contacts.iter().map(|contact| &*contact.name)
+    }
+
+    /// The units in which pictures show its numbers.
+    pub fn units(&self) -> &Units {
+        &self.plan.model.units
     }
 
     /// Whether there are branches: samples have no neighbours.
