@@ -140,7 +140,13 @@ fn curves(branches: &[Branch], layout: &PanelLayout<'_>) -> Vec<(Sample, String)
             (Sample::Several(colours), format!("{} coincide", names.join(" and ")))
         }
     };
-    let entries: Vec<(Sample, String)> = sets.iter().map(|set| entry(set)).collect();
+    // Stretches of the same branches that differ in their strokes coincide alike.
+    let mut entries: Vec<(Sample, String)> = Vec::new();
+    for (sample, text) in sets.iter().map(|set| entry(set)) {
+        if entries.iter().all(|(_, known)| *known != text) {
+            entries.push((sample, text));
+        }
+    }
     if let [(_, name)] = &entries[..]
         && *name == layout.panel.y.name
     {
