@@ -30,7 +30,7 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     match picture {
         None => output.write(&report.json())?,
         Some(picture) => {
-            picture.write(to_svg(&report, &input.settings, arguments.theme.colours()), &output)?
+            picture.write(to_svg(&report, &input.settings, arguments.theme.colours()), &output)?;
         }
     }
     Ok(Outcome::Done)

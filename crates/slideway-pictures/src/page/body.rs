@@ -1,7 +1,7 @@
 //! The body of a page: one function for each part of it.
 
 use super::summary::summary;
-use super::{Figure, Page, text};
+use super::{Figure, Page, all, text};
 use crate::drawing::svg::{self, Colours, Frame};
 use crate::drawing::{number, quantity, signs};
 use slideway::limits::{LimitsReport, ModeLimits};
@@ -23,11 +23,6 @@ pub(super) fn body(page: &Page<'_>) -> String {
         text(page.command),
         env!("CARGO_PKG_VERSION"),
     )
-}
-
-/// The parts one after the other.
-fn all<T>(items: impl IntoIterator<Item = T>, part: impl Fn(T) -> String) -> String {
-    items.into_iter().map(part).collect()
 }
 
 /// So many of something.

@@ -83,6 +83,11 @@ fn head(title: &str) -> String {
     HEAD.split("{{ ").map(filled).collect()
 }
 
+/// The parts one after the other.
+fn all<T>(items: impl IntoIterator<Item = T>, part: impl Fn(T) -> String) -> String {
+    items.into_iter().map(part).collect()
+}
+
 /// Text, escaped, with its lines.
 fn text(text: &str) -> String {
     let lines = lines(text);

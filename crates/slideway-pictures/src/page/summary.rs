@@ -1,6 +1,6 @@
 //! Margins of friction, efforts and efficiency, and what happens at rest, in sentences.
 
-use super::{Page, text};
+use super::{Page, all, text};
 
 /// The section; nothing where none of these is known.
 pub(super) fn summary(page: &Page<'_>) -> String {
@@ -13,14 +13,14 @@ pub(super) fn summary(page: &Page<'_>) -> String {
     let part = |(title, sentences): (&str, &[String])| {
         let lines =
             sentences.iter().flat_map(|sentence| sentence.lines()).filter(|line| !line.trim().is_empty());
-        let lines: String = lines.map(|line| format!("<p>{}</p>\n", text(line.trim()))).collect();
+        let lines = all(lines, |line| format!("<p>{}</p>\n", text(line.trim())));
         if lines.is_empty() {
             lines
         } else {
             format!("<section class=\"part\">\n<h3>{title}</h3>\n{lines}</section>\n")
         }
     };
-    let parts: String = parts.into_iter().map(part).collect();
+    let parts = all(parts, part);
     if parts.is_empty() {
         return parts;
     }

@@ -47,14 +47,12 @@ pub(crate) fn changes(settings: &Settings) -> String {
 
 /// The headline of a picture: the title of the model, and what is shown.
 pub(crate) fn headline(title: Option<&str>, shown: &str) -> String {
-    match title.filter(|title| !title.is_empty()) {
-        Some(title) => format!("{title}: {shown}"),
-        None => {
-            let mut letters = shown.chars();
-            let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-            first + letters.as_str()
-        }
+    if let Some(title) = title.filter(|title| !title.is_empty()) {
+        return format!("{title}: {shown}");
     }
+    let mut letters = shown.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    first + letters.as_str()
 }
 
 /// A pair of axes and all that is drawn in them.

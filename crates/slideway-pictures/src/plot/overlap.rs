@@ -168,12 +168,12 @@ fn lines_of(
 /// Runs of equal values, and their lengths.
 fn runs<T: PartialEq>(values: &[T], lengths: &[f64]) -> Vec<(std::ops::Range<usize>, f64)> {
     let mut start = 0;
-    let mut run = |values: &[T]| {
+    let run = |values: &[T]| {
         let range = start..start + values.len();
         start = range.end;
         (range.clone(), lengths[range].iter().sum())
     };
-    values.chunk_by(|one, other| one == other).map(|values| run(values)).collect()
+    values.chunk_by(|one, other| one == other).map(run).collect()
 }
 
 /// Lets short runs of equal values have the value of what is before them.

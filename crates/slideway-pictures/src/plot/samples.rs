@@ -86,13 +86,12 @@ impl SamplesPlot {
     pub fn figure(&self, title: Option<&str>, state: &SweepState) -> Figure {
         let tally = &state.tally;
         let samples = tally.points - tally.breakpoints;
-        let mut subtitle = format!("{samples} samples");
-        if let Some(jamming) = tally.probability_of_jamming() {
+        let jamming = tally.probability_of_jamming().map(|jamming| {
             let percent = |share: f64| number(100.0 * share);
             let [from, to] = jamming.interval.map(percent);
-            subtitle +=
-                &format!("; no solution in {} % ({from} to {to} %, confidence 95 %)", percent(jamming.share));
-        }
+            format!("; no solution in {} % ({from} to {to} %, confidence 95 %)", percent(jamming.share))
+        });
+        let subtitle = format!("{samples} samples{}", jamming.unwrap_or_default());
         let panels = self.series.iter().zip(&self.counts);
         Figure {
             title: headline(title, &format!("distribution of the {}", limits::name(self.quantity))),
@@ -201,7 +200,8 @@ impl Counts {
         };
         let (first, last) =
             (outermost(Box::new(self.bins.iter()))?, outermost(Box::new(self.bins.iter().rev()))?);
-        let wider = (0..).find(|wider| ((last >> wider) - (first >> wider)) as f64 <= BARS)?;
+        let wider = (0..i128::BITS.cast_signed())
+            .find(|wider| ((last >> wider) - (first >> wider)) as f64 <= BARS)?;
         Some((self.exponent + wider, [first >> wider, last >> wider]))
     }
 }
