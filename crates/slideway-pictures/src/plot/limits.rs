@@ -9,6 +9,8 @@ use slideway::report::{ModeEndCause, Verdict, precise};
 
 /// Values closer than this share of the range are one value in a plot.
 const TOGETHER: f64 = 1e-6;
+/// Excluded values at an end of the range have no more than this share of the width.
+const MUCH: f64 = 0.4;
 /// Curves end so close to a locking value, as a share of what is excluded beyond it.
 const NEAR: f64 = 1e-3;
 
@@ -157,8 +159,8 @@ pub(super) fn in_words(varied: &str) -> &str {
     if varied == limits::FRICTION { "the factor of all friction" } else { varied }
 }
 
-/// Shortens the axes of x where no panel shows anything but excluded values at an end, if that takes more
-/// than a third of the width; a third of the rest is left, and the legend tells how far the excluded values go.
+/// Shortens the axes of x where no panel shows anything but excluded values at an end, if that takes much of
+/// the width; a third of the rest is left, and the legend tells how far the excluded values go.
 pub(super) fn without_empty_ends(panels: &mut [Panel]) {
     let used =
         extent(panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points).map(|p| p[0]));
@@ -174,8 +176,9 @@ pub(super) fn without_empty_ends(panels: &mut [Panel]) {
         return;
     }
     let third = (last - first) / 3.0;
-    let before = first - from > third && is_excluded([from, first]);
-    let beyond = to - last > third && is_excluded([last, to]);
+    let much = MUCH * (to - from);
+    let before = first - from > much && is_excluded([from, first]);
+    let beyond = to - last > much && is_excluded([last, to]);
     let shown = [if before { first - third } else { from }, if beyond { last + third } else { to }];
     for panel in panels {
         panel.x.range = Some(shown);
