@@ -135,3 +135,44 @@ fn points_of_the_same_name_are_told_apart() {
     // The spring is stretched by 0.5 m, the damper by 0.5 m/s.
     assert!((answer.solutions[0].coordinate(x).acceleration + 6.0).abs() < 1e-12);
 }
+
+/// A sledge that is drawn as a wedge, its top corner `height` above the track.
+fn outlined(height: &str) -> Drawing {
+    let mut d = Drawing::new();
+    d.parameter("h", height);
+    let sledge = d.body("sledge").mass(2).centre([0, 0]).inertia(0.1).outline([
+        ["0 m", "0 m"],
+        ["40 cm", "0 m"],
+        ["0 m", "h"],
+    ]);
+    let sledge = sledge.id();
+    let track = d.block_slider("track", sledge, GROUND).at([0, 0]).length("20 cm").mu(0.2).id();
+    d.force("pull", sledge).at(["0 m", "5 cm"]).components([10, 0]);
+    d.slide("x", track).rate(1);
+    d
+}
+
+#[test]
+fn an_outline_is_for_looks_only() {
+    use nalgebra::Vector2;
+    use slideway::mechanism::Mechanism;
+    let model = outlined("10 cm").build().unwrap();
+    let mechanism = Mechanism::new(&model).unwrap();
+    let corners = [Vector2::new(0.0, 0.0), Vector2::new(0.4, 0.0), Vector2::new(0.0, 0.1)];
+    assert_eq!(mechanism.bodies[0].outline, corners);
+    // Forces, accelerations and the unit of length of the mechanism are those of any other outline.
+    let huge = outlined("10 km").build().unwrap();
+    assert_eq!(Mechanism::new(&huge).unwrap().size, mechanism.size);
+    assert_eq!(solve(&huge).unwrap().solutions, solve(&model).unwrap().solutions);
+}
+
+#[test]
+fn an_outline_is_checked() {
+    let told = |drawing: &Drawing| drawing.build().unwrap_err().to_string();
+    assert!(told(&outlined("2 kg")).contains("a mass where a length is expected"));
+    assert!(told(&outlined("1 m/0")).contains("is infinite"), "{}", told(&outlined("1 m/0")));
+    let mut line = Drawing::new();
+    line.body("sledge").massless().outline([[0, 0], [1, 0]]);
+    let two = told(&line);
+    assert!(two.contains("`bodies.sledge.outline` must have at least 3 values, not 2"), "{two}");
+}

@@ -24,6 +24,7 @@ pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{advance, free_motions, motion_in_words, motions_without_inertia, null_space};
 
+use crate::expression::ExpressionFault;
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
@@ -204,6 +205,15 @@ impl<T: Real> Configuration<T> {
         let Some(slider) = mechanism.slider(pad.joint) else { return [T::zero(); 2] };
         let (displacement, velocity) = self.sliding(mechanism, slider);
         [pad.sense() * (displacement - pad.place), pad.sense() * velocity]
+    }
+
+    /// The force with which a pad pushes its block back (N), eq. max(0, k d + c d') at the depth d.
+    ///
+    /// # Errors
+    /// A force that is not finite.
+    pub fn pad_force(&self, mechanism: &Mechanism<T>, pad: &Pad<T>) -> Result<T, ExpressionFault> {
+        let pieces = self.pieces.as_deref().map_or(&[][..], |pieces| pieces.of(pad.formula));
+        pad.force(&self.depth(mechanism, pad), pieces)
     }
 
     /// A direction of the drawing, turned with a frame.

@@ -129,6 +129,8 @@ pub struct Body {
     pub inertia: Inertia,
     /// Its named points.
     pub points: Vec<NamedPoint>,
+    /// The corners of its outline in the drawing, for looks only; empty if the file gives none.
+    pub outline: Vec<[FormulaId; 2]>,
 }
 
 /// A named point of the drawing.

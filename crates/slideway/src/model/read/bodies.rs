@@ -33,14 +33,18 @@ impl Reader<'_> {
             self.valid_name("body", &entry.name, &entry.span);
             let mut points = Vec::new();
             let mut inertia = Inertia::Massless;
+            let mut outline = Vec::new();
             if let Some(table) = &entry.contents {
                 points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
                 inertia = self.inertia(table, &entry.name, &entry.span);
+                let corners = table.outline.iter().flatten();
+                let what = format!("a corner of the outline of {}", entry.name);
+                outline = corners.map(|corner| self.place(corner, &what)).collect();
             } else {
                 self.unread_bodies.push(BodyId(index));
             }
             let place = FaultPlace::model(entry.span);
-            bodies.push(Body { name: Arc::from(entry.name), place, inertia, points });
+            bodies.push(Body { name: Arc::from(entry.name), place, inertia, points, outline });
         }
         bodies
     }
