@@ -170,7 +170,7 @@ fn an_outline_is_for_looks_only() {
 fn an_outline_is_checked() {
     let told = |drawing: &Drawing| drawing.build().unwrap_err().to_string();
     assert!(told(&outlined("2 kg")).contains("a mass where a length is expected"));
-    assert!(told(&outlined("1 m/0")).contains("is infinite"), "{}", told(&outlined("1 m/0")));
+    assert!(told(&outlined("1 m/0")).contains("division by zero"));
     let mut line = Drawing::new();
     line.body("sledge").massless().outline([[0, 0], [1, 0]]);
     let two = told(&line);
