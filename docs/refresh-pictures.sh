@@ -26,6 +26,7 @@ draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
 draw telescopic-boom.svg models/telescopic-boom.toml
 draw clamp.svg docs/src/examples/clamp.toml
+draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
 
 # plot FILE ARGUMENTS...: limits with a plot.

@@ -156,7 +156,7 @@ impl Painter<'_> {
     fn pad_force(&mut self, pad: &Pad) {
         let Some(slide) = self.slide(pad.joint) else { return };
         let Some(stop) = slide.stops[usize::from(pad.greatest)] else { return };
-        let Ok(force) = self.actual.pad_force(self.mechanism, pad) else { return };
+        let Some(force) = self.actual.pad_force(self.mechanism, pad) else { return };
         if force > 0.0 {
             let away = slide.guide.along * -pad.sense();
             let length = self.options.force_scale.map_or(ARROW, |scale| (scale * force).min(LONGEST_LOAD));

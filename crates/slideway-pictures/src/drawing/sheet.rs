@@ -183,7 +183,7 @@ impl Drawn<'_> {
     fn greatest_load(&self) -> f64 {
         let Self { mechanism, configuration, .. } = self;
         let loads = mechanism.loads.iter().filter_map(|load| match &load.kind {
-            LoadKind::Pad(pad) => configuration.pad_force(mechanism, pad).ok(),
+            LoadKind::Pad(pad) => configuration.pad_force(mechanism, pad),
             _ => load_force(mechanism, configuration, load).map(|force| force.norm()),
         });
         let weights = mechanism.bodies.iter().map(|body| (mechanism.gravity * body.mass).norm());

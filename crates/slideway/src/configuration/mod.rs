@@ -24,7 +24,6 @@ pub(crate) use joint_equations::JointEquations;
 pub use mobility::{Mobility, Redundancy};
 pub(crate) use mobility::{advance, free_motions, motion_in_words, motions_without_inertia, null_space};
 
-use crate::expression::ExpressionFault;
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
@@ -207,13 +206,11 @@ impl<T: Real> Configuration<T> {
         [pad.sense() * (displacement - pad.place), pad.sense() * velocity]
     }
 
-    /// The force with which a pad pushes its block back (N), eq. max(0, k d + c d') at the depth d.
-    ///
-    /// # Errors
-    /// A force that is not finite.
-    pub fn pad_force(&self, mechanism: &Mechanism<T>, pad: &Pad<T>) -> Result<T, ExpressionFault> {
+    /// The force with which a pad pushes its block back (N), max(0, k d + c d') at the depth d; none if it is
+    /// not finite.
+    pub fn pad_force(&self, mechanism: &Mechanism<T>, pad: &Pad<T>) -> Option<T> {
         let pieces = self.pieces.as_deref().map_or(&[][..], |pieces| pieces.of(pad.formula));
-        pad.force(&self.depth(mechanism, pad), pieces)
+        pad.force(&self.depth(mechanism, pad), pieces).ok()
     }
 
     /// A direction of the drawing, turned with a frame.

@@ -46,6 +46,11 @@ use entry::{Entries, Table, line};
 /// The fixed frame, where a body is expected.
 pub const GROUND: Frame = Frame::Ground;
 
+/// A text in quotation marks, as a model file has it.
+pub(crate) fn quoted(value: &str) -> String {
+    quantity::text(value).written().to_owned()
+}
+
 /// A mechanism that is being put together. See the [module](self) for an example.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {

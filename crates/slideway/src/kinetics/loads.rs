@@ -228,7 +228,7 @@ impl<T: Real> Loads<'_, T> {
     /// Pushes the block away from the end of its travel, and the guide the other way.
     fn pad(&mut self, load: &Load<T>, pad: &Pad<T>) -> Result<(), Fault> {
         let Some(slider) = self.mechanism.slider(pad.joint) else { return Ok(()) };
-        let force = self.configuration.pad_force(self.mechanism, pad).map_err(|_| {
+        let force = self.configuration.pad_force(self.mechanism, pad).ok_or_else(|| {
             let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
             Fault::new(kind, load.place.clone())
         })?;
