@@ -15,7 +15,7 @@ use super::ContactStates;
 use super::bodies::lean;
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
-use slideway::mechanism::{JointKind, Mechanism, Shape, Slider, rot90};
+use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
 use slideway::model::SliderKind;
 
 /// Places nearer to a line than this part of the size of the mechanism lie on it, as rounding goes.
@@ -111,7 +111,7 @@ fn of_geometry(mechanism: &Mechanism, slider: &Slider, cuts: &[Option<[f64; 2]>]
     }
     let is_torn = slider.block.body().is_some_and(|body| cuts[body.index()].is_some());
     let mut contacts = slider.contacts.iter().map(|id| &mechanism.contacts[id.index()]);
-    if is_torn && slider.guide == Frame::Ground && contacts.all(|contact| contact.is_frictionless()) {
+    if is_torn && slider.guide == Frame::Ground && contacts.all(Contact::is_frictionless) {
         return Look::Rollers;
     }
     face_side(mechanism, slider).map_or(Look::Walls, Look::Face)

@@ -289,7 +289,7 @@ fn chained(paths: Vec<Path>, near: f64) -> (Vec<Vec<Vector2<f64>>>, usize) {
         }
         match corners[..] {
             [first, _, .., last] if corners.len() > 3 && (first - last).norm() <= near => {
-                closed.push(corners)
+                closed.push(corners);
             }
             _ => open += count,
         }

@@ -12,8 +12,7 @@ const IN_A_LINE: usize = 4;
 /// The text of the model.
 pub(super) fn model(bodies: &Bodies, unit: Unit, title: Option<&str>) -> String {
     let corners = bodies.layers.iter().flat_map(|body| &body.outline);
-    let size =
-        corners.chain(bodies.spots.iter().map(|spot| &spot.at)).map(|place| place.amax()).fold(0.0, f64::max);
+    let size = corners.chain(bodies.spots.iter().map(|spot| &spot.at)).map(Vector2::amax).fold(0.0, f64::max);
     let writer = Writer { bodies, unit, decimals: decimals(size) };
     let mut text = writer.head();
     if let Some(title) = title {
