@@ -21,17 +21,13 @@ fn imported(drawing: &str) -> String {
 
 /// The mechanism of an imported model, each body on a guide of its own.
 fn mechanism(text: &str) -> Mechanism {
-    let heads = text.lines().filter_map(|line| line.strip_prefix("[bodies."));
-    let guides: String = heads
-        .map(|head| head.split(']').next().unwrap())
-        .map(|body| {
-            format!(
-                "\n[joints.guide_{body}]\ntype = \"guided_slider\"\nblock = \"{body}\"\nat = [0, 0]\nalong = 0\n\
-                 length = 1\nmu = 0\n"
-            )
-        })
-        .collect();
-    Mechanism::new(&Model::parse(&format!("{text}{guides}")).unwrap()).unwrap()
+    let mut model = text.to_owned();
+    for head in text.lines().filter_map(|line| line.strip_prefix("[bodies.")) {
+        let body = head.split(']').next().unwrap();
+        model += &format!("\n[joints.guide_{body}]\ntype = \"guided_slider\"\nblock = \"{body}\"\n");
+        model += "at = [0, 0]\nalong = 0\nlength = 1\nmu = 0\n";
+    }
+    Mechanism::new(&Model::parse(&model).unwrap()).unwrap()
 }
 
 fn outline(mechanism: &Mechanism, body: &str) -> Vec<Vector2<f64>> {
