@@ -8,6 +8,7 @@ use slideway::Model;
 use slideway::import::{ImportFault, ImportOptions, Unit, dxf};
 use slideway::mechanism::Mechanism;
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 /// Coordinates have the decimals of the greatest one, which has nine digits: with some 200 mm they are right to
 /// 5e-10 m, and distances to this.
@@ -24,7 +25,7 @@ fn mechanism(text: &str) -> Mechanism {
     let mut model = text.to_owned();
     for head in text.lines().filter_map(|line| line.strip_prefix("[bodies.")) {
         let body = head.split(']').next().unwrap();
-        model += &format!("\n[joints.guide_{body}]\ntype = \"guided_slider\"\nblock = \"{body}\"\n");
+        let _ = writeln!(model, "\n[joints.guide_{body}]\ntype = \"guided_slider\"\nblock = \"{body}\"");
         model += "at = [0, 0]\nalong = 0\nlength = 1\nmu = 0\n";
     }
     Mechanism::new(&Model::parse(&model).unwrap()).unwrap()
