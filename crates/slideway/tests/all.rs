@@ -20,3 +20,5 @@ mod mutations;
 mod raw_problem;
 mod settings;
 mod sweep;
+mod units;
+mod warnings;
