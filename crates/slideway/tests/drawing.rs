@@ -176,3 +176,22 @@ fn an_outline_is_checked() {
     let two = told(&line);
     assert!(two.contains("`bodies.sledge.outline` must have at least 3 values, not 2"), "{two}");
 }
+
+/// A corner that is a named point is that point: limits over a parameter that moves it are those of the model
+/// without outline, whose margin is not linear in the parameter. Small corners raise no doubt about units.
+#[test]
+fn a_named_corner_is_its_point() {
+    use slideway::Report;
+    use slideway::limits::{LimitsOptions, Vary, limits};
+    let text = gallery::find("drawer").unwrap().text;
+    let corners = "outline = [[0, \"a\"], \"handle\", [\"0.001 um\", \"-a\"]]\n";
+    let outlined = text.replace("[bodies.drawer]\n", &format!("[bodies.drawer]\n{corners}"));
+    assert_ne!(outlined, text);
+    let answers = [text, &outlined].map(|text| {
+        let model = Model::parse(text).unwrap();
+        let doubts = slideway::warning::warnings(&model).to_string();
+        let over = |name: &str| limits(&model, &LimitsOptions::new(Vary::usual(name))).unwrap().json();
+        (over("a"), over("L"), over("mu"), doubts)
+    });
+    assert_eq!(answers[0], answers[1]);
+}

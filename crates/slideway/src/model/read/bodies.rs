@@ -6,7 +6,7 @@ use super::super::{Attachment, Body, Inertia, Moment, NamedPoint};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
-use crate::ids::{BodyId, Frame};
+use crate::ids::{BodyId, FormulaId, Frame};
 use std::sync::Arc;
 
 impl Reader<'_> {
@@ -37,9 +37,7 @@ impl Reader<'_> {
             if let Some(table) = &entry.contents {
                 points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
                 inertia = self.inertia(table, &entry.name, &entry.span);
-                let corners = table.outline.iter().flatten();
-                let what = format!("a corner of the outline of {}", entry.name);
-                outline = corners.map(|corner| self.place(corner, &what)).collect();
+                outline = self.outline(table, &entry.name);
             } else {
                 self.unread_bodies.push(BodyId(index));
             }
@@ -47,6 +45,15 @@ impl Reader<'_> {
             bodies.push(Body { name: Arc::from(entry.name), place, inertia, points, outline });
         }
         bodies
+    }
+
+    fn outline(&mut self, table: &BodyTable, name: &str) -> Vec<[FormulaId; 2]> {
+        let corners = table.outline.iter().flatten();
+        let what = format!("a corner of the outline of {name}");
+        let before = self.formulas.len();
+        let outline = corners.map(|corner| self.place(corner, &what)).collect();
+        self.looks.extend((before..self.formulas.len()).map(FormulaId));
+        outline
     }
 
     fn body_points(&mut self, names: &[Name], body: BodyId) -> Vec<NamedPoint> {
