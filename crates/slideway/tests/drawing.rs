@@ -190,8 +190,10 @@ fn a_named_corner_is_its_point() {
     let answers = [text, &outlined].map(|text| {
         let model = Model::parse(text).unwrap();
         let doubts = slideway::warning::warnings(&model).to_string();
-        let over = |name: &str| limits(&model, &LimitsOptions::new(Vary::usual(name))).unwrap().json();
-        (over("a"), over("L"), over("mu"), doubts)
+        let over = |name: &str, from: &str, to: &str| {
+            limits(&model, &LimitsOptions::new(Vary::between(name, from, to))).unwrap().json()
+        };
+        (over("a", "0.1 m", "0.4 m"), over("L", "0.2 m", "0.5 m"), over("mu", "0", "1"), doubts)
     });
     assert_eq!(answers[0], answers[1]);
 }
