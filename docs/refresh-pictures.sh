@@ -25,6 +25,8 @@ draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set directio
 draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150 deg"
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
 draw telescopic-boom.svg models/telescopic-boom.toml
+draw clamp.svg docs/src/examples/clamp.toml
+draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
 
 # plot FILE ARGUMENTS...: limits with a plot.

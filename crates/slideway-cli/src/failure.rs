@@ -4,6 +4,7 @@ use crate::diagnostics::{self, Note};
 use crate::faulty_input::FaultyInput;
 use crate::halt::Halt;
 use crate::outcome::Outcome;
+use slideway::import::ImportFault;
 use slideway::raw_problem::RawFaults;
 use slideway_pictures::NotFinite;
 use std::fmt;
@@ -25,6 +26,8 @@ pub(crate) enum Failure {
     NoProblem { path: PathBuf },
     /// The problem makes no sense.
     Problem { name: String, faults: RawFaults },
+    /// The drawing makes no sense.
+    Drawing { name: String, fault: ImportFault },
     /// There is no such model in the gallery.
     UnknownModel { name: String, nearest: Option<String> },
     /// Only the telescopic boom has stages.
@@ -115,6 +118,7 @@ impl Failure {
                 format!("`{}` cannot be read: {}", path.display(), reason(error))
             }
             Self::Input(_) | Self::Problem { .. } => String::new(),
+            Self::Drawing { name, fault } => format!("`{name}` cannot be imported: {fault}"),
             Self::UnknownModel { name, .. } => format!("the gallery has no model `{name}`"),
             Self::NoStages { name } => format!("`{name}` has no stages"),
             Self::StageCount { stages, most } => {

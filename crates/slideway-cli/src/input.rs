@@ -85,7 +85,11 @@ impl Input {
         Ok([x, y])
     }
 
-    fn warn(&self, warnings: Faults) -> Result<(), Failure> {
+    /// Tells of warnings.
+    ///
+    /// # Errors
+    /// The warnings if they are to be errors.
+    pub(crate) fn warn(&self, warnings: Faults) -> Result<(), Failure> {
         if warnings.is_empty() {
             return Ok(());
         }

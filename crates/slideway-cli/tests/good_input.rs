@@ -39,6 +39,7 @@ golden! {
     check_drawer: 0 ["check", "models/drawer.toml"];
     check_bracket: 2 ["check", "models/bracket-on-pole.toml"];
     check_bracket_json: 2 ["check", "models/bracket-on-pole.toml", "--format", "json"];
+    import_bracket: 0 ["import", "docs/src/examples/bracket.dxf"];
     check_redundant: 2 ["check", "crates/slideway-cli/tests/bad/redundant.toml"];
     check_not_assembled: 2 ["check", "crates/slideway-cli/tests/bad/short-rod.toml"];
     check_at_rest: 2 ["check", KLEPP, "--rate", "q=0"];
@@ -310,4 +311,21 @@ fn schema_and_completions_are_printed() {
         assert!(run.stdout.contains("slideway"));
     }
     assert!(slideway(&["--version"]).stdout.starts_with("slideway "));
+}
+
+/// All that an imported model lacks is its joints, and a file that is no drawing is refused.
+#[test]
+fn an_imported_model_is_to_be_completed() {
+    let imported = slideway(&["import", "docs/src/examples/bracket.dxf"]);
+    let check = slideway_reading(&["check", "-"], imported.stdout.as_bytes());
+    assert_eq!(check.code, 2);
+    assert!(
+        check.stderr.contains("`joints` is missing") && check.stderr.contains("1 fault"),
+        "{}",
+        check.stderr
+    );
+    let model = slideway(&["import", DRAWER]);
+    assert_eq!((model.code, model.stdout.as_str()), (2, ""));
+    assert!(model.stderr.contains("line 1 should be a group code"), "{}", model.stderr);
+    assert_eq!(slideway(&["check", "docs/src/examples/bracket.toml"]).code, 0);
 }

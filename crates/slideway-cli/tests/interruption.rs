@@ -147,7 +147,8 @@ fn an_interrupted_search_tells_what_it_has_found() {
 
 #[test]
 fn an_interrupted_stream_of_rows_says_how_far_it_came() {
-    let words = ["sweep", "models/klepp-2002.toml", "--vary", "alpha=1.1..1.4:3000001", "--no-breakpoints"];
+    let words =
+        ["sweep", "models/klepp-2002.toml", "--vary", "alpha=1.1 rad..1.4 rad:3000001", "--no-breakpoints"];
     let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
     let (code, said, _) = signalled(&words, "-TERM");
     assert_eq!(code, Some(130), "{said}");

@@ -35,6 +35,8 @@ told! {
     bare_coordinate: 0 ["solve", DRAWER, "--at", "out=0.1"];
     bare_range: 0 ["limits", DRAWER, "--vary", "depth=0.2..450 mm"];
     bare_axis: 0 ["map", DRAWER, "--x", "mu=0..1", "--y", "a=0.1..0.2", "--size", "20x20", "--output", MAP, "--force"];
+    bare_values_of_a_sweep: 0 ["sweep", DRAWER, "--vary", "depth=450 mm,0.5", "--vary", "a=0.1..0.2:2"];
+    bare_samples: 0 ["sweep", DRAWER, "--vary", "a=normal(200 mm, 0.01)", "--samples", "2"];
     lengths_far_apart: 0 ["solve", LENGTHS];
     gap_closed: 0 ["solve", ENGINE];
     far_from_drawing: 0 ["solve", LONG, "--at", "out=100 m"];

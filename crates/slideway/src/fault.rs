@@ -233,6 +233,8 @@ pub enum FaultKind {
     WrongType { place: String, wanted: String, found: &'static str },
     #[error("`{place}` must have {wanted} values, not {found}")]
     WrongLength { place: String, wanted: u64, found: usize },
+    #[error("`{place}` must have at least {least} values, not {found}")]
+    TooShort { place: String, least: u64, found: usize },
     #[error("{owner} has both `{first}` and `{second}`")]
     Both { owner: String, first: &'static str, second: &'static str },
     #[error("{owner} has {}", none_of(one_of))]

@@ -22,7 +22,7 @@
 //! ```
 //!
 //! A mechanism comes from code ([`drawing`]) or from a model file ([`Model::parse`]); [`Settings`] change its
-//! numbers.
+//! numbers. [`import`] makes a model to complete from a DXF drawing.
 //!
 //! [`solve::solve`] does everything; the data flows through the modules in this order, each arrow one pure
 //! function:
@@ -63,6 +63,7 @@ pub mod expression;
 pub mod fault;
 pub mod gallery;
 pub mod ids;
+pub mod import;
 pub mod influence;
 pub mod kinetics;
 pub mod limits;

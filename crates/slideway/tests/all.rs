@@ -10,6 +10,7 @@ mod exact_arithmetic;
 mod expression;
 mod expression_properties;
 mod extremes;
+mod import;
 mod limits_curves;
 mod map;
 mod motion_outcomes;

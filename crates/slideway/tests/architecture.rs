@@ -21,6 +21,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("report", &["fault", "ids", "printable", "units"]),
     ("attainability", &["configuration", "kinetics", "mechanism", "modes", "report"]),
     ("pattern", &["ids", "mechanism", "model", "modes"]),
+    ("import", &["drawing", "expression", "model", "printable"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
 ];

@@ -135,3 +135,65 @@ fn points_of_the_same_name_are_told_apart() {
     // The spring is stretched by 0.5 m, the damper by 0.5 m/s.
     assert!((answer.solutions[0].coordinate(x).acceleration + 6.0).abs() < 1e-12);
 }
+
+/// A sledge that is drawn as a wedge, its top corner `height` above the track.
+fn outlined(height: &str) -> Drawing {
+    let mut d = Drawing::new();
+    d.parameter("h", height);
+    let sledge = d.body("sledge").mass(2).centre([0, 0]).inertia(0.1).outline([
+        ["0 m", "0 m"],
+        ["40 cm", "0 m"],
+        ["0 m", "h"],
+    ]);
+    let sledge = sledge.id();
+    let track = d.block_slider("track", sledge, GROUND).at([0, 0]).length("20 cm").mu(0.2).id();
+    d.force("pull", sledge).at(["0 m", "5 cm"]).components([10, 0]);
+    d.slide("x", track).rate(1);
+    d
+}
+
+#[test]
+fn an_outline_is_for_looks_only() {
+    use nalgebra::Vector2;
+    use slideway::mechanism::Mechanism;
+    let model = outlined("10 cm").build().unwrap();
+    let mechanism = Mechanism::new(&model).unwrap();
+    let corners = [Vector2::new(0.0, 0.0), Vector2::new(0.4, 0.0), Vector2::new(0.0, 0.1)];
+    assert_eq!(mechanism.bodies[0].outline, corners);
+    // Forces, accelerations and the unit of length of the mechanism are those of any other outline.
+    let huge = outlined("10 km").build().unwrap();
+    assert_eq!(Mechanism::new(&huge).unwrap().size, mechanism.size);
+    assert_eq!(solve(&huge).unwrap().solutions, solve(&model).unwrap().solutions);
+}
+
+#[test]
+fn an_outline_is_checked() {
+    let told = |drawing: &Drawing| drawing.build().unwrap_err().to_string();
+    assert!(told(&outlined("2 kg")).contains("a mass where a length is expected"));
+    assert!(told(&outlined("1 m/0")).contains("division by zero"));
+    let mut line = Drawing::new();
+    line.body("sledge").massless().outline([[0, 0], [1, 0]]);
+    let two = told(&line);
+    assert!(two.contains("`bodies.sledge.outline` must have at least 3 values, not 2"), "{two}");
+}
+
+/// A corner that is a named point is that point: limits over a parameter that moves it are those of the model
+/// without outline, whose margin is not linear in the parameter. Small corners raise no doubt about units.
+#[test]
+fn a_named_corner_is_its_point() {
+    use slideway::Report;
+    use slideway::limits::{LimitsOptions, Vary, limits};
+    let text = gallery::find("drawer").unwrap().text;
+    let corners = "outline = [[0, \"a\"], \"handle\", [\"0.001 um\", \"-a\"]]\n";
+    let outlined = text.replace("[bodies.drawer]\n", &format!("[bodies.drawer]\n{corners}"));
+    assert_ne!(outlined, text);
+    let answers = [text, &outlined].map(|text| {
+        let model = Model::parse(text).unwrap();
+        let doubts = slideway::warning::warnings(&model).to_string();
+        let over = |name: &str, from: &str, to: &str| {
+            limits(&model, &LimitsOptions::new(Vary::between(name, from, to))).unwrap().json()
+        };
+        (over("a", "0.1 m", "0.4 m"), over("L", "0.2 m", "0.5 m"), over("mu", "0", "1"), doubts)
+    });
+    assert_eq!(answers[0], answers[1]);
+}

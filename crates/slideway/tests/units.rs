@@ -30,7 +30,7 @@ fn with_key(key: &str) -> Model {
     Model::parse(&format!("units = \"{key}\"\n{}", drawer())).expect("a sound model")
 }
 
-fn text<R: Report>(report: R) -> String {
+fn text<R: Report>(report: &R) -> String {
     report.text(Style::Plain)
 }
 
@@ -82,7 +82,7 @@ fn bare_numbers_count_as_si_units() {
 fn a_parameter_is_shown_as_it_was_typed_last() {
     let typed = model().with(&Settings::default().parameter("L", "50 cm")).expect("a length");
     let report = size(&typed, &SizeOptions::new(Vary::usual("L"), 2.0)).expect("an answer");
-    assert_shows(&text(report), &["In the model L = 50 cm", "L in cm"], &[" mm"]);
+    assert_shows(&text(&report), &["In the model L = 50 cm", "L in cm"], &[" mm"]);
     // A number without a unit is no unit.
     let bare = model().with(&Settings::default().parameter("L", 0.5)).expect("a length");
     assert_eq!(bare.units.parameter("L", "m").show(0.5), "500 mm");
@@ -92,7 +92,7 @@ fn a_parameter_is_shown_as_it_was_typed_last() {
 fn solve_shows_forces_speeds_and_coordinates() {
     let report = solve(&model()).expect("an answer");
     let shown = ["x = 0 mm, rate 100 mm/s", "normal force in kN", "sliding in mm/s", "0.036364"];
-    assert_shows(&text(report), &shown, &["in N ", "in m/s"]);
+    assert_shows(&text(&report), &shown, &["in N ", "in m/s"]);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn limits_show_ends_and_conclusions() {
     let report = limits(&model(), &options).expect("an answer");
     // The drawer jams below L = 2 a mu = 180 mm.
     assert_shows(
-        &text(report),
+        &text(&report),
         &["L from 180 to 500 mm: one solution", "from in mm", "in the model 400 mm"],
         &[],
     );
@@ -109,13 +109,13 @@ fn limits_show_ends_and_conclusions() {
     let options = LimitsOptions::new(Vary::between("L", "10 cm", "50 cm"));
     let report = limits(&model(), &options).expect("an answer");
     assert_shows(
-        &text(report),
+        &text(&report),
         &["L from 18 to 50 cm: one solution", "from in cm", "in the model 40 cm"],
         &[],
     );
     let options = LimitsOptions::new(Vary::between("L", "10 cm", "50 cm"));
     let report = limits(&with_key("SI"), &options).expect("an answer");
-    assert_shows(&text(report), &["L from 0.18 to 0.5 m: one solution"], &["cm"]);
+    assert_shows(&text(&report), &["L from 0.18 to 0.5 m: one solution"], &["cm"]);
 }
 
 #[test]
@@ -136,21 +136,21 @@ fn drive_shows_efforts_and_what_is_varied() {
     let report = drive(&model(), &options).expect("an answer");
     let shown =
         ["push needs 0.036364 kN instead of 0.02 kN", "push in kN", "L in mm", "x = 0 mm, rate 100 mm/s"];
-    assert_shows(&text(report), &shown, &[" N instead"]);
+    assert_shows(&text(&report), &shown, &[" N instead"]);
 }
 
 #[test]
 fn size_shows_the_dimension() {
     // A margin of 2: L = 2 * 2 a mu = 360 mm.
     let report = size(&model(), &SizeOptions::new(Vary::usual("L"), 2.0)).expect("an answer");
-    assert_shows(&text(report), &["L at least 360 mm", "L in mm", "from in mm"], &["0.36"]);
+    assert_shows(&text(&report), &["L at least 360 mm", "L in mm", "from in mm"], &["0.36"]);
 }
 
 #[test]
 fn hold_shows_loads_and_reactions() {
     let options = HoldOptions::default().load("push");
     let report = hold(&model(), &options).expect("an answer");
-    assert_shows(&text(report), &["At rest at x = 0 mm", "normal force in kN", " kN"], &["in N "]);
+    assert_shows(&text(&report), &["At rest at x = 0 mm", "normal force in kN", " kN"], &["in N "]);
 }
 
 #[test]
@@ -159,9 +159,9 @@ fn check_shows_masses_lengths_and_what_has_moved() {
     let report = check(&moved).expect("an answer");
     let shown =
         ["overlap in mm", "450", "50 mm", "100 mm/s", "moved from the drawing by in mm", "turned by in deg"];
-    assert_shows(&text(report), &shown, &["overlap in m "]);
+    assert_shows(&text(&report), &shown, &["overlap in m "]);
     assert_shows(
-        &text(check(&model()).expect("an answer")),
+        &text(&check(&model()).expect("an answer")),
         &["drawer slides along (1, 0)"],
         &["moved from"],
     );
@@ -173,7 +173,7 @@ fn simulate_shows_coordinates() {
     let model = Model::parse(&released).expect("a sound model");
     let history = simulate(&model, &SimulateOptions::new(0.01)).expect("a motion");
     let report = slideway::motion::report(&history, &SimulateOptions::new(0.01));
-    assert_shows(&text(report), &["At the start: x = 0 mm, rate 100 mm/s"], &[" m, rate"]);
+    assert_shows(&text(&report), &["At the start: x = 0 mm, rate 100 mm/s"], &[" m, rate"]);
 }
 
 #[test]
@@ -181,10 +181,10 @@ fn maps_show_their_axes() {
     let options =
         MapOptions::new(Vary::between("mu", "0", "1"), Vary::between("a", "0 cm", "50 cm")).size(20, 20);
     assert_shows(
-        &text(map(&model(), &options).expect("a map")),
+        &text(&map(&model(), &options).expect("a map")),
         &["a from 0 to 50 cm", "mu from 0 to 1\n"],
         &[],
     );
     let options = MapOptions::new(Vary::between("mu", "0", "1"), Vary::between("a", 0.0, 0.5)).size(20, 20);
-    assert_shows(&text(map(&model(), &options).expect("a map")), &["a from 0 to 500 mm"], &[]);
+    assert_shows(&text(&map(&model(), &options).expect("a map")), &["a from 0 to 500 mm"], &[]);
 }

@@ -5,6 +5,7 @@ mod destination;
 mod draw;
 mod drive;
 mod hold;
+mod import;
 mod limits;
 mod map;
 mod model;
@@ -25,6 +26,7 @@ pub(crate) use destination::{CheckFormat, Destination, Format};
 pub(crate) use draw::{DrawArguments, Which};
 pub(crate) use drive::DriveArguments;
 pub(crate) use hold::{Drives, HoldArguments};
+pub(crate) use import::ImportArguments;
 pub(crate) use limits::LimitsArguments;
 pub(crate) use map::MapArguments;
 pub(crate) use model::ModelArguments;
@@ -73,6 +75,7 @@ Examples:
   slideway draw drawer.toml -o drawer.svg       a picture of it and its contact modes
   slideway sweep drawer.toml --vary mu=0..1:101 --output drawer.csv
   slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
+  slideway import drawing.dxf -o drawer.toml    a model to complete, from a DXF drawing
   slideway modes problem.json                   all solutions of an LCP or similar
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 invalid input,
@@ -120,6 +123,9 @@ pub(crate) enum Command {
     /// List the gallery of models, or write one of them
     #[command(after_help = models::HELP)]
     Models(ModelsArguments),
+    /// Make a model to complete from a DXF drawing
+    #[command(after_help = import::HELP)]
+    Import(ImportArguments),
     /// Print the JSON Schema of model files, for editors
     #[command(after_help = SCHEMA_HELP)]
     Schema,

@@ -85,12 +85,11 @@ impl ModelArguments {
         ];
         for (kind, texts) in kinds {
             for text in texts {
-                match setting(kind, text) {
-                    Some(setting) => settings = settings.with(setting),
-                    None => {
-                        let kind = FaultKind::MalformedSetting { text: text.clone() };
-                        faults.push(Fault::of_argument(kind, text, 0..text.len()));
-                    }
+                if let Some(setting) = setting(kind, text) {
+                    settings = settings.with(setting);
+                } else {
+                    let kind = FaultKind::MalformedSetting { text: text.clone() };
+                    faults.push(Fault::of_argument(kind, text, 0..text.len()));
                 }
             }
         }

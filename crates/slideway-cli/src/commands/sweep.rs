@@ -26,6 +26,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, output: &Output) -> Result<Outco
     let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let options = arguments.options().map_err(|faults| input.refused(faults))?;
+    input.warn(options.points.warnings(&model))?;
     let path = destination.path().filter(|path| !is_special(path));
     let limit = arguments.time.time_limit;
     let mut watch = if path.is_some() { Watch::new(limit) } else { Watch::beside_rows(limit) };

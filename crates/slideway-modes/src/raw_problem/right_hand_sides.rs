@@ -81,7 +81,7 @@ impl RawProblem {
     /// let m = nalgebra::dmatrix![1.0, 2.0; 2.0, 1.0];
     /// let problem = RawProblem::LinearComplementarity { m, q: nalgebra::dvector![1.0, 1.0] };
     /// let every = problem.every_right_hand_side(&mut |_| ControlFlow::Continue(()))?;
-    /// The minor of both is 1 - 4.
+    /// // The minor of both is 1 - 4.
     /// assert_eq!(every.answer, EveryAnswer::NotOne);
     /// # Ok::<(), slideway_modes::ModeProblemError>(())
     /// ```

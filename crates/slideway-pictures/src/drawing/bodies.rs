@@ -1,8 +1,10 @@
 //! Bodies, hinges and centres of mass.
 
 use super::Painter;
+use super::looks::{self, Look, sliders};
 use super::outline::{Local, capsule, disc, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
+use super::sliders::{BELT, Slide};
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame};
 use slideway::mechanism::{Attachment, JointKind, LoadKind, Mechanism, Shape, Slider};
@@ -12,10 +14,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Half the width of a bar of no particular width.
 const BAR: f64 = 5.0;
 /// Radius of a hinge.
-const HINGE: f64 = 5.0;
+pub(super) const HINGE: f64 = 5.0;
 
 impl Painter<'_> {
-    /// Plates first, then ground, then blocks and bars, each guide before what slides in it.
+    /// Plates first, then ground, then blocks and bars, each guide before what slides in it; wedges in front
+    /// of all.
     pub(super) fn bodies(&mut self) {
         let count = self.mechanism.bodies.len();
         let mut order: Vec<BodyId> = (0..count).map(BodyId).collect();
@@ -23,22 +26,45 @@ impl Painter<'_> {
             |body: &BodyId| matches!(self.mechanism.bodies[body.index()].shape, Some(Shape::Disc(_)));
         order.sort_by_key(|body| !is_disc(body));
         self.walls_behind_plates();
-        for body in &order {
-            let mut parts: Vec<Vec<Point>> = self.drawn_plate(*body).into_iter().collect();
-            if !parts.is_empty() {
-                parts.extend(self.housings(*body));
-                self.union(&parts);
-                self.channels(*body);
-            }
-        }
+        let (wedges, plates): (Vec<BodyId>, Vec<BodyId>) =
+            order.iter().partition(|body| self.is_wedge(**body));
+        plates.into_iter().for_each(|body| self.plates(body));
         self.ground_of_slides();
         let depths = self.depths();
         order.sort_by_key(|body| (depths[body.index()], !self.has_block(*body), body.index()));
         for body in order {
             self.links(body);
         }
+        wedges.into_iter().for_each(|body| self.plates(body));
         self.pads();
         self.centres_of_mass();
+    }
+
+    /// The plate of a body with its slots, if it has one.
+    fn plates(&mut self, body: BodyId) {
+        let mut parts = self.drawn_plates(body);
+        if !parts.is_empty() {
+            parts.extend(self.housings(body));
+            self.union(&parts);
+            self.channels(body);
+        }
+    }
+
+    /// Whether a body is drawn as a wedge that only its joints tell.
+    fn is_wedge(&self, body: BodyId) -> bool {
+        let properties = &self.mechanism.bodies[body.index()];
+        properties.shape.is_none() && properties.outline.is_empty() && self.plate(body).is_some()
+    }
+
+    /// Whether the outline of a body, or a plate that rests on its face, shows what the block looks like.
+    fn shows_block(&self, slide: &Slide, body: BodyId) -> bool {
+        if !self.mechanism.bodies[body.index()].outline.is_empty() || slide.look == Look::Rollers {
+            return true;
+        }
+        let Look::Face(side) = slide.look else { return false };
+        let face = slide.guide.origin - slide.guide.across * (side * slide.half_channel());
+        let plate = self.plate(body).unwrap_or_default();
+        plate.iter().any(|corner| (corner - face).dot(&slide.guide.across).abs() < 1.0)
     }
 
     /// Blocks, rods, sleeves and bars of a body.
@@ -47,11 +73,11 @@ impl Painter<'_> {
         let has_plate = self.plate(body).is_some();
         let mut parts = Vec::new();
         for slide in self.sliders.clone().into_iter().flatten() {
-            if slide.inner().0 == frame && slide.kind != SliderKind::Pin {
+            if slide.inner().0 == frame && slide.kind != SliderKind::Pin && !self.shows_block(&slide, body) {
                 parts.push(slide.core());
                 parts.extend(slide.collars());
             }
-            if slide.outer().0 == frame && slide.around {
+            if slide.outer().0 == frame && slide.around && !self.shows_block(&slide, body) {
                 parts.push(slide.housing());
             }
         }
@@ -75,19 +101,25 @@ impl Painter<'_> {
         }
     }
 
-    /// Walls around the slots of a body.
+    /// Walls around the slots of a body, and what carries the faces of one that has no plate.
     fn housings(&self, body: BodyId) -> Vec<Vec<Point>> {
+        let properties = &self.mechanism.bodies[body.index()];
+        if !properties.outline.is_empty() {
+            return Vec::new();
+        }
+        let is_bare = properties.shape.is_none();
         let slides = self.sliders.iter().flatten();
         slides
             .filter(|slide| !slide.around && slide.guide_frame == Frame::Body(body))
-            .map(super::sliders::Slide::housing)
+            .filter(|slide| slide.has_walls() || (is_bare && matches!(slide.look, Look::Face(_))))
+            .map(Slide::housing)
             .collect()
     }
 
     /// The free space of the slots of a body.
     fn channels(&mut self, body: BodyId) {
         for slide in self.sliders.clone().into_iter().flatten() {
-            if slide.around || slide.guide_frame != Frame::Body(body) {
+            if slide.around || slide.guide_frame != Frame::Body(body) || !slide.has_walls() {
                 continue;
             }
             self.area(Class::Slot, slide.channel());
@@ -143,17 +175,16 @@ impl Painter<'_> {
             .any(|slide| slide.kind != SliderKind::Pin && slide.block_frame == Frame::Body(body))
     }
 
-    /// The outline of a rectangle or disc.
+    /// The outline of a body, if the model gives one or it is a rectangle, a disc or a wedge.
     pub(super) fn plate(&self, body: BodyId) -> Option<Vec<Point>> {
-        let centre = self.centre(body);
-        let scale = self.view.scale;
+        let frame = Frame::Body(body);
+        if let Some(corners) = looks::corners(self.mechanism, body) {
+            let corners = corners.into_iter();
+            return Some(corners.map(|position| self.attached(&Attachment { frame, position })).collect());
+        }
         match self.mechanism.bodies[body.index()].shape? {
-            Shape::Bar(_) => None,
-            Shape::Disc(radius) => Some(disc(centre, radius * scale)),
-            Shape::Rectangle(sides) => {
-                let half = sides.map(|side| 0.5 * side * scale);
-                Some(self.plate_axes(body).rectangle([-half[0], half[0]], [-half[1], half[1]]))
-            }
+            Shape::Disc(radius) => Some(disc(self.centre(body), radius * self.view.scale)),
+            Shape::Bar(_) | Shape::Rectangle(_) => None,
         }
     }
 
@@ -164,12 +195,35 @@ impl Painter<'_> {
         Local { origin: self.centre(body), along, across: turned(along) }
     }
 
-    /// The outline of a rectangle or disc as it is drawn: a far end of a rectangle is torn off.
-    fn drawn_plate(&self, body: BodyId) -> Option<Vec<Point>> {
+    /// The outline of a body as it is drawn: a far end of a rectangle is torn off.
+    pub(super) fn drawn_plate(&self, body: BodyId) -> Option<Vec<Point>> {
+        let Some(torn) = self.torn_plate(body) else { return self.plate(body) };
+        Some(torn.part([-torn.half, torn.half]))
+    }
+
+    /// The same in parts: of a belt its two runs.
+    fn drawn_plates(&self, body: BodyId) -> Vec<Vec<Point>> {
+        let frame = Frame::Body(body);
+        let is_belt = self
+            .sliders
+            .iter()
+            .flatten()
+            .any(|slide| slide.block_frame == frame && slide.look == Look::Rollers);
+        match self.torn_plate(body) {
+            Some(torn) if is_belt => {
+                let inside = (torn.half - BELT).max(0.0);
+                [[-torn.half, -inside], [inside, torn.half]].map(|run| torn.part(run)).to_vec()
+            }
+            _ => self.drawn_plate(body).into_iter().collect(),
+        }
+    }
+
+    /// A rectangle with a torn end.
+    fn torn_plate(&self, body: BodyId) -> Option<TornPlate> {
         let (Some(Shape::Rectangle(sides)), Some(cut)) =
             (self.mechanism.bodies[body.index()].shape, self.view.cuts[body.index()])
         else {
-            return self.plate(body);
+            return None;
         };
         let axes = self.plate_axes(body);
         let [width, height] = sides.map(|side| side * self.view.scale);
@@ -178,11 +232,8 @@ impl Painter<'_> {
         } else {
             (Local { along: -axes.across, across: axes.along, ..axes }, height, 0.5 * width)
         };
-        let [from, to] = cut.map(|end| end * self.view.scale);
-        let mut outline = edge(&local, from, from > -0.5 * length, half);
-        outline.reverse();
-        outline.extend(edge(&local, to, to < 0.5 * length, half));
-        Some(outline)
+        let ends = cut.map(|end| end * self.view.scale);
+        Some(TornPlate { local, ends, torn: [ends[0] > -0.5 * length, ends[1] < 0.5 * length], half })
     }
 
     /// The centre of mass of a body in the drawing.
@@ -192,6 +243,9 @@ impl Painter<'_> {
 
     /// Bars of a body: its shape, or what joins its places.
     fn bars(&self, body: BodyId) -> Vec<Vec<Point>> {
+        if !self.mechanism.bodies[body.index()].outline.is_empty() {
+            return Vec::new();
+        }
         let frame = Frame::Body(body);
         let places = self.places(body);
         match self.mechanism.bodies[body.index()].shape {
@@ -207,12 +261,14 @@ impl Painter<'_> {
                 }
                 bars
             }
-            Some(_) => {
-                let (plate, centre) = (self.plate(body).unwrap_or_default(), self.centre(body));
-                let outside = places.into_iter().filter(|place| !is_inside(&plate, *place));
-                outside.map(|place| capsule(centre, place, BAR)).collect()
-            }
-            None => joined(&places, self.has_block(body)),
+            shape => match self.plate(body) {
+                Some(plate) => {
+                    let outside = places.into_iter().filter(|place| !is_inside(&plate, *place));
+                    outside.map(|place| capsule(nearest(&plate, place), place, BAR)).collect()
+                }
+                None if shape.is_none() => joined(&places, self.has_block(body)),
+                None => Vec::new(),
+            },
         }
     }
 
@@ -330,17 +386,42 @@ impl Painter<'_> {
 /// of inertia leaves that open.
 pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
     let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
-    let sliders = mechanism.joints.iter().filter_map(|joint| match &joint.kind {
-        JointKind::Slider(slider) => Some(slider),
-        JointKind::Hinge(_) => None,
-    });
-    let tangent = sliders.into_iter().find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
+    let mut all = sliders(mechanism).map(|(_, slider)| slider);
+    let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
     let angle = tangent.y.atan2(tangent.x);
     angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
 }
 
+/// A rectangle that may be torn off at its ends.
+struct TornPlate {
+    local: Local,
+    ends: [f64; 2],
+    torn: [bool; 2],
+    half: f64,
+}
+
+impl TornPlate {
+    /// The part between two lines along it.
+    fn part(&self, [least, greatest]: [f64; 2]) -> Vec<Point> {
+        let middle = self.local.across * (0.5 * (least + greatest));
+        let local = Local { origin: self.local.origin + middle, ..self.local };
+        let half = 0.5 * (greatest - least);
+        let mut outline = edge(&local, self.ends[0], self.torn[0], half);
+        outline.reverse();
+        outline.extend(edge(&local, self.ends[1], self.torn[1], half));
+        outline
+    }
+}
+
+/// The place of the edge of a polygon that is nearest to another place.
+fn nearest(polygon: &[Point], place: Point) -> Point {
+    let next = polygon.iter().cycle().skip(1);
+    let sides = polygon.iter().zip(next).map(|(from, to)| nearest_on_line(place, [*from, *to]));
+    sides.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(place, |(_, nearest)| nearest)
+}
+
 /// An end of a plate across `local`, from one side to the other; a zigzag where the plate is torn off.
-fn edge(local: &Local, along: f64, is_torn: bool, half: f64) -> Vec<Point> {
+pub(super) fn edge(local: &Local, along: f64, is_torn: bool, half: f64) -> Vec<Point> {
     const TOOTH: f64 = 9.0;
     const DEPTH: f64 = 4.0;
     if !is_torn {
@@ -362,7 +443,7 @@ fn joined(places: &[Point], has_block: bool) -> Vec<Vec<Point>> {
     let corners = hull(places);
     match corners[..] {
         [] => Vec::new(),
-        [only] if has_block => vec![disc(only, BAR)],
+        [_] if has_block => Vec::new(),
         [only] => vec![disc(only, 2.0 * BAR)],
         [from, to] => vec![capsule(from, to, BAR)],
         _ => {

@@ -1,6 +1,7 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
 use super::labels::{obstacles, reserve};
+use super::looks::Look;
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::sliders::Slide;
@@ -90,6 +91,9 @@ impl Painter<'_> {
                 continue;
             };
             let Some(contact) = slider.contacts.first() else { continue };
+            if slide.look == (Look::Shoe { is_first: false }) {
+                continue;
+            }
             let velocity = self.actual.contact(mechanism, *contact).sliding_velocity;
             let velocity = if slide.block_frame == Frame::Ground { -velocity } else { velocity };
             // The velocity of a joint that sticks is rounding.

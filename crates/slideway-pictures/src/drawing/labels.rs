@@ -34,7 +34,7 @@ const MET: f64 = 3.0;
 /// What a unit costs by which a label makes the drawing wider or higher.
 const OUTSIDE: f64 = 0.15;
 /// What it costs to cover a place of an arrow; of a dimension it is more.
-const IMPORTANT: f64 = 4.0;
+const IMPORTANT: f64 = 10.0;
 /// Free space around a label.
 const MARGIN: f64 = 2.0;
 /// Distance of the places of a line that labels keep clear of.

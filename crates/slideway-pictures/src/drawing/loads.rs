@@ -7,7 +7,7 @@ use super::view::is_zero;
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
 use slideway::ids::{BodyId, Frame};
-use slideway::mechanism::{Attachment, Drive, Effort, JointKind, Load, LoadKind, Mechanism, Quantity};
+use slideway::mechanism::{Attachment, Drive, Effort, JointKind, Load, LoadKind, Mechanism, Pad, Quantity};
 use std::f64::consts::TAU;
 
 /// Length of an arrow that is not to scale.
@@ -129,7 +129,7 @@ impl Painter<'_> {
         }
     }
 
-    /// Forces and torques, the efforts of the drives and, where forces are to scale, weights.
+    /// Forces and torques, the efforts of the drives, the forces of pads, and weights.
     pub(super) fn loads(&mut self) {
         let mechanism = self.mechanism;
         for load in &mechanism.loads {
@@ -142,14 +142,29 @@ impl Painter<'_> {
                         self.torque(Class::Load, *body, moment.unwrap_or(1.0), text);
                     }
                 }
+                LoadKind::Pad(pad) => self.pad_force(pad),
                 _ => {}
             }
         }
         for (index, drive) in mechanism.drives.iter().enumerate() {
             self.drive(index, drive);
         }
-        if self.options.force_scale.is_some() {
-            self.weights();
+        self.weights();
+    }
+
+    /// The force of a pad on the block that it meets, where they meet.
+    fn pad_force(&mut self, pad: &Pad) {
+        let Some(slide) = self.slide(pad.joint) else { return };
+        let Some(stop) = slide.stops[usize::from(pad.greatest)] else { return };
+        let Some(force) = self.actual.pad_force(self.mechanism, pad) else { return };
+        if force > 0.0 {
+            let away = slide.guide.along * -pad.sense();
+            let length = self.options.force_scale.map_or(ARROW, |scale| (scale * force).min(LONGEST_LOAD));
+            let face = slide.guide.at(stop.face, 0.0);
+            self.arrow(Class::Load, face, face + away * length, format!("pad {}", self.shown(force, "N")));
+            if self.options.force_scale.is_some_and(|scale| scale * force > LONGEST_LOAD) {
+                self.broken(face + away * (0.45 * length), away);
+            }
         }
     }
 
@@ -172,7 +187,8 @@ impl Painter<'_> {
     fn force(&mut self, class: Class, at: Attachment, force: Vector2<f64>, text: String) {
         let place = self.attached(&at);
         let direction = self.view.direction(force / force.norm());
-        let to_scale = self.options.force_scale.map(|scale| scale * force.norm());
+        let is_known = class != Class::Drive;
+        let to_scale = self.options.force_scale.filter(|_| is_known).map(|scale| scale * force.norm());
         let is_broken = to_scale.is_some_and(|length| length > LONGEST_LOAD);
         let length = to_scale.map_or(ARROW, |length| length.min(LONGEST_LOAD));
         let centre = at.frame.body().map_or(place, |body| self.centre(body));
@@ -264,7 +280,7 @@ impl Painter<'_> {
             let weight = mechanism.gravity * body.mass;
             if weight.norm() > 0.0 {
                 let at = Attachment { frame: Frame::Body(BodyId(index)), position: body.centre_of_mass };
-                self.force(Class::Load, at, weight, self.shown(weight.norm(), "N"));
+                self.force(Class::Load, at, weight, format!("weight {}", self.shown(weight.norm(), "N")));
             }
         }
     }

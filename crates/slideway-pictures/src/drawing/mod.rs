@@ -12,6 +12,7 @@ mod dimensions;
 mod forces;
 mod labels;
 mod loads;
+mod looks;
 mod outline;
 mod scene;
 mod sheet;
@@ -26,7 +27,9 @@ pub use view::View;
 
 pub(crate) use sheet::{answer, nice};
 
+use bodies::HINGE;
 use labels::Label;
+use looks::{Look, looks};
 use sliders::Slide;
 use slideway::configuration::Configuration;
 use slideway::ids::JointId;
@@ -136,7 +139,10 @@ pub fn scene(
     view: &View,
     options: &SceneOptions,
 ) -> Scene {
-    let played = if options.play { displaced(mechanism, configuration, states, view) } else { None };
+    let looks = looks(mechanism, states, &view.cuts);
+    let play = Play { mechanism, configuration, states, view, looks: &looks };
+    let played = if options.play { play.displaced() } else { None };
+    let is_exaggerated = played.is_some() && play.gaps().any(|gap| gap > 0.0);
     let mut painter = Painter {
         mechanism,
         actual: configuration,
@@ -145,8 +151,9 @@ pub fn scene(
         states,
         view,
         options,
+        looks,
         sliders: Vec::new(),
-        scene: Scene::default(),
+        scene: Scene { is_exaggerated, ..Scene::default() },
         labels: Vec::new(),
     };
     painter.sliders = painter.slides();
@@ -198,31 +205,40 @@ impl SceneOptions {
 const GREATEST_ROTATION: f64 = 0.25;
 const GREATEST_DISPLACEMENT: f64 = 60.0;
 
-/// The configuration with play, and the part of the full play: less where levers magnify it. None where the
-/// state is singular.
-fn displaced(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    states: &ContactStates,
-    view: &View,
-) -> Option<(Configuration, f64)> {
-    let full: Vec<f64> = mechanism
-        .contacts
-        .iter()
-        .enumerate()
-        .map(|(index, contact)| {
-            -states.side(index) * sliders::gap(mechanism, contact.joint, configuration, view) / view.scale
+/// What decides where the blocks lie in their guides.
+struct Play<'a> {
+    mechanism: &'a Mechanism,
+    configuration: &'a Configuration,
+    states: &'a ContactStates,
+    view: &'a View,
+    looks: &'a [Look],
+}
+
+impl Play<'_> {
+    /// The full play at every contact, in drawing units.
+    fn gaps(&self) -> impl Iterator<Item = f64> {
+        self.mechanism.contacts.iter().map(|contact| {
+            let look = self.looks[contact.joint.index()];
+            sliders::gap(self.mechanism, (contact.joint, look), self.configuration, self.view)
         })
-        .collect();
-    [1.0, 0.7, 0.5, 0.3, 0.15, 0.05].into_iter().find_map(|part| {
-        let displacements: Vec<f64> = full.iter().map(|displacement| part * displacement).collect();
-        let moved = configuration.displaced(mechanism, &displacements)?;
-        let is_near = moved.poses.iter().zip(&configuration.poses).all(|(new, old)| {
-            (new.angle() - old.angle()).abs() < GREATEST_ROTATION
-                && (new.position - old.position).norm() * view.scale < GREATEST_DISPLACEMENT
-        });
-        is_near.then_some((moved, part))
-    })
+    }
+
+    /// The configuration with play, and the part of the full play: less where levers magnify it. None where
+    /// the state is singular.
+    fn displaced(&self) -> Option<(Configuration, f64)> {
+        let scale = self.view.scale;
+        let full: Vec<f64> =
+            self.gaps().enumerate().map(|(index, gap)| -self.states.side(index) * gap / scale).collect();
+        [1.0, 0.7, 0.5, 0.3, 0.15, 0.05].into_iter().find_map(|part| {
+            let displacements: Vec<f64> = full.iter().map(|displacement| part * displacement).collect();
+            let moved = self.configuration.displaced(self.mechanism, &displacements)?;
+            let is_near = moved.poses.iter().zip(&self.configuration.poses).all(|(new, old)| {
+                (new.angle() - old.angle()).abs() < GREATEST_ROTATION
+                    && (new.position - old.position).norm() * scale < GREATEST_DISPLACEMENT
+            });
+            is_near.then_some((moved, part))
+        })
+    }
 }
 
 /// A scene that is being drawn.
@@ -236,6 +252,8 @@ struct Painter<'a> {
     states: &'a ContactStates,
     view: &'a View,
     options: &'a SceneOptions,
+    /// What the joints look like.
+    looks: Vec<Look>,
     /// The sliding joints, by the index of the joint.
     sliders: Vec<Option<Slide>>,
     scene: Scene,

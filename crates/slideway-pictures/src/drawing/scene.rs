@@ -128,6 +128,8 @@ pub struct Bounds {
 pub struct Scene {
     /// The shapes.
     pub elements: Vec<Element>,
+    /// Whether the play of guides is drawn greater than it is.
+    pub is_exaggerated: bool,
 }
 
 impl Bounds {

@@ -5,7 +5,7 @@ use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::{ContactStates, NAME_SIZE, SceneOptions, VALUE_SIZE, View, dimensions, quantity, scene, signs};
 use crate::typeface::width;
 use slideway::configuration::Configuration;
-use slideway::mechanism::Mechanism;
+use slideway::mechanism::{LoadKind, Mechanism};
 use slideway::report::{CoordinateState, Solution, SolveReport, Status};
 use slideway::units::{Unit, Units};
 
@@ -24,6 +24,9 @@ const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
 /// Distance of lines of text, in sizes.
 const LINE: f64 = 1.4;
+
+/// What is said of a picture whose guides have play that can be seen.
+pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
 
 /// Which solutions are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,7 +139,9 @@ impl Drawn<'_> {
     }
 
     fn overview(&self) -> Panel {
-        let options = SceneOptions::overview();
+        let greatest = self.greatest_load();
+        let force_scale = (greatest > 0.0).then_some(LONGEST_FORCE / greatest);
+        let options = SceneOptions { force_scale, ..SceneOptions::overview() };
         let states = ContactStates::default();
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
         let lines = match self.report {
@@ -146,7 +151,7 @@ impl Drawn<'_> {
             _ => Vec::new(),
         };
         let caption = Caption { heading: "The mechanism, to scale".to_owned(), lines };
-        Panel { scene, caption, force_scale: None }
+        Panel { scene, caption, force_scale }
     }
 
     fn solution(&self, solution: &Solution, heading: String, names: bool) -> Panel {
@@ -159,6 +164,7 @@ impl Drawn<'_> {
         let mut lines: Vec<String> =
             solution.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode)).collect();
         lines.push(solution.attainability.in_words());
+        lines.extend(scene.is_exaggerated.then(|| EXAGGERATED.to_owned()));
         let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
         let force_scale = (greatest > 0.0).then_some(force_scale);
         Panel { scene, caption: Caption { heading, lines }, force_scale }
@@ -172,10 +178,18 @@ impl Drawn<'_> {
         if greatest > 0.0 {
             return greatest;
         }
-        let loads = self.mechanism.loads.iter().filter_map(|load| {
-            load_force(self.mechanism, self.configuration, load).map(|force| force.norm())
+        self.greatest_load()
+    }
+
+    /// The greatest of the known loads and weights (N).
+    fn greatest_load(&self) -> f64 {
+        let Self { mechanism, configuration, .. } = self;
+        let loads = mechanism.loads.iter().filter_map(|load| match &load.kind {
+            LoadKind::Pad(pad) => configuration.pad_force(mechanism, pad),
+            _ => load_force(mechanism, configuration, load).map(|force| force.norm()),
         });
-        loads.fold(0.0, f64::max)
+        let weights = mechanism.bodies.iter().map(|body| (mechanism.gravity * body.mass).norm());
+        loads.chain(weights).fold(0.0, f64::max)
     }
 }
 
@@ -280,7 +294,9 @@ impl Layout<'_> {
             let force = nice(0.7 * LONGEST_FORCE / scale, &unit);
             let from = Point::new(right + 26.0, corner.y);
             let to = from + Point::new(force * scale, 0.0);
-            scene.add(Class::Reaction, Shape::Arrow { from, to });
+            let shows_reactions = panel.scene.elements.iter().any(|element| element.class == Class::Reaction);
+            let class = if shows_reactions { Class::Reaction } else { Class::Load };
+            scene.add(class, Shape::Arrow { from, to });
             beside(scene, to, quantity(force, &unit));
         }
     }

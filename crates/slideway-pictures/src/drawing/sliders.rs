@@ -1,11 +1,13 @@
 //! Sliding joints: walls, slots, rods, blocks and pins.
 
-use super::outline::{Local, capsule};
+use super::bodies::edge;
+use super::looks::{Look, corners, on_rail_of, sliders};
+use super::outline::{Local, capsule, turned};
 use super::scene::{Class, Point};
 use super::stops::{EndStop, reach_along};
-use super::{Painter, View};
+use super::{HINGE, Painter, View};
 use slideway::configuration::Configuration;
-use slideway::ids::{Frame, JointId};
+use slideway::ids::{ContactId, Frame, JointId};
 use slideway::mechanism::{Attachment, JointKind, Mechanism, Shape, Slider, rot90};
 use slideway::model::{CarriedBy, SliderKind};
 
@@ -15,6 +17,15 @@ const LEAST_HEIGHT: f64 = 9.0;
 pub(super) const PIN: f64 = 5.5;
 /// Half the space between a block and its walls where no contact mode is shown.
 const NO_PLAY: f64 = 1.0;
+/// Height of a block that is a body of its own on a face, in lengths, and the greatest.
+const NUT: f64 = 0.3;
+const HIGHEST_NUT: f64 = 60.0;
+/// Half the length of a shoe, and the radius of the foot on a flank.
+const SHOE: f64 = 12.0;
+const FOOT: f64 = 8.0;
+/// Thickness of a belt, and the least radius of its rollers.
+pub(super) const BELT: f64 = 5.0;
+const LEAST_ROLLER: f64 = 3.0;
 /// Thickness of the walls of a slot in a body.
 pub(super) const WALL: f64 = 6.0;
 
@@ -22,6 +33,7 @@ pub(super) const WALL: f64 = 6.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slide {
     pub(super) kind: SliderKind,
+    pub(super) look: Look,
     pub(super) around: bool,
     pub(super) block_frame: Frame,
     pub(super) guide_frame: Frame,
@@ -35,6 +47,8 @@ pub(super) struct Slide {
     pub(super) guide_reach: [f64; 2],
     /// Which ends of the guide, rear and front, are open: the block leaves it there.
     pub(super) open: [bool; 2],
+    /// Which ends of the block are torn off, as the model does not say where they are.
+    pub(super) torn: [bool; 2],
     /// What stands at the least and at the greatest displacement.
     pub(super) stops: [Option<EndStop>; 2],
     /// Drawn distance of the rubbing faces.
@@ -80,7 +94,13 @@ impl Slide {
         if self.kind == SliderKind::Pin {
             return capsule(local.at(from, 0.0), local.at(to, 0.0), half);
         }
-        local.rectangle([from - end(self.open[0]), to + end(self.open[1])], [-half, half])
+        match self.look {
+            Look::Face(side) => {
+                let face = -side * self.half_channel();
+                local.rectangle([from, to], [face, face - side * WALL])
+            }
+            _ => local.rectangle([from - end(self.open[0]), to + end(self.open[1])], [-half, half]),
+        }
     }
 
     /// The free space in the outer part.
@@ -95,16 +115,30 @@ impl Slide {
 
     /// The inner part.
     pub(super) fn core(&self) -> Vec<Point> {
-        let (_, local, reach) = self.inner();
+        let (_, local, [from, to]) = self.inner();
         let half = 0.5 * self.height;
-        local.rectangle(reach, [-half, half])
+        let torn = self.torn.map(|is_torn| is_torn && !self.around);
+        let mut outline = edge(&local, from, torn[0], half);
+        outline.reverse();
+        outline.extend(edge(&local, to, torn[1], half));
+        outline
+    }
+
+    /// Whether the guide has walls that are drawn with this joint.
+    pub(super) fn has_walls(&self) -> bool {
+        matches!(self.look, Look::Walls | Look::Shoe { is_first: true })
     }
 }
 
 /// Play of a sliding joint in drawing units: enough to be seen, and not so much that a block seems to fall
 /// over.
-pub(super) fn gap(mechanism: &Mechanism, joint: JointId, configuration: &Configuration, view: &View) -> f64 {
-    let Some(slider) = mechanism.slider(joint) else { return 0.0 };
+pub(super) fn gap(
+    mechanism: &Mechanism,
+    (joint, look): (JointId, Look),
+    configuration: &Configuration,
+    view: &View,
+) -> f64 {
+    let Some(slider) = mechanism.slider(joint).filter(|_| look.has_play()) else { return 0.0 };
     match slider.kind {
         SliderKind::Pin => 4.5,
         SliderKind::Guided => 5.0,
@@ -119,16 +153,36 @@ impl Painter<'_> {
     /// All sliding joints, by the index of their joint.
     pub(super) fn slides(&self) -> Vec<Option<Slide>> {
         let joints = self.mechanism.joints.iter().enumerate();
-        joints
+        let mut slides: Vec<Option<Slide>> = joints
             .map(|(index, joint)| match &joint.kind {
                 JointKind::Hinge(_) => None,
                 JointKind::Slider(slider) => Some(self.slide_of(JointId(index), slider)),
             })
-            .collect()
+            .collect();
+        for index in 0..slides.len() {
+            if let Some(reach) = self.rail(JointId(index), &slides)
+                && let Some(slide) = &mut slides[index]
+            {
+                slide.guide_reach = reach;
+            }
+        }
+        slides
+    }
+
+    /// From where to where the rail of a first shoe reaches: as far as the guides of all its shoes.
+    fn rail(&self, joint: JointId, slides: &[Option<Slide>]) -> Option<[f64; 2]> {
+        let first = slides[joint.index()].filter(|slide| slide.look == Look::Shoe { is_first: true })?;
+        let all = on_rail_of(self.mechanism, joint).into_iter().filter_map(|id| slides[id.index()]);
+        let ends = all.flat_map(|slide| slide.guide_reach.map(|end| slide.guide.at(end, 0.0)));
+        ends.map(|end| [(end - first.guide.origin).dot(&first.guide.along); 2])
+            .reduce(|[least, greatest], [other, _]| [least.min(other), greatest.max(other)])
     }
 
     fn slide_of(&self, joint: JointId, slider: &Slider) -> Slide {
-        let [block, guide] = [slider.block, slider.guide].map(|frame| self.local(frame, slider));
+        let look = self.looks[joint.index()];
+        let height = self.drawn_height(slider, look);
+        let lift = if let Look::Face(side) = look { 0.5 * side * height } else { 0.0 };
+        let [block, guide] = [slider.block, slider.guide].map(|frame| self.local(frame, slider, lift));
         let is_pin = slider.kind == SliderKind::Pin;
         let scale = self.view.scale;
         let half = 0.5 * slider.length * scale;
@@ -139,20 +193,23 @@ impl Painter<'_> {
             contact.is_some_and(|contact| contact.carried_by == CarriedBy::Guide)
         });
         let drawn = half.max(if is_pin { 0.0 } else { 7.0 });
-        let reach = |is_open: bool, displacement: f64| {
-            if is_open {
-                [drawn - displacement + beyond, drawn]
-            } else {
-                [drawn, drawn + displacement + beyond]
+        let own = self.own_ends(slider.block, &block);
+        // At an open end, where the block leaves the guide, and where it ends itself if that is known.
+        let reach = |end: usize, displacement: f64| {
+            let mouth = drawn - displacement;
+            match own.map(|own| own[end]) {
+                _ if !open[end] => [drawn, drawn + displacement + beyond],
+                Some(own) if own > 0.0 => [own.max(mouth), drawn],
+                _ => [mouth + beyond, drawn],
             }
         };
-        let rear = reach(open[0], -if open[0] { greatest } else { least });
-        let front = reach(open[1], if open[1] { least } else { greatest });
-        let height = if is_pin { 2.0 * PIN } else { (slider.height.abs() * scale).max(LEAST_HEIGHT) };
-        let full = gap(self.mechanism, joint, self.configuration, self.view);
+        let rear = reach(0, -if open[0] { greatest } else { least });
+        let front = reach(1, if open[1] { least } else { greatest });
+        let full = gap(self.mechanism, (joint, look), self.configuration, self.view);
         let gap = self.play.map_or(NO_PLAY, |part| part * full);
         let mut slide = Slide {
             kind: slider.kind,
+            look,
             around: slider.around,
             block_frame: slider.block,
             guide_frame: slider.guide,
@@ -161,13 +218,12 @@ impl Painter<'_> {
             block_reach: [-rear[0], front[0]],
             guide_reach: [-rear[1], front[1]],
             open,
+            torn: [0, 1].map(|end| open[end] && own.is_none_or(|own| own[end] <= 0.0)),
             stops: [None; 2],
             height,
-            gap,
+            gap: if look.has_play() { gap } else { 0.0 },
         };
-        if is_pin {
-            self.fill_plate(&mut slide);
-        }
+        self.within_plate(&mut slide);
         slide.stops = self.end_stops(joint, slider, &slide);
         for (end, stop) in slide.guide_reach.iter_mut().zip(slide.stops) {
             *end = stop.map_or(*end, |stop| stop.wall);
@@ -175,35 +231,63 @@ impl Painter<'_> {
         slide
     }
 
-    /// The middle of the block as a place of a frame, with the axes of the guide turned with it.
-    fn local(&self, frame: Frame, slider: &Slider) -> Local {
-        let middle = Attachment { frame, position: slider.at };
-        let tangent = self.configuration.direction(frame, slider.tangent);
-        Local {
-            origin: self.view.place(self.configuration.position(self.mechanism, &middle)),
-            along: self.view.direction(tangent),
-            across: self.view.direction(rot90(tangent)),
+    fn drawn_height(&self, slider: &Slider, look: Look) -> f64 {
+        let scale = self.view.scale;
+        let is_nut = |body| corners(self.mechanism, body).is_none();
+        match look {
+            Look::Flank(_) => 0.0,
+            Look::Face(_) if slider.block.body().is_some_and(is_nut) => {
+                (NUT * slider.length * scale).clamp(LEAST_HEIGHT, HIGHEST_NUT)
+            }
+            _ if slider.kind == SliderKind::Pin => 2.0 * PIN,
+            _ => (slider.height.abs() * scale).max(LEAST_HEIGHT),
         }
     }
 
-    /// A slot in a plate reaches from edge to edge of it.
-    fn fill_plate(&self, slide: &mut Slide) {
+    /// How far a body reaches to the rear and to the front of the middle of its block, if the model says it.
+    fn own_ends(&self, frame: Frame, block: &Local) -> Option<[f64; 2]> {
+        let body = frame.body()?;
+        if let Some([least, greatest]) = self.drawn_plate(body).and_then(|plate| reach_along(&plate, block)) {
+            return Some([-least, greatest]);
+        }
+        let Some(Shape::Bar(ends)) = self.mechanism.bodies[body.index()].shape else { return None };
+        let along = ends.map(|position| {
+            (self.attached(&Attachment { frame, position }) - block.origin).dot(&block.along)
+        });
+        Some([-along[0].min(along[1]), along[0].max(along[1])])
+    }
+
+    /// The middle of the block as a place of a frame, moved by `lift` across the guide, with the axes of the
+    /// guide turned with it.
+    fn local(&self, frame: Frame, slider: &Slider, lift: f64) -> Local {
+        let middle = Attachment { frame, position: slider.at };
+        let tangent = self.configuration.direction(frame, slider.tangent);
+        let across = self.view.direction(rot90(tangent));
+        let middle = self.view.place(self.configuration.position(self.mechanism, &middle));
+        Local { origin: middle + across * lift, along: self.view.direction(tangent), across }
+    }
+
+    /// A slot in a plate reaches from edge to edge of it, and none reaches beyond an outline.
+    fn within_plate(&self, slide: &mut Slide) {
         const INSET: f64 = 20.0;
-        let Some(body) = slide.guide_frame.body() else { return };
-        let Some(Shape::Rectangle(_)) = self.mechanism.bodies[body.index()].shape else { return };
-        let Some(plate) = self.plate(body) else { return };
-        if let Some([least, greatest]) = reach_along(&plate, &slide.guide)
-            && least + INSET < slide.guide_reach[0] + 32.0
-            && greatest - INSET > slide.guide_reach[1] - 32.0
-        {
+        let Some(body) = slide.guide_frame.body().filter(|_| !slide.around) else { return };
+        let Some([least, greatest]) = self.plate(body).and_then(|plate| reach_along(&plate, &slide.guide))
+        else {
+            return;
+        };
+        let [from, to] = slide.guide_reach;
+        if slide.kind == SliderKind::Pin && least + INSET < from + 32.0 && greatest - INSET > to - 32.0 {
             slide.guide_reach = [least + INSET, greatest - INSET];
+        } else if !self.mechanism.bodies[body.index()].outline.is_empty() {
+            slide.guide_reach = [from.max(least), to.min(greatest)];
         }
     }
 
     /// Whether the walls of ground lie behind a plate that is higher than the space between them, as if on a
     /// rail.
     fn is_behind_plate(&self, slide: &Slide) -> bool {
-        if slide.around || slide.kind == SliderKind::Pin || slide.guide_frame != Frame::Ground {
+        let is_pin = slide.kind == SliderKind::Pin;
+        if slide.around || is_pin || slide.guide_frame != Frame::Ground || !slide.has_walls() {
             return false;
         }
         let plate = slide.block_frame.body().and_then(|body| self.plate(body));
@@ -226,7 +310,9 @@ impl Painter<'_> {
 
     /// Walls and rods that belong to ground; walls behind a plate are dashed where it hides them.
     pub(super) fn ground_of_slides(&mut self) {
-        for slide in self.sliders.clone().into_iter().flatten() {
+        let mechanism = self.mechanism;
+        for (joint, slider) in sliders(mechanism) {
+            let Some(slide) = self.slide(joint) else { continue };
             if self.is_behind_plate(&slide) {
                 let [from, to] = slide.guide_reach;
                 let half = slide.half_channel();
@@ -234,7 +320,11 @@ impl Painter<'_> {
                     let ends = vec![slide.guide.at(from, side), slide.guide.at(to, side)];
                     self.line(Class::HiddenWall, ends);
                 }
-            } else if slide.outer().0 == Frame::Ground {
+            } else if slide.look == Look::Rollers {
+                self.rollers(&slide, &slider.contacts);
+            } else if slide.outer().0 == Frame::Ground
+                && (slide.has_walls() || matches!(slide.look, Look::Face(_)))
+            {
                 self.walls(&slide);
             }
             if slide.inner().0 == Frame::Ground && slide.kind != SliderKind::Pin {
@@ -248,7 +338,9 @@ impl Painter<'_> {
         let half = slide.half_channel();
         // n points to the left of u in a world with y upwards, and y points down here: the wall at +n has its
         // outer side to the left of the way along u.
-        for (start, end, side) in [(from, to, half), (to, from, -half)] {
+        let block_side = if let Look::Face(side) = slide.look { side } else { 0.0 };
+        let walls = [(from, to, half), (to, from, -half)];
+        for (start, end, side) in walls.into_iter().filter(|(.., side)| side * block_side <= 0.0) {
             let (start, end) = (local.at(start, side), local.at(end, side));
             self.line(Class::Wall, vec![start, end]);
             self.hatching(start, end);
@@ -278,13 +370,48 @@ impl Painter<'_> {
         }
     }
 
-    /// Pins, above everything that slides.
+    /// The rollers of a belt, where its contacts with ground are.
+    fn rollers(&mut self, slide: &Slide, contacts: &[ContactId]) {
+        let Some(body) = slide.block_frame.body() else { return };
+        let plate = self.plate(body).unwrap_or_default();
+        let across = |corner: &Point| (corner - slide.guide.origin).dot(&slide.guide.across).abs();
+        let half = plate.iter().map(across).fold(f64::INFINITY, f64::min);
+        let radius = (half - BELT).max(LEAST_ROLLER);
+        for contact in contacts {
+            let place = self.view.place(self.configuration.contact(self.mechanism, *contact).point);
+            self.circle(Class::Fixed, place, radius);
+            self.circle(Class::Hinge, place, HINGE.min(0.5 * radius));
+        }
+    }
+
+    /// Pins, shoes and feet, above everything that slides.
     pub(super) fn pins(&mut self) {
         for slide in self.sliders.clone().into_iter().flatten() {
-            if slide.kind == SliderKind::Pin {
-                let class = if slide.block_frame == Frame::Ground { Class::Fixed } else { Class::Pin };
-                self.circle(class, slide.block.origin, PIN);
+            let place = slide.block.origin;
+            match slide.look {
+                Look::Flank(side) => self.area(Class::Pin, foot(place, slide.guide.across * side)),
+                Look::Shoe { .. } => {
+                    let shoe = Local { origin: place, ..slide.guide };
+                    self.area(Class::Pin, shoe.rectangle([-SHOE, SHOE], [-PIN, PIN]));
+                    self.circle(Class::Hinge, place, 0.5 * PIN);
+                }
+                _ if slide.kind == SliderKind::Pin => {
+                    let class = if slide.block_frame == Frame::Ground { Class::Fixed } else { Class::Pin };
+                    self.circle(class, place, PIN);
+                }
+                _ => {}
             }
         }
     }
+}
+
+/// Half a disc that stands on a flank, in the direction away from that.
+fn foot(place: Point, away: Point) -> Vec<Point> {
+    const CORNERS: i32 = 12;
+    let along = turned(away);
+    let corner = |index: i32| {
+        let (sin, cos) = (std::f64::consts::PI * f64::from(index) / f64::from(CORNERS)).sin_cos();
+        place + (along * cos + away * sin) * FOOT
+    };
+    (0..=CORNERS).map(corner).collect()
 }

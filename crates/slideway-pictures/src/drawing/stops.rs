@@ -90,13 +90,19 @@ impl Painter<'_> {
             return None;
         }
         let block = slide.block_reach[end].abs();
+        let is_outlined = slide
+            .block_frame
+            .body()
+            .is_some_and(|body| !self.mechanism.bodies[body.index()].outline.is_empty());
         let plate = slide.block_frame.body().and_then(|body| {
             let reach = reach_along(&self.plate(body)?, &slide.block)?;
             Some((reach[end].abs(), self.view.cuts[body.index()].is_none()))
         });
         match plate {
             Some((_, false)) => None,
-            Some((plate, true)) if plate > block => Some(BlockEnd { distance: plate, is_plate: true }),
+            Some((plate, true)) if plate > block || is_outlined => {
+                Some(BlockEnd { distance: plate, is_plate: true })
+            }
             _ => Some(BlockEnd { distance: block, is_plate: false }),
         }
     }

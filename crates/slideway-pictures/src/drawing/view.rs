@@ -1,6 +1,7 @@
 //! From metres to drawing units, and how far guides reach.
 
 use super::bodies::lean;
+use super::looks::corners;
 use super::scene::{Bounds, Point};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
@@ -87,7 +88,7 @@ fn cut(
     scale: f64,
 ) -> Option<[f64; 2]> {
     let Some(Shape::Rectangle([width, height])) = mechanism.bodies[body.index()].shape else { return None };
-    if !is_long(mechanism, [width, height]) {
+    if !is_long(mechanism, [width, height]) || !mechanism.bodies[body.index()].outline.is_empty() {
         return None;
     }
     let upright = if width >= height { 0.0 } else { std::f64::consts::FRAC_PI_2 };
@@ -118,9 +119,15 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
     for (index, body) in mechanism.bodies.iter().enumerate() {
         let frame = Frame::Body(BodyId(index));
         let centre = configuration.poses[index].position;
+        let place = |position| configuration.position(mechanism, &Attachment { frame, position });
+        if body.shape.is_none() || !body.outline.is_empty() {
+            let corners = corners(mechanism, BodyId(index)).unwrap_or_default();
+            places.extend(corners.into_iter().map(place));
+            places.push(centre);
+            continue;
+        }
         match body.shape {
             Some(Shape::Bar(ends)) => {
-                let place = |position| configuration.position(mechanism, &Attachment { frame, position });
                 places.extend(ends.map(place));
             }
             Some(Shape::Rectangle([width, height])) => {
@@ -135,7 +142,7 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
                 let across = Vector2::new(radius, radius);
                 places.extend([centre - across, centre + across]);
             }
-            None => places.push(centre),
+            None => {}
         }
     }
     for joint in &mechanism.joints {

@@ -207,7 +207,7 @@ fn is_slider(mechanism: &Mechanism, joint: JointId) -> bool {
 /// Coordinate values in words.
 fn state(mechanism: &Mechanism, values: &[f64]) -> String {
     let one = |(coordinate, value): (&crate::mechanism::Coordinate, &f64)| {
-        format!("{} = {}", coordinate.name, mechanism.units.of(unit(&coordinate.kind)).show(*value))
+        format!("{} = {}", coordinate.name, mechanism.units.of(unit(&coordinate.kind)).precise(*value))
     };
     let list: Vec<String> = mechanism.coordinates.iter().zip(values).map(one).collect();
     list.join(", ")

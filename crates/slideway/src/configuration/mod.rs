@@ -207,6 +207,13 @@ impl<T: Real> Configuration<T> {
         [pad.sense() * (displacement - pad.place), pad.sense() * velocity]
     }
 
+    /// The force with which a pad pushes its block back (N), max(0, k d + c d') at the depth d; none if it is
+    /// not finite.
+    pub fn pad_force(&self, mechanism: &Mechanism<T>, pad: &Pad<T>) -> Option<T> {
+        let pieces = self.pieces.as_deref().map_or(&[][..], |pieces| pieces.of(pad.formula));
+        pad.force(&self.depth(mechanism, pad), pieces).ok()
+    }
+
     /// A direction of the drawing, turned with a frame.
     pub fn direction(&self, frame: Frame, drawn: Vector2<T>) -> Vector2<T> {
         turned(&self.poses, frame, drawn)

@@ -46,6 +46,11 @@ use entry::{Entries, Table, line};
 /// The fixed frame, where a body is expected.
 pub const GROUND: Frame = Frame::Ground;
 
+/// A text in quotation marks, as a model file has it.
+pub(crate) fn quoted(value: &str) -> String {
+    quantity::text(value).written().to_owned()
+}
+
 /// A mechanism that is being put together. See the [module](self) for an example.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
@@ -375,6 +380,13 @@ impl BodyBuilder<'_> {
         let ends = quantity::list(ends.map(quantity::pair));
         self.drawing.bodies.table(self.id.index()).inner("shape").set("bar", ends);
         self
+    }
+
+    /// What it looks like: the corners of a polygon in the drawing (m), at least three. No answer depends on
+    /// it.
+    pub fn outline<P: Into<Quantity>>(self, corners: impl IntoIterator<Item = [P; 2]>) -> Self {
+        let corners = quantity::list(corners.into_iter().map(quantity::pair));
+        self.set("outline", corners)
     }
 
     /// A body without mass.

@@ -169,7 +169,8 @@ impl WrittenUnit {
                 1 => String::new(),
                 power => format!("^{power}"),
             };
-            name += &format!("{joint}{}{power}", if unit.name == "\u{b0}" { "deg" } else { unit.name });
+            let unit = if unit.name == "\u{b0}" { "deg" } else { unit.name };
+            name.extend([joint, unit, &power]);
         }
         name
     }

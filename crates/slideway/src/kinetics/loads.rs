@@ -228,9 +228,7 @@ impl<T: Real> Loads<'_, T> {
     /// Pushes the block away from the end of its travel, and the guide the other way.
     fn pad(&mut self, load: &Load<T>, pad: &Pad<T>) -> Result<(), Fault> {
         let Some(slider) = self.mechanism.slider(pad.joint) else { return Ok(()) };
-        let depth = self.configuration.depth(self.mechanism, pad);
-        let pieces = self.configuration.pieces.as_deref().map_or(&[][..], |pieces| pieces.of(pad.formula));
-        let force = pad.force(&depth, pieces).map_err(|_| {
+        let force = self.configuration.pad_force(self.mechanism, pad).ok_or_else(|| {
             let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
             Fault::new(kind, load.place.clone())
         })?;

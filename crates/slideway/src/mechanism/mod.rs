@@ -70,6 +70,8 @@ pub struct Body<T = f64> {
     pub points: Vec<(Arc<str>, Vector2<T>)>,
     /// Its shape in the drawing, if the model gives one.
     pub shape: Option<Shape<T>>,
+    /// The corners of its outline in the drawing, for looks only; empty if the model gives none.
+    pub outline: Vec<Vector2<T>>,
 }
 
 /// Shape of a homogeneous body.

@@ -209,9 +209,10 @@ impl Places<'_> {
         self.greatest(stiffness.into_iter().chain(travel).chain(events).collect::<Vec<_>>())
     }
 
-    /// Whatever stands elsewhere; parameters count where they are used.
+    /// Whatever stands elsewhere; parameters count where they are used, and looks do not count at all.
     fn others(&mut self) -> Degree {
         self.seen.extend(self.model.parameters.iter().map(|parameter| parameter.value));
+        self.seen.extend(&self.model.looks);
         let all = (0..self.model.formulas.len()).map(FormulaId);
         let others: Vec<FormulaId> = all.filter(|id| !self.seen.contains(id)).collect();
         self.greatest(others)

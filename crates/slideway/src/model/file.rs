@@ -74,6 +74,10 @@ pub(super) struct BodyTable {
     pub(super) centre_of_mass: Option<Place>,
     /// `true` for a body without mass.
     pub(super) massless: Option<bool>,
+    /// What the body looks like in drawings: the corners of a polygon, each a point's name or [x, y]. It
+    /// moves with the body, and no answer depends on it.
+    #[cfg_attr(test, schemars(length(min = 3)))]
+    pub(super) outline: Option<Vec<Place>>,
 }
 
 /// Shape of a homogeneous body: exactly one of the keys.

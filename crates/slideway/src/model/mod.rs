@@ -102,6 +102,8 @@ pub struct Model {
     pub(crate) doubts: Vec<Fault>,
     /// The parameters in an order in which each uses only those before it.
     evaluation_order: Vec<usize>,
+    /// The formulas of outlines alone, which no answer depends on; those of named points are none of them.
+    pub(crate) looks: Vec<FormulaId>,
 }
 
 /// Acceleration of free fall.
@@ -135,6 +137,8 @@ pub struct Body {
     pub inertia: Inertia,
     /// Its named points.
     pub points: Vec<NamedPoint>,
+    /// The corners of its outline in the drawing, for looks only; empty if the file gives none.
+    pub outline: Vec<[FormulaId; 2]>,
 }
 
 /// A named point of the drawing.

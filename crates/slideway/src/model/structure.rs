@@ -238,7 +238,12 @@ impl<'s> StructureCheck<'s> {
         let least = schema.get("minItems").and_then(Schema::as_u64).unwrap_or(0);
         let most = schema.get("maxItems").and_then(Schema::as_u64).unwrap_or(u64::MAX);
         if !(least..=most).contains(&(items.len() as u64)) {
-            let kind = FaultKind::WrongLength { place: place.to_owned(), wanted: least, found: items.len() };
+            let (place, found) = (place.to_owned(), items.len());
+            let kind = if most == u64::MAX {
+                FaultKind::TooShort { place, least, found }
+            } else {
+                FaultKind::WrongLength { place, wanted: least, found }
+            };
             self.push(kind, span.clone(), self.stand_in(schema));
             return;
         }

@@ -2,7 +2,7 @@
 
 use super::range::TO;
 use super::{Formula, Model, Value};
-use crate::expression::{Names, written_units};
+use crate::expression::{Dimension, Names, written_units};
 use crate::fault::Doubt;
 use crate::units::{TypedUnits, Unit};
 
@@ -63,7 +63,7 @@ fn written<'t>(formula: &Formula, text: &'t str) -> &'t str {
 fn units_of(formula: &Formula, text: &str, names: &Names) -> Vec<Unit> {
     let written = written(formula, text);
     if let Ok(number) = written.parse::<f64>() {
-        let si = formula.wanted.filter(|_| number != 0.0).map(|wanted| wanted.unit());
+        let si = formula.wanted.filter(|_| number != 0.0).map(Dimension::unit);
         return si.into_iter().map(|si| Unit::si_unit(&si)).collect();
     }
     let parts = written.split(TO);

@@ -46,6 +46,7 @@ mod branches;
 mod breakpoints;
 mod columns;
 mod distribution;
+mod doubts;
 mod evaluator;
 mod friction;
 mod line;

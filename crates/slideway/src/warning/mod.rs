@@ -132,12 +132,14 @@ fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
 }
 
 /// The lengths that were typed, if they differ too much; the place is that of the one which is out of line.
+/// Corners of outlines may be as near to an axis as they like.
 fn lengths_far_apart(model: &Model) -> Option<Fault> {
     let typed = |formula: &crate::model::Formula| {
         let length = formula.expression.only_number(Dimension::LENGTH, formula.wanted)?.abs();
         (length > 0.0).then(|| (length, formula.origin.place()))
     };
-    let mut lengths: Vec<(f64, Place)> = model.formulas.iter().filter_map(typed).collect();
+    let ids = (0..model.formulas.len()).map(FormulaId).filter(|id| model.looks.binary_search(id).is_err());
+    let mut lengths: Vec<(f64, Place)> = ids.filter_map(|id| typed(model.formula(id))).collect();
     lengths.sort_by(|one, other| one.0.total_cmp(&other.0));
     let (least, greatest) = (lengths.first()?, lengths.last()?);
     let factor = greatest.0 / least.0;

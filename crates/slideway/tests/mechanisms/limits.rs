@@ -187,11 +187,14 @@ fn positions_that_cannot_be_assembled_are_no_locking() {
     assert!((covered + gaps - 0.38).abs() < 1e-6);
 }
 
-fn fault(vary: &str) -> FaultKind {
+fn faults(vary: &str) -> Faults {
     let found =
         vary.parse().and_then(|vary| limits(&model("klepp-2002"), &LimitsOptions::new(vary).effort(0)));
-    let faults: Faults = found.expect_err("a fault");
-    faults.sorted()[0].kind.clone()
+    found.expect_err("a fault")
+}
+
+fn fault(vary: &str) -> FaultKind {
+    faults(vary).sorted()[0].kind.clone()
 }
 
 #[test]
@@ -204,12 +207,21 @@ fn names_and_ranges_that_make_no_sense_are_told() {
     assert!(matches!(fault("mu_1=0.3"), FaultKind::MalformedRange { .. }));
     assert!(matches!(fault("friction=0..x"), FaultKind::MalformedRange { .. }));
     assert!(matches!(fault("alpha"), FaultKind::RangeNeeded { .. }));
-    let told = |vary: &str, words: &str| {
-        let kind = fault(vary);
-        assert!(matches!(kind, FaultKind::Axis { .. }) && kind.to_string() == words, "{kind}");
+    // Each with its place in the argument.
+    let told = |vary: &str, words: &str, part: &str| {
+        let faults = faults(vary);
+        let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
+        let span = fault.place.clone().expect("a place").span;
+        let argument = fault.argument.as_deref().expect("an argument");
+        assert_eq!((fault.kind.to_string().as_str(), &argument[span]), (words, part));
     };
-    told("l=1 m..2 kg", "`l=2 kg`: a mass where a length is expected");
-    told("mu_1=0..abc", "`mu_1=abc`: unknown name `abc`");
+    told("l=1 m..2 kg", "a mass where a length is expected", "2 kg");
+    told("mu_1=0..abc", "unknown name `abc`", "abc");
+    told(
+        "mu_1=0.8..0.1",
+        "the range of the parameter mu_1 is reversed: it goes from 0.8 down to 0.1",
+        "0.8..0.1",
+    );
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::super::{Attachment, Body, Inertia, Moment, NamedPoint};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
-use crate::ids::{BodyId, Frame};
+use crate::ids::{BodyId, FormulaId, Frame};
 use std::sync::Arc;
 
 impl Reader<'_> {
@@ -33,16 +33,27 @@ impl Reader<'_> {
             self.valid_name("body", &entry.name, &entry.span);
             let mut points = Vec::new();
             let mut inertia = Inertia::Massless;
+            let mut outline = Vec::new();
             if let Some(table) = &entry.contents {
                 points = self.body_points(table.points.as_deref().unwrap_or_default(), BodyId(index));
                 inertia = self.inertia(table, &entry.name, &entry.span);
+                outline = self.outline(table, &entry.name);
             } else {
                 self.unread_bodies.push(BodyId(index));
             }
             let place = FaultPlace::model(entry.span);
-            bodies.push(Body { name: Arc::from(entry.name), place, inertia, points });
+            bodies.push(Body { name: Arc::from(entry.name), place, inertia, points, outline });
         }
         bodies
+    }
+
+    fn outline(&mut self, table: &BodyTable, name: &str) -> Vec<[FormulaId; 2]> {
+        let corners = table.outline.iter().flatten();
+        let what = format!("a corner of the outline of {name}");
+        let before = self.formulas.len();
+        let outline = corners.map(|corner| self.place(corner, &what)).collect();
+        self.looks.extend((before..self.formulas.len()).map(FormulaId));
+        outline
     }
 
     fn body_points(&mut self, names: &[Name], body: BodyId) -> Vec<NamedPoint> {

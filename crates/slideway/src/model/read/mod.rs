@@ -103,6 +103,8 @@ struct Reader<'t> {
     zero: FormulaId,
     /// Whether values may stand in for faulty ones.
     mended: bool,
+    /// The formulas of outlines alone.
+    looks: Vec<FormulaId>,
     /// The bodies that could not be read: what points they own is unknown.
     unread_bodies: Vec<BodyId>,
 }
@@ -114,6 +116,7 @@ impl<'t> Reader<'t> {
             text,
             mended: !faults.is_empty(),
             unread_bodies: Vec::new(),
+            looks: Vec::new(),
             faults,
             names: Names::new(),
             formulas: Vec::new(),
@@ -169,6 +172,7 @@ impl<'t> Reader<'t> {
             units: Units::default(),
             doubts: Vec::new(),
             evaluation_order: Vec::new(),
+            looks: std::mem::take(&mut self.looks),
         }
     }
 
