@@ -23,8 +23,8 @@
 //! `closed_form.rs` has `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs`
 //! asks the certified search for the numbers of solutions over whole intervals, and `find.rs` scans anew
 //! where these contradict; `between_faces.rs` counts the states of guided sliders between their faces, which
-//! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `guarantee.rs`
-//! and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
+//! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `speeds.rs` tells
+//! where motion along a mode speeds up and slows down; `guarantee.rs` and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
 //! quantities along the modes that were found, for plots.
 
 mod analysis;
@@ -40,6 +40,7 @@ mod guarantee;
 mod options;
 mod report;
 mod scan;
+mod speeds;
 mod text;
 mod varied;
 mod vary;
@@ -52,7 +53,7 @@ pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{
     CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
-    SCHEMA, VariedQuantity,
+    SCHEMA, SpeedLimits, VariedQuantity,
 };
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;

@@ -1,7 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::found::left_out;
-use crate::report::{JointMode, ModeEndCause};
+use crate::report::{JointMode, ModeEndCause, SpeedChange};
 use serde::Serialize;
 
 /// Version of the layout of a [`LimitsReport`]; changes whenever a field is renamed or removed.
@@ -115,6 +115,22 @@ pub struct ModeLimits {
     pub to_at: Vec<String>,
     /// What the normal force of each contact does towards both ends.
     pub reactions: Vec<EndReaction>,
+    /// What becomes of the speed of each coordinate that no drive moves, from value to value.
+    pub speeds: Vec<SpeedLimits>,
+}
+
+/// An interval of a mode in which the speed of a coordinate changes one way.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpeedLimits {
+    /// The coordinate.
+    pub coordinate: String,
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends: where the acceleration vanishes, or the mode ends.
+    pub to: f64,
+    /// What becomes of the speed.
+    pub speed: SpeedChange,
 }
 
 /// What a normal force does towards both ends of an interval.

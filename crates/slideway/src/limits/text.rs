@@ -1,6 +1,6 @@
 //! Limits as text for people.
 
-use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem};
+use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem, SpeedLimits};
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -49,6 +49,9 @@ impl Page<'_, LimitsReport> {
         self.headline(&format!("Contact modes{which}"));
         let rows: Vec<Vec<String>> = modes.iter().map(mode_row).collect();
         self.lines(&table(&["signs", "from", "to", "begins with", "ends with", "contact mode"], &rows, 1));
+        for mode in modes.iter().filter(|mode| !mode.speeds.is_empty()) {
+            self.line(&format!("  {}: {}", spaced(&mode.pattern), speeds_in_words(&mode.speeds)));
+        }
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
         let rows: Vec<Vec<String>> = counts.iter().map(count_row).collect();
@@ -79,6 +82,19 @@ fn mode_row(mode: &ModeLimits) -> Vec<String> {
         cause(mode.to_is, &mode.to_at, mode.reactions.iter().map(|r| (&*r.contact, r.to_grows))),
         words.join("; "),
     ]
+}
+
+/// "z speeds up from 0 to 0.2, slows down from 0.2 to 1".
+fn speeds_in_words(speeds: &[SpeedLimits]) -> String {
+    let of_coordinate = |speeds: &[SpeedLimits]| {
+        let stretch = |one: &SpeedLimits| {
+            format!("{} from {} to {}", one.speed.in_words(), precise(one.from), precise(one.to))
+        };
+        let stretches: Vec<String> = speeds.iter().map(stretch).collect();
+        format!("{} {}", speeds[0].coordinate, stretches.join(", "))
+    };
+    let coordinates = speeds.chunk_by(|one, next| one.coordinate == next.coordinate);
+    coordinates.map(of_coordinate).collect::<Vec<_>>().join("; ")
 }
 
 /// Why a mode begins or ends, in words.

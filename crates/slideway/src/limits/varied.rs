@@ -10,8 +10,8 @@ use crate::model::{Dependence, Model, Setting, SettingKind, Settings, Value};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::progress::{Progress, Work};
-use crate::report::Solution;
-use crate::solve::{Parts, SolveOptions, Stages, certain_counts, states_between_faces};
+use crate::report::{Solution, SolveReport};
+use crate::solve::{Parts, SolveOptions, Stages, certain_counts, solve_with_friction, states_between_faces};
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -200,6 +200,21 @@ impl Varied {
         let found = model
             .and_then(|(model, _)| self.at(value, |stages, factor| states(&model, stages, rougher * factor)));
         found.unwrap_or_default()
+    }
+
+    /// The certified solutions at a value.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn solved(&self, value: f64, work: Work<'_>) -> Result<SolveReport, Faults> {
+        let (model, _) = self.model_at(value)?;
+        let options = SolveOptions::default();
+        self.at(value, |stages, factor| {
+            let mut goes_on = |_: &Progress| {
+                if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            solve_with_friction(&model, (stages, factor), &options, &mut goes_on)
+        })
     }
 
     fn follower(&self) -> MutexGuard<'_, Follower> {

@@ -26,6 +26,7 @@ mod equilibrium;
 mod faces;
 mod found;
 mod friction;
+mod from_rest;
 mod margins;
 mod mode_problem;
 mod parts;
@@ -71,7 +72,7 @@ pub struct SolveOptions {
     pub search: SearchOptions,
     /// The most solutions, gap states and continua that are listed, each.
     pub most: usize,
-    /// Whether margins of friction are computed.
+    /// Whether margins of friction are computed, and what the loads do from rest once the motion has stopped.
     pub margins: bool,
 }
 
@@ -97,7 +98,7 @@ impl SolveOptions {
         self
     }
 
-    /// Whether margins of friction are computed.
+    /// Whether margins of friction are computed, and what the loads do from rest once the motion has stopped.
     #[must_use]
     pub fn margins(mut self, margins: bool) -> Self {
         self.margins = margins;
@@ -153,8 +154,11 @@ pub fn solve_with(
         rounded: enclosed.as_ref().err(),
         most: options.most,
     })?;
+    let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
+    report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
     if options.margins {
         margins::add(&mut report, &mechanism, &influence, &velocity_signs);
+        from_rest::add(&mut report, model);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
     finite(report)

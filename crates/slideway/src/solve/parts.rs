@@ -6,7 +6,7 @@ use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
 use crate::ids::{DriveId, JointId};
 use crate::influence::Influence;
-use crate::kinetics::{Accuracy, Influences, KineticEquations, Reaction};
+use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, Reaction, coordinate_rows};
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::{Model, PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
@@ -91,12 +91,23 @@ impl Stages {
     /// # Errors
     /// As [`Stages::parts`].
     pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
+        let drives = 0..self.mechanism.drives.len();
+        let effort = |drive: usize| ConstraintRow::unknown(self.influence.layout().effort(DriveId(drive)));
+        self.parts_with(friction, drives.map(effort).collect())
+    }
+
+    /// The same with the accelerations of the coordinates as further outputs.
+    ///
+    /// # Errors
+    /// As [`Stages::parts`].
+    pub(crate) fn parts_with_accelerations(&self, friction: f64) -> Result<Parts, Faults> {
+        self.parts_with(friction, coordinate_rows(&self.mechanism, &self.configuration))
+    }
+
+    fn parts_with(&self, friction: f64, outputs: Vec<ConstraintRow>) -> Result<Parts, Faults> {
         let mechanism = rougher(&self.mechanism, &|_| friction);
         let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
-        let drives = 0..mechanism.drives.len();
-        let efforts: Vec<usize> =
-            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
-        Ok(Parts::new((&mechanism, &self.influence, &self.velocity_signs), &problem, &efforts))
+        Ok(Parts::new((&mechanism, &self.influence, &self.velocity_signs), &problem, outputs))
     }
 }
 
@@ -122,28 +133,29 @@ impl Parts {
     ) -> Result<Self, Faults> {
         let mechanism = rougher(mechanism, factor);
         let problem = mode_problem(&mechanism, influence, velocity_signs)?;
-        Ok(Self::new((&mechanism, influence, velocity_signs), &problem, &[]))
+        Ok(Self::new((&mechanism, influence, velocity_signs), &problem, Vec::new()))
     }
 
-    /// The numbers of a mode problem, with the couples and then these unknowns as outputs.
+    /// The numbers of a mode problem, with the couples and then these functions of the unknowns as outputs.
     fn new(
         (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
         problem: &ModeProblem,
-        others: &[usize],
+        others: Vec<ConstraintRow>,
     ) -> Self {
         let contacts = problem.contacts();
         let couples = couples(mechanism, influence);
-        let outputs: Vec<usize> = couples.iter().map(|(_, row)| *row).chain(others.iter().copied()).collect();
+        let of_couples = couples.iter().map(|(_, row)| ConstraintRow::unknown(*row));
+        let outputs: Vec<ConstraintRow> = of_couples.chain(others).collect();
         let rows = contacts + outputs.len();
-        let extended = |upper: &DMatrix<f64>, below: &dyn Fn(usize, usize) -> f64| {
+        let extended = |upper: &DMatrix<f64>, below: &dyn Fn(&ConstraintRow, usize) -> f64| {
             DMatrix::from_fn(rows, contacts, |row, k| {
-                if row < contacts { upper[(row, k)] } else { below(outputs[row - contacts], k) }
+                if row < contacts { upper[(row, k)] } else { below(&outputs[row - contacts], k) }
             })
         };
         // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
         let side = |side: Side| {
             let face = usize::from(side == Side::Negative);
-            let gamma = |row: usize, k: usize| influence.columns[k][face][row];
+            let gamma = |row: &ConstraintRow, k: usize| row.times(&influence.columns[k][face]);
             let columns = extended(problem.columns(side), &|row, k| {
                 -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k]
             });
@@ -152,7 +164,8 @@ impl Parts {
                 let gamma = match contact.preload_line {
                     PreloadLine::Pressed => gamma(row, k),
                     PreloadLine::Centre => {
-                        f64::midpoint(influence.columns[k][0][row], influence.columns[k][1][row])
+                        let [positive, negative] = &influence.columns[k];
+                        f64::midpoint(row.times(positive), row.times(negative))
                     }
                 };
                 gamma * contact.preload[face] * velocity_signs[k]
@@ -164,7 +177,8 @@ impl Parts {
             if row < contacts {
                 problem.right_hand_side()[row]
             } else {
-                influence.frictionless[outputs[row - contacts]]
+                let output = &outputs[row - contacts];
+                output.times(&influence.frictionless) - output.right_hand_side
             }
         });
         Self {
@@ -230,6 +244,11 @@ impl Parts {
         parts.columns.positive = DMatrix::identity(rows, contacts);
         parts.columns.negative = -DMatrix::identity(rows, contacts);
         parts
+    }
+
+    /// Number of couples among the outputs, before all others.
+    pub(crate) fn couples(&self) -> usize {
+        self.bounds.len()
     }
 
     /// The mode problem alone, without couples.

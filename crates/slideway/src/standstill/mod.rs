@@ -110,7 +110,7 @@ impl HoldOptions {
 /// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is
 /// zero, a parameter on which more than friction depends, and more states than are tried.
 pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> {
-    undisturbed(|work| hold_of(model, options, work))
+    undisturbed(|work| hold_within(model, options, MOST_STATES, work))
 }
 
 /// [`hold`] with a callback that is called now and then; nothing if it breaks.
@@ -122,12 +122,21 @@ pub fn hold_with(
     options: &HoldOptions,
     callback: &mut Callback<'_>,
 ) -> Result<Option<HoldReport>, Faults> {
-    watched(callback, |work| hold_of(model, options, work))
+    watched(callback, |work| hold_within(model, options, MOST_STATES, work))
 }
 
-fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
+/// [`hold`], refused if there are more states of joints and contacts than these.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn hold_within(
+    model: &Model,
+    options: &HoldOptions,
+    most_states: u64,
+    work: Work<'_>,
+) -> Result<HoldReport, Faults> {
     let setup = Setup::new(model, options)?;
-    let [rest_patterns, all_patterns] = check_states(&setup)?;
+    let [rest_patterns, all_patterns] = check_states(&setup, most_states)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
     let load = load_report(model, options, &setup, work.part(1, 4))?;
@@ -178,19 +187,19 @@ pub(crate) fn self_locking_factor(
 ) -> Result<(Option<f64>, usize), Faults> {
     let options = HoldOptions::default().load(load);
     let setup = Setup::new(model, &options)?;
-    check_states(&setup)?;
+    check_states(&setup, MOST_STATES)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
 }
 
 /// Patterns of sides, and of states of joints and sides.
-fn check_states(setup: &Setup) -> Result<[usize; 2], Faults> {
+fn check_states(setup: &Setup, most: u64) -> Result<[usize; 2], Faults> {
     let product = |counts: &mut dyn Iterator<Item = u64>| counts.fold(1_u64, u64::saturating_mul);
     let sides = product(&mut side_options(setup).iter().map(|options| options.len() as u64));
     let states = product(&mut setup.sliders.iter().map(|_| 3)).saturating_mul(sides);
     match (usize::try_from(sides), usize::try_from(states)) {
-        (Ok(sides), Ok(all)) if states <= MOST_STATES => Ok([sides, all]),
-        _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into()),
+        (Ok(sides), Ok(all)) if states <= most => Ok([sides, all]),
+        _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: most }).into()),
     }
 }
 

@@ -29,6 +29,7 @@ mod margins;
 mod positions;
 mod preload_gap;
 mod properties;
+mod speeds;
 mod standstill;
 mod symmetries;
 mod tables_and_events;
