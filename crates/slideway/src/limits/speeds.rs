@@ -94,12 +94,16 @@ impl Along<'_> {
         cuts
     }
 
-    /// Where the acceleration changes its sign between values that were tried. Rounding counts only where it
-    /// is zero within rounding at a value that was tried.
+    /// Where the acceleration changes its sign between values that were tried. It is zero over a stretch if it
+    /// is zero within rounding at two values on end; one alone is near a change of sign.
     fn bisected(&self, coordinate: usize) -> Vec<f64> {
         let (from, to) = (self.mode.from.at, self.mode.to.at);
         let inside = self.found.tried.iter().copied().filter(|&at| from < at && at < to);
-        let tried: Vec<(f64, Option<i8>)> = inside.map(|at| (at, self.sign(coordinate, at))).collect();
+        let all: Vec<(f64, Option<i8>)> = inside.map(|at| (at, self.sign(coordinate, at))).collect();
+        let is_zero =
+            |index: Option<usize>| index.and_then(|index| all.get(index)).is_some_and(|one| one.1 == Some(0));
+        let is_alone = |k: usize| is_zero(Some(k)) && !is_zero(k.checked_sub(1)) && !is_zero(Some(k + 1));
+        let tried: Vec<_> = (0..all.len()).filter(|&k| !is_alone(k)).map(|k| all[k]).collect();
         let change = |pair: &[(f64, Option<i8>)]| {
             let [(inside, one), (outside, other)] = [pair[0], pair[1]];
             let is_inside = |at: f64| match (one, other) {
