@@ -3,6 +3,7 @@
 use crate::plot::Hatching;
 use crate::theme::{DARK, Theme};
 use slideway::map::{ClassMeaning, MapClass};
+use slideway::report::SpeedChange;
 
 /// How a region is filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,11 +55,29 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(numbers[0]),
         ClassMeaning::Moves { as_in_model: true, .. } => plain(numbers[2]),
         ClassMeaning::Moves { .. } => plain("#7fcfb4"),
+        ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
+        ClassMeaning::Rest { holds: Some(true) } => plain(numbers[1]),
+        ClassMeaning::Rest { holds: Some(false) } => Paint { fill: LOCKED, hatching: Some(Hatching::Rising) },
         ClassMeaning::Continuum => plain(theme.ink),
-        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } => {
+        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } | ClassMeaning::Rest { holds: None } => {
             let fill = if *theme == DARK { "#30363d" } else { "#e1e4e8" };
             Paint { fill, hatching: Some(Hatching::Falling) }
         }
+    }
+}
+
+/// What all solutions say, if they agree: green where it speeds up or starts, yellow where it keeps its speed,
+/// red where it slows down.
+fn of_motion(solutions: &[Vec<SpeedChange>]) -> &'static str {
+    let mut changes = solutions.iter().flatten();
+    let first = changes.next();
+    match first {
+        Some(first) if changes.all(|other| other == first) => match first {
+            SpeedChange::SpeedsUp | SpeedChange::StartsForwards | SpeedChange::StartsBackwards => "#7fcfb4",
+            SpeedChange::SlowsDown => "#d55e00",
+            _ => "#f2cf80",
+        },
+        _ => SEVERAL,
     }
 }
 

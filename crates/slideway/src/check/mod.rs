@@ -23,7 +23,8 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Model, SliderKind, Stop};
 use crate::report::finite;
-use crate::solve::{check_size, mode_problem, velocity_signs};
+use crate::solve::{mode_problem, velocity_signs};
+use nalgebra::DVector;
 use serde::Serialize;
 use std::fmt;
 
@@ -250,7 +251,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
     // What is too large to be solved is too large to be analysed further.
-    check_size(&mechanism)?;
+    mechanism.check_size()?;
     let drawing = Configuration::drawing(&mechanism);
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));
@@ -317,7 +318,8 @@ fn inertia(mechanism: &Mechanism, configuration: &Configuration) -> InertiaSumma
     if motions.ncols() == 0 {
         return InertiaSummary { regular: true, motions_without: Vec::new() };
     }
-    let motions_without = motions_without_inertia(mechanism, configuration, &motions);
+    let motions_without =
+        motions_without_inertia(mechanism, configuration, &motions, &DVector::zeros(motions.nrows()));
     InertiaSummary { regular: motions_without.is_empty(), motions_without }
 }
 

@@ -25,7 +25,7 @@
 //! where these contradict; `between_faces.rs` counts the states of guided sliders between their faces, which
 //! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `speeds.rs` tells
 //! where motion along a mode speeds up and slows down; `guarantee.rs` and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
-//! quantities along the modes that were found, for plots.
+//! quantities along the modes that were found, for plots. `rest.rs` asks `standstill` over a range.
 
 mod analysis;
 mod answer;
@@ -39,6 +39,7 @@ mod found;
 mod guarantee;
 mod options;
 mod report;
+mod rest;
 mod scan;
 mod speeds;
 mod text;
@@ -52,9 +53,10 @@ pub(crate) use found::ModesFound;
 pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{
-    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
-    SCHEMA, SpeedLimits, VariedQuantity,
+    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, REST_SCHEMA,
+    RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, VariedQuantity,
 };
+pub use rest::{rest_limits, rest_limits_with};
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
 pub use varied::{FRICTION, ShownIn};

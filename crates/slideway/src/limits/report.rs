@@ -193,6 +193,43 @@ impl CountLimits {
     }
 }
 
+/// Version of the layout of a [`RestLimitsReport`]; changes whenever a field is renamed or removed.
+pub const REST_SCHEMA: &str = "slideway/rest-limits/1";
+
+/// For which values a mechanism can stay at rest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RestLimitsReport {
+    /// Version of this layout: [`REST_SCHEMA`].
+    pub schema: &'static str,
+    /// The title of the model.
+    pub title: Option<String>,
+    /// What is varied.
+    pub vary: VariedQuantity,
+    /// The load that was named, if one was: with its present magnitude, the effort of a drive with none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<String>,
+    /// The stretches, one after another.
+    pub spans: Vec<SpanOfRest>,
+    /// What may have been missed, in words.
+    pub guarantee: String,
+}
+
+/// A stretch with one answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpanOfRest {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Whether it can stay at rest; null where that was not decided, and where there is no answer.
+    pub holds: Option<bool>,
+    /// Why there is no answer, if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
 /// A range in which there is no mode problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]

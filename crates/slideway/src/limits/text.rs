@@ -1,6 +1,9 @@
 //! Limits as text for people.
 
-use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem, SpeedLimits};
+use super::report::{
+    CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem, RestLimitsReport, SpanOfRest,
+    SpeedLimits,
+};
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -17,6 +20,32 @@ impl Report for LimitsReport {
             let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
             text.direction(", moving in the opposite direction", parts);
         }
+        text.text()
+    }
+}
+
+impl Report for RestLimitsReport {
+    /// Each stretch in a sentence.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        if let Some(title) = &self.title {
+            text.headline(title);
+        }
+        let vary = &self.vary;
+        let [from, to, value] = [vary.from, vary.to, vary.value].map(precise);
+        text.line(&format!("At rest, {} from {from} to {to} (in the model {value})", vary.name));
+        text.line("");
+        for SpanOfRest { from, to, holds, reason } in &self.spans {
+            let verdict = match (holds, reason) {
+                (_, Some(reason)) => format!("there is no answer: {reason}"),
+                (Some(true), _) => "it can stay at rest".to_owned(),
+                (Some(false), _) => "it does not hold".to_owned(),
+                (None, _) => "not decided".to_owned(),
+            };
+            let [from, to] = [*from, *to].map(precise);
+            text.headline(&format!("{} from {from} to {to}: {verdict}.", vary.name));
+        }
+        text.line(&self.guarantee);
         text.text()
     }
 }

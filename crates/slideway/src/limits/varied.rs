@@ -44,6 +44,18 @@ impl Varied {
     /// # Errors
     /// An unknown name; with a factor of friction whatever `solve` refuses.
     pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
+        let mut varied = Self::at_rest(model, name)?;
+        if varied.is_friction_factor() {
+            varied.stages = Some(Stages::new(model)?);
+        }
+        Ok(varied)
+    }
+
+    /// The same for questions of rest, which need no inertia.
+    ///
+    /// # Errors
+    /// An unknown name.
+    pub(crate) fn at_rest(model: &Model, name: &str) -> Result<Self, Faults> {
         let parameter = model.parameters.iter().any(|parameter| &*parameter.name == name);
         let coordinate = model.coordinates.iter().any(|coordinate| &*coordinate.name == name);
         let kind = match (parameter, coordinate, name) {
@@ -52,8 +64,13 @@ impl Varied {
             (_, _, FRICTION) => Kind::Friction,
             _ => return Err(unknown(model, name)),
         };
-        let stages = if kind == Kind::Friction { Some(Stages::new(model)?) } else { None };
-        Ok(Self { model: model.clone(), name: name.to_owned(), kind, stages, follower: Mutex::default() })
+        Ok(Self {
+            model: model.clone(),
+            name: name.to_owned(),
+            kind,
+            stages: None,
+            follower: Mutex::default(),
+        })
     }
 
     /// Whether all coefficients of friction are scaled together.
@@ -288,9 +305,9 @@ impl Varied {
         if let Some(stages) = &self.stages {
             return question(stages, value);
         }
-        let mechanism = Mechanism::new(&self.model_at(value)?.0)?;
-        let stages = Stages::following(&mut self.follower(), mechanism)?;
-        question(&stages, 1.0)
+        let (model, factor) = self.model_at(value)?;
+        let stages = Stages::following(&mut self.follower(), Mechanism::new(&model)?)?;
+        question(&stages, factor)
     }
 
     /// The line of mode problems from no friction (`t = 0`) to the friction at a value (`t = 1`).

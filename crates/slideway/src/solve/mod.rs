@@ -40,7 +40,7 @@ pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub(crate) use margins::{AT_ONCE, GROWING};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, check_size, influence_coefficients, preload_columns, sides, sliding_signs,
+    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::{Parts, Stages};
@@ -130,7 +130,7 @@ pub fn solve_with(
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
     let mut mechanism = Mechanism::new(model)?;
-    check_size(&mechanism)?;
+    mechanism.check_size()?;
     let configuration = Configuration::new(&mechanism)?;
     configuration.put_friction(&mut mechanism)?;
     let equations = KineticEquations::new(&mechanism, &configuration)?;

@@ -120,21 +120,6 @@ pub(super) fn overflow() -> Faults {
     Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() }).into()
 }
 
-/// More contacts are refused before any matrix is built: those would be large, too.
-const MOST_CONTACTS: usize = 500;
-
-/// More contacts than can be dealt with are refused before any matrix is built.
-///
-/// # Errors
-/// A fault that says how many contacts there are.
-pub(crate) fn check_size(mechanism: &Mechanism) -> Result<(), Faults> {
-    let contacts = mechanism.contacts.len();
-    if contacts > MOST_CONTACTS {
-        return Err(Fault::general(FaultKind::TooManyContacts { contacts, limit: MOST_CONTACTS }).into());
-    }
-    Ok(())
-}
-
 /// Whether the preload of a contact rubs on a face that the mode problem does not tell: its friction jumps
 /// with the side of the contact, but no normal force with it, as `has_jump` says of each contact.
 pub(super) fn has_free_face(mechanism: &Mechanism, has_jump: &[bool], contact: usize) -> bool {

@@ -1,6 +1,6 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
-use super::mode_problem::{check_size, mode_problem, velocity_signs};
+use super::mode_problem::{mode_problem, velocity_signs};
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
@@ -49,7 +49,7 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn following(follower: &mut Follower, mut mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
+        mechanism.check_size()?;
         let configuration = follower.configuration(&mechanism)?;
         configuration.put_friction(&mut mechanism)?;
         let equations = KineticEquations::new(&mechanism, &configuration)?;
@@ -61,7 +61,7 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mut mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
+        mechanism.check_size()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         configuration.put_friction(&mut mechanism)?;
         Self::of(mechanism, configuration, influences)

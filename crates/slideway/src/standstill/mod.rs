@@ -72,17 +72,19 @@ const MOST_STATES: u64 = 100_000;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct HoldOptions {
-    /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m.
+    /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m,
+    /// "gravity" all weights together.
     pub load: Option<String>,
     /// The parameter of static friction that is varied for the threshold of self-locking; without it all
-    /// static coefficients are multiplied by a factor.
+    /// static coefficients are multiplied by a factor. Without a load it is that for the only one, weights
+    /// together being one.
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.
     pub hold_drives: bool,
 }
 
 impl HoldOptions {
-    /// Multiplies a load, or the effort of a drive, by a factor.
+    /// Multiplies a load, the effort of a drive, or all weights ("gravity") by a factor.
     #[must_use]
     pub fn load(mut self, name: &str) -> Self {
         self.load = Some(name.to_owned());
@@ -135,6 +137,7 @@ pub(crate) fn hold_within(
     most_states: u64,
     work: Work<'_>,
 ) -> Result<HoldReport, Faults> {
+    let options = &with_load(model, options)?;
     let setup = Setup::new(model, options)?;
     let [rest_patterns, all_patterns] = check_states(&setup, most_states)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
@@ -175,6 +178,22 @@ pub(crate) fn hold_within(
     })
 }
 
+/// Whether a mechanism with so many times the friction can stay at rest in its position; none where that could
+/// not be decided.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn can_rest(
+    (model, friction): (&Model, f64),
+    options: &HoldOptions,
+    work: Work<'_>,
+) -> Result<Option<bool>, Faults> {
+    let setup = Setup::new(model, options)?.rougher(friction);
+    check_states(&setup, MOST_STATES)?;
+    let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
+    Ok(rest::is_possible(&setup, nominal, work))
+}
+
 /// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no
 /// factor suffices. Beside it the number of patterns that could not be decided.
 ///
@@ -190,6 +209,24 @@ pub(crate) fn self_locking_factor(
     check_states(&setup, MOST_STATES)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
+}
+
+/// The same question; a parameter that is varied without a load is varied for the only load.
+///
+/// # Errors
+/// Several loads, or none, of which one would have to be named.
+fn with_load(model: &Model, options: &HoldOptions) -> Result<HoldOptions, Faults> {
+    if options.vary.is_none() || options.load.is_some() {
+        return Ok(options.clone());
+    }
+    let mechanism = Mechanism::new(model)?;
+    let weights = (mechanism.gravity.norm() > 0.0).then(|| setup::GRAVITY.to_owned());
+    let loads = mechanism.loads.iter().map(|load| load.name.to_string());
+    let known: Vec<String> = loads.chain(weights).collect();
+    match known.as_slice() {
+        [only] => Ok(options.clone().load(only)),
+        _ => Err(Fault::general(FaultKind::HeldLoadNeeded { known }).into()),
+    }
 }
 
 /// Patterns of sides, and of states of joints and sides.
@@ -268,7 +305,7 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
     let motions = held_motions(setup, free_motions(mechanism, configuration));
-    motions_without_inertia(mechanism, configuration, &motions)
+    motions_without_inertia(mechanism, configuration, &motions, &setup.loads())
 }
 
 /// The motions that drives leave.

@@ -29,6 +29,7 @@ mod margins;
 mod positions;
 mod preload_gap;
 mod properties;
+mod rest;
 mod speeds;
 mod standstill;
 mod symmetries;
