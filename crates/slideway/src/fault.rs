@@ -361,6 +361,10 @@ pub enum FaultKind {
     NoLoadAtRest { load: String },
     #[error("self-locking is asked of one load, and the model has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     HeldLoadNeeded { known: Vec<String> },
+    #[error(
+        "the efficiency has no value: the motion takes no power without friction, or drives brake what they would push"
+    )]
+    NoEfficiency,
     #[error("nowhere on the map is there an answer: {reason}")]
     NoAnswerOnMap { reason: String },
     #[error("`{parameter}` is not a parameter of static friction alone")]

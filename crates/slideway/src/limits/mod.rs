@@ -62,6 +62,7 @@ pub(crate) use text::no_answer;
 pub use varied::{FRICTION, ShownIn};
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
+pub(crate) use vary::range_around;
 
 use crate::fault::Faults;
 use crate::model::Model;

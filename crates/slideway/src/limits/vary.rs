@@ -3,9 +3,12 @@
 use super::varied::{ShownIn, Varied};
 use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::MAGNITUDES;
-use crate::model::Value;
+use crate::model::{Model, Value};
 use std::fmt;
 use std::str::FromStr;
+
+/// Without a range a parameter goes from its value divided by this to its value multiplied by it.
+const FACTOR_AROUND: f64 = 5.0;
 
 /// What is to be varied, and over which range: a parameter, a coordinate, or all coefficients of friction
 /// together ([`FRICTION`](super::FRICTION)).
@@ -94,5 +97,25 @@ impl fmt::Display for Vary {
             None => formatter.write_str(&self.name),
             Some([from, to]) => write!(formatter, "{}={from}..{to}", self.name),
         }
+    }
+}
+
+/// A range around the value in the model; coordinates and values of zero need one.
+///
+/// # Errors
+/// A fault if a range is needed.
+pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
+    if varied.is_friction_factor() {
+        return Ok([0.0, 2.0 * FACTOR_AROUND]);
+    }
+    let present = varied.present()?;
+    if model.is_friction_coefficient(&varied.name) {
+        Ok([0.0, (2.0 * present).max(1.0)])
+    } else if varied.is_coordinate() || present == 0.0 {
+        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
+        Err(Fault::general(kind).into())
+    } else {
+        let ends = [present / FACTOR_AROUND, present * FACTOR_AROUND];
+        Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })
     }
 }

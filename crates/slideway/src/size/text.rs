@@ -1,7 +1,7 @@
 //! A design as text for people.
 
-use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
-use super::words::quantity;
+use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
+use super::words::{quantity, subject, unit};
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -39,7 +39,12 @@ impl Page<'_, SizeReport> {
             return;
         }
         self.line("");
-        self.headline(&format!("Where the margin is at least {}", precise(report.margin)));
+        let (what, limit) = (subject(report), precise(report.margin));
+        let side = match report.against {
+            MarginKind::Effort | MarginKind::NormalForce => "at most",
+            _ => "at least",
+        };
+        self.headline(&format!("Where the {what} is {side} {limit}{}", unit(report)));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
         self.lines(&table(&["from", "to", "begins with", "ends with"], &rows, 0));
     }
@@ -47,7 +52,11 @@ impl Page<'_, SizeReport> {
     fn margins(&mut self) {
         let report = self.report;
         self.line("");
-        self.headline("Margins");
+        let what = subject(report);
+        self.headline(&match report.against.is_limit() {
+            true => format!("The {what}"),
+            false => "Margins".to_owned(),
+        });
         let name = match report.vary.unit.as_str() {
             "" => report.vary.name.clone(),
             unit => format!("{} in {unit}", report.vary.name),
@@ -55,11 +64,16 @@ impl Page<'_, SizeReport> {
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
             (_, Some(margin)) => precise(margin),
+            (SampleKind::NoSolution, _) => "no solution".to_owned(),
             _ => "no answer".to_owned(),
+        };
+        let header = match report.unit {
+            "" => what,
+            unit => format!("{what} in {unit}"),
         };
         let rows: Vec<Vec<String>> =
             report.samples.iter().map(|sample| vec![precise(sample.at), margin(sample)]).collect();
-        self.lines(&table(&[&name, "margin"], &rows, 0));
+        self.lines(&table(&[&name, &header], &rows, 0));
     }
 }
 
@@ -75,9 +89,10 @@ fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
 fn cause(report: &SizeReport, is: MetEnd, jumps_to: Option<f64>) -> String {
     match (is, jumps_to) {
         (MetEnd::Range, _) => "the range".to_owned(),
+        (MetEnd::Margin, _) if report.against.is_limit() => "the limit".to_owned(),
         (MetEnd::Margin, _) => format!("margin {}", precise(report.margin)),
-        (MetEnd::Jump, Some(margin)) => format!("a jump of the margin to {}", precise(margin)),
-        (MetEnd::Jump, None) => "a jump of the margin".to_owned(),
+        (MetEnd::Jump, Some(margin)) => format!("a jump of the {} to {}", subject(report), precise(margin)),
+        (MetEnd::Jump, None) => format!("a jump of the {}", subject(report)),
         _ => "no answer".to_owned(),
     }
 }
