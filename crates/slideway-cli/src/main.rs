@@ -51,6 +51,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Report(arguments) => commands::report(arguments, output),
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
+        Command::Questions => commands::questions(output),
         Command::Schema => commands::schema(output),
         Command::Completions { shell } => commands::completions(*shell, Arguments::command(), output),
     }

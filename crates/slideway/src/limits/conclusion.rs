@@ -89,13 +89,17 @@ fn by_speed(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
         return vec![whole];
     }
     speeds.sort_by(|one, other| one.from.total_cmp(&other.from));
-    let piece = |speed: &SpeedLimits| Piece {
-        from: speed.from.max(whole.from),
-        to: speed.to.min(whole.to),
+    // Where one mode gives way to another both may have been found to end a little apart.
+    let begins = std::iter::once(whole.from).chain(speeds.iter().skip(1).map(|speed| speed.from));
+    let begins: Vec<f64> = begins.collect();
+    let ends = begins.iter().skip(1).copied().chain([whole.to]);
+    let piece = |((from, to), speed): ((&f64, f64), &SpeedLimits)| Piece {
+        from: *from,
+        to,
         verdict: format!("{}: it {}", whole.verdict, speed.speed.in_words()),
         known: whole.known,
     };
-    speeds.into_iter().map(piece).collect()
+    begins.iter().zip(ends).zip(speeds).map(piece).collect()
 }
 
 fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &str) -> Vec<Piece> {

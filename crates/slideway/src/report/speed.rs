@@ -98,15 +98,15 @@ pub enum FromRest {
 }
 
 impl FromRest {
-    /// In words: "from rest these loads would not move it again".
+    /// In words, after "once it is at rest,": "these loads would not move it again".
     pub fn in_words(self) -> &'static str {
         match self {
-            Self::Rests => "from rest these loads would not move it again",
-            Self::RestsOrMoves => "from rest these loads may move it again or not",
-            Self::MovesOn => "from rest these loads would move it on",
-            Self::MovesBack => "from rest these loads would move it back",
-            Self::Moves => "from rest these loads would move it again",
-            Self::Neither => "from rest it could neither stay nor begin to move",
+            Self::Rests => "these loads would not move it again",
+            Self::RestsOrMoves => "these loads may move it again or not",
+            Self::MovesOn => "these loads would move it on",
+            Self::MovesBack => "these loads would move it back",
+            Self::Moves => "these loads would move it again",
+            Self::Neither => "it could neither stay so nor begin to move",
         }
     }
 }

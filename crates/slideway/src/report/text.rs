@@ -203,7 +203,7 @@ impl Text<'_> {
         }
         let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
         if let Some(from_rest) = report.from_rest.filter(|_| slows) {
-            self.line(&format!("  Once stopped, {}.", from_rest.in_words()));
+            self.line(&format!("  Once it is at rest, {}.", from_rest.in_words()));
         }
     }
 

@@ -16,7 +16,7 @@ pub(super) struct Words<'r> {
 
 pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind) -> String {
     let (wanted, level) =
-        if against.is_limit() { ("limit", "of what has it") } else { ("wanted margin", "of the margin") };
+        if against.is_limit() { ("limit", "of the quantity") } else { ("wanted margin", "of the margin") };
     let step = (to - from) / steps as f64;
     format!(
         "{} evenly spaced values were tried; crossings of the {wanted} between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump {level} there and back, or a second dip, within two steps of {} may be missed.",
@@ -45,7 +45,7 @@ impl Words<'_> {
     /// "For a margin of 2 against locking: L at least 0.36 m."
     fn answer(&self) -> String {
         let report = self.report;
-        let (wish, what) = (wish(report), subject(report));
+        let wish = wish(report);
         let name = &report.vary.name;
         match report.met.as_slice() {
             [] => {
@@ -57,10 +57,15 @@ impl Words<'_> {
                 let best =
                     best.and_then(|(at, margin)| Some((at, report.against.told(margin, report.margin).1?)));
                 match best {
+                    Some((at, level)) if report.against.is_limit() => format!(
+                        "{wish}: no {name} from {range} {gives}; of the values that were tried, {} comes nearest to it, with {}{}.",
+                        quantity(report, at),
+                        precise(level),
+                        unit(report)
+                    ),
                     Some((at, margin)) => format!(
-                        "{wish}: no {name} from {range} {gives}; the best {what} of the values that were tried is {}{}, at {}.",
+                        "{wish}: no {name} from {range} {gives}; the greatest margin of the values that were tried is {}, at {}.",
                         precise(margin),
-                        unit(report),
                         quantity(report, at)
                     ),
                     None => format!("{wish}: no {name} from {range} {gives}."),
