@@ -19,3 +19,5 @@ mod mutations;
 mod raw_problem;
 mod settings;
 mod sweep;
+mod units;
+mod warnings;

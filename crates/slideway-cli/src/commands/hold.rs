@@ -6,23 +6,18 @@ use crate::input::Input;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::Watch;
-use slideway::limits::{Vary, rest_limits_with};
+use slideway::limits::rest_limits_with;
 use slideway::standstill::{self, HoldOptions};
 
 /// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
 pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = output.to(&arguments.destination, Some(&arguments.model.file))?;
-    let input = Input::read(&arguments.model)?;
+    let input = Input::read(&arguments.model, output.color())?;
     let model = input.model()?;
     let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
     options.load.clone_from(&arguments.load);
     let mut watch = Watch::new(arguments.time.time_limit);
-    let vary: Option<Vary> = arguments
-        .vary
-        .as_ref()
-        .map(|text| text.parse())
-        .transpose()
-        .map_err(|faults| input.refused(faults))?;
+    let vary = arguments.vary.as_ref().map(|text| input.vary(&model, text)).transpose()?;
     if let Some(vary) = vary.as_ref().filter(|vary| vary.range.is_some()) {
         let report = rest_limits_with(&model, vary, &options, &mut |progress| watch.look(progress));
         let report = watch.whole(report.map_err(|faults| input.refused(faults))?)?;

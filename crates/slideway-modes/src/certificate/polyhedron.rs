@@ -1,4 +1,4 @@
-//! What a singular pattern admits, exactly.
+//! The exact set of solutions that a singular pattern admits.
 
 use std::collections::HashSet;
 
@@ -9,96 +9,32 @@ use super::elimination::Echelon;
 use crate::interval::Interval;
 use crate::problem::{ContactState, SolutionSet};
 
-/// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1`
-/// for a contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ExactSet {
-    /// No solution: locking of the mode.
-    Empty,
-    /// One solution.
-    Point(Vec<RBig>),
-    /// All solutions between two ends.
-    Segment {
-        /// One end.
-        from: Vec<RBig>,
-        /// The other end.
-        to: Vec<RBig>,
-    },
-    /// All `from + t direction`, `t >= 0`.
-    Ray {
-        /// The end of the ray.
-        from: Vec<RBig>,
-        /// The direction, its largest component being 1.
-        direction: Vec<RBig>,
-    },
-    /// Convex combinations of the vertices plus non-negative combinations of the directions.
-    Polytope {
-        /// The vertices.
-        vertices: Vec<Vec<RBig>>,
-        /// Extreme directions, the largest component of each being 1.
-        directions: Vec<Vec<RBig>>,
-    },
-    /// Describing the set takes more work than was allowed.
-    NotComputed,
-}
+/// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1` for a
+/// contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
+pub type ExactSet = SolutionSet<Vec<RBig>>;
 
 impl ExactSet {
-    /// The vertices of the set, none if it is empty or was not computed.
-    pub fn vertices(&self) -> Vec<&[RBig]> {
-        match self {
-            Self::Empty | Self::NotComputed => Vec::new(),
-            Self::Point(point) => vec![point],
-            Self::Segment { from, to } => vec![from, to],
-            Self::Ray { from, .. } => vec![from],
-            Self::Polytope { vertices, .. } => vertices.iter().map(Vec::as_slice).collect(),
-        }
-    }
-
-    /// The extreme directions of the set, none if it is bounded or was not computed.
-    pub fn directions(&self) -> Vec<&[RBig]> {
-        match self {
-            Self::Ray { direction, .. } => vec![direction],
-            Self::Polytope { directions, .. } => directions.iter().map(Vec::as_slice).collect(),
-            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
-        }
-    }
-
-    /// The signed normal forces `N_k = sigma_k y_k` of the set, rounded; shares are left out, so that
-    /// points that differ only in them become one.
+    /// The signed normal forces `N_k = sigma_k y_k` of the set, rounded; shares are omitted, so points that
+    /// differ only in them coincide.
     ///
-    /// For a pattern with several contacts in their gaps the vertices may include points that are no
-    /// corner once the shares are left out.
+    /// For a pattern with several contacts in their gaps, the vertices may include points that are not
+    /// corners once the shares are omitted.
     pub fn normal_forces(&self, pattern: &[ContactState]) -> SolutionSet {
         if *self == Self::NotComputed {
             return SolutionSet::NotComputed;
         }
-        let mut vertices = distinct(self.vertices().into_iter().map(|point| signed_forces(point, pattern)));
-        let mut directions = distinct(self.directions().into_iter().filter_map(|direction| {
+        let vertices = distinct(self.vertices().into_iter().map(|point| signed_forces(point, pattern)));
+        let directions = distinct(self.directions().into_iter().filter_map(|direction| {
             let forces = signed_forces(direction, pattern);
             scaled_to_one(forces)
         }));
-        let rounded = |point: Vec<RBig>| DVector::from_iterator(point.len(), point.iter().map(nearest));
-        match (vertices.len(), directions.len()) {
-            (0, _) => SolutionSet::Empty,
-            (1, 0) => SolutionSet::Point(rounded(vertices.swap_remove(0))),
-            (2, 0) => SolutionSet::Segment {
-                to: rounded(vertices.swap_remove(1)),
-                from: rounded(vertices.swap_remove(0)),
-            },
-            (1, 1) => SolutionSet::Ray {
-                from: rounded(vertices.swap_remove(0)),
-                direction: rounded(directions.swap_remove(0)),
-            },
-            _ => SolutionSet::Polytope {
-                vertices: vertices.into_iter().map(rounded).collect(),
-                directions: directions.into_iter().map(rounded).collect(),
-            },
-        }
+        SolutionSet::from_corners(vertices, directions)
+            .map(|point| DVector::from_iterator(point.len(), point.iter().map(nearest)))
     }
 
-    /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once
-    /// `proceed` is false.
-    pub(super) fn new(
+    /// The set for equations in echelon form. It is not computed if that takes more than `bases` trials, or
+    /// once `proceed` is `false`.
+    pub(super) fn of_echelon(
         echelon: &Echelon,
         pattern: &[ContactState],
         bases: u64,
@@ -108,17 +44,9 @@ impl ExactSet {
             return Self::Empty;
         }
         let limits = WorkLimits::new(echelon, pattern);
-        // The set holds no line, so it is empty exactly if it has no vertex.
-        let Some(Corners { mut vertices, mut directions }) = limits.corners(bases, proceed) else {
-            return Self::NotComputed;
-        };
-        match (vertices.len(), directions.len()) {
-            (0, _) => Self::Empty,
-            (1, 0) => Self::Point(vertices.swap_remove(0)),
-            (2, 0) => Self::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
-            (1, 1) => Self::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
-            _ => Self::Polytope { vertices, directions },
-        }
+        // The set contains no line, so it is empty exactly if it has no vertex.
+        let corners = limits.corners(bases, proceed);
+        corners.map_or(Self::NotComputed, |corners| Self::from_corners(corners.vertices, corners.directions))
     }
 }
 
@@ -161,8 +89,8 @@ impl WorkLimits {
         Self { parameters: free.len(), unknowns, rows }
     }
 
-    /// Vertices and extreme directions; none if that takes more than `bases` trials, or once `proceed` is
-    /// false.
+    /// Vertices and extreme directions; `None` if that takes more than `bases` trials, or once `proceed` is
+    /// `false`.
     fn corners(&self, bases: u64, proceed: &mut dyn FnMut() -> bool) -> Option<Corners> {
         let (rows, parameters) = (self.rows.len(), self.parameters);
         let work = binomial(rows, parameters).saturating_add(binomial(rows, parameters - 1));
@@ -182,7 +110,7 @@ impl WorkLimits {
         })
     }
 
-    /// The point at which the given limits are reached, if it is one point and within all others.
+    /// The point at which the given limits are reached, if it is a single point and within all other limits.
     fn vertex(&self, tight: &[usize]) -> Option<Vec<RBig>> {
         let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
         let reduced = SolvedRows::new(equations, self.parameters);
@@ -194,7 +122,8 @@ impl WorkLimits {
         admissible.then(|| self.unknowns.iter().map(|row| evaluate(row, &RBig::ONE, &parameters)).collect())
     }
 
-    /// The direction along which the given limits stay reached, if it is one and leads past no limit.
+    /// The direction along which the given limits remain reached, if there is a single one and it violates no
+    /// limit.
     fn direction(&self, tight: &[usize]) -> Option<Vec<RBig>> {
         let equations = tight.iter().map(|&row| self.rows[row].clone()).collect();
         let reduced = SolvedRows::new(equations, self.parameters);
@@ -269,7 +198,7 @@ fn signed_forces(point: &[RBig], pattern: &[ContactState]) -> Vec<RBig> {
     point.iter().zip(pattern).map(signed).collect()
 }
 
-/// Divided by the size of the largest component; none if all are zero.
+/// Divided by the size of the largest component; `None` if all are zero.
 fn scaled_to_one(direction: Vec<RBig>) -> Option<Vec<RBig>> {
     let size = |value: &RBig| if *value < RBig::ZERO { -value.clone() } else { value.clone() };
     let largest = direction.iter().map(size).max().filter(|largest| !largest.is_zero())?;

@@ -1,10 +1,10 @@
-//! What contacts do in a pattern, and the sets of normal forces that a pattern may admit.
+//! The states of contacts in a pattern, and the sets of normal forces that a pattern may admit.
 
 use nalgebra::DVector;
 
 use crate::problem::side::Side;
 
-/// What one contact does in a pattern: pressed on one of its sides, or between its faces.
+/// The state of one contact in a pattern: pressed on one of its sides, or between its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ContactState {
     /// `N > 0`.
@@ -19,7 +19,7 @@ impl ContactState {
     pub(crate) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
     pub(crate) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
 
-    /// The side on which the contact is pressed; none in the gap.
+    /// The side on which the contact is pressed; `None` in the gap.
     pub fn side(self) -> Option<Side> {
         match self {
             Self::Positive => Some(Side::Positive),
@@ -43,41 +43,42 @@ impl From<Side> for ContactState {
     }
 }
 
-/// The signed normal forces that a singular pattern admits.
+/// What a singular pattern admits: points and directions of signed normal forces or, for an
+/// [`ExactSet`](crate::certificate::ExactSet), of exact unknowns.
 #[derive(Debug, Clone, PartialEq)]
-pub enum SolutionSet {
+pub enum SolutionSet<P = DVector<f64>> {
     /// No solution: locking of the mode.
     Empty,
     /// One solution.
-    Point(DVector<f64>),
-    /// All `N` between two ends.
+    Point(P),
+    /// All points between two ends.
     Segment {
         /// One end.
-        from: DVector<f64>,
+        from: P,
         /// The other end.
-        to: DVector<f64>,
+        to: P,
     },
     /// All `from + t direction`, `t >= 0`.
     Ray {
         /// The end of the ray.
-        from: DVector<f64>,
-        /// The direction, its largest component being 1 in size.
-        direction: DVector<f64>,
+        from: P,
+        /// The direction, with a largest component of size 1.
+        direction: P,
     },
-    /// Convex combinations of the vertices plus non-negative combinations of the directions.
+    /// Convex combinations of the vertices plus nonnegative combinations of the directions.
     Polytope {
         /// The vertices.
-        vertices: Vec<DVector<f64>>,
-        /// Extreme directions, the largest component of each being 1 in size.
-        directions: Vec<DVector<f64>>,
+        vertices: Vec<P>,
+        /// Extreme directions, each with a largest component of size 1.
+        directions: Vec<P>,
     },
-    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases) allows.
+    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases) or the caller allows.
     NotComputed,
 }
 
-impl SolutionSet {
+impl<P> SolutionSet<P> {
     /// The set with the given vertices and extreme directions, which are all different.
-    pub(crate) fn from_corners(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> Self {
+    pub(crate) fn from_corners(mut vertices: Vec<P>, mut directions: Vec<P>) -> Self {
         match (vertices.len(), directions.len()) {
             (0, _) => Self::Empty,
             (1, 0) => Self::Point(vertices.swap_remove(0)),
@@ -87,8 +88,8 @@ impl SolutionSet {
         }
     }
 
-    /// The vertices of the set, none if it is empty or was not computed.
-    pub fn vertices(&self) -> Vec<&DVector<f64>> {
+    /// The vertices of the set; none if it is empty or was not computed.
+    pub fn vertices(&self) -> Vec<&P> {
         match self {
             Self::Empty | Self::NotComputed => Vec::new(),
             Self::Point(point) => vec![point],
@@ -98,8 +99,8 @@ impl SolutionSet {
         }
     }
 
-    /// The extreme directions of the set, none if it is bounded or was not computed.
-    pub fn directions(&self) -> Vec<&DVector<f64>> {
+    /// The extreme directions of the set; none if it is bounded or was not computed.
+    pub fn directions(&self) -> Vec<&P> {
         match self {
             Self::Ray { direction, .. } => vec![direction],
             Self::Polytope { directions, .. } => directions.iter().collect(),
@@ -107,8 +108,26 @@ impl SolutionSet {
         }
     }
 
-    /// Whether the set holds more than one point.
+    /// Whether the set contains more than one point.
     pub fn is_continuum(&self) -> bool {
         matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
+    }
+
+    /// The set with the images of all points and directions under a linear map that keeps vertices and
+    /// extreme directions distinct.
+    pub(crate) fn map<Q>(self, image: impl Fn(P) -> Q) -> SolutionSet<Q> {
+        let all = |points: Vec<P>| points.into_iter().map(&image).collect();
+        match self {
+            Self::Empty => SolutionSet::Empty,
+            Self::NotComputed => SolutionSet::NotComputed,
+            Self::Point(point) => SolutionSet::Point(image(point)),
+            Self::Segment { from, to } => SolutionSet::Segment { from: image(from), to: image(to) },
+            Self::Ray { from, direction } => {
+                SolutionSet::Ray { from: image(from), direction: image(direction) }
+            }
+            Self::Polytope { vertices, directions } => {
+                SolutionSet::Polytope { vertices: all(vertices), directions: all(directions) }
+            }
+        }
     }
 }

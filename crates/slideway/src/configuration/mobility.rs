@@ -274,13 +274,13 @@ fn is_singular_position(mechanism: &Mechanism, poses: &[Pose], rank_here: usize)
     })
 }
 
-/// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words; each in
-/// the direction in which these forces (N, N, N m for each body) do work.
+/// The motions among these, columns of (x, y, angle) of every body, that meet no inertia, in words: each in the
+/// direction in which loads (N, N, N m of every body) move it, if there are any that do.
 pub(crate) fn motions_without_inertia(
     mechanism: &Mechanism,
     configuration: &Configuration,
     motions: &DMatrix<f64>,
-    forces: &DVector<f64>,
+    loads: Option<&DVector<f64>>,
 ) -> Vec<String> {
     let masses = mechanism.bodies.iter().flat_map(|body| [body.mass, body.mass, body.moment_of_inertia]);
     let masses = DVector::from_iterator(motions.nrows(), masses);
@@ -293,10 +293,12 @@ pub(crate) fn motions_without_inertia(
     let without = (0..motions.ncols()).filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest);
     let in_words = |index: usize| {
         let mut motion = motions * eigen.eigenvectors.column(index);
-        // Without work, of both directions the one whose greatest component is positive.
-        let work = motion.dot(forces);
-        let is_none = work.abs() <= RANK_TOLERANCE * motion.abs().dot(&forces.abs());
-        if (if is_none { motion[motion.icamax()] } else { work }) < 0.0 {
+        // Of loads that do no work but for rounding, or without any, it is the direction whose greatest
+        // component is positive.
+        let work = loads.map(|loads| (loads.dot(&motion), loads.abs().dot(&motion.abs())));
+        let work = work.filter(|(work, terms)| work.abs() > RANK_TOLERANCE * terms);
+        let forwards = work.map_or(motion[motion.icamax()], |(work, _)| work);
+        if forwards < 0.0 {
             motion = -motion;
         }
         motion_in_words(mechanism, configuration, &motion)

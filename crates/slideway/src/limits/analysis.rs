@@ -6,7 +6,7 @@ use super::found::ModesFound;
 use super::options::LimitsOptions;
 use super::report::{LimitsReport, SpeedLimits};
 use super::speeds::speeds;
-use super::varied::{ShownIn, Varied};
+use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::Model;
 use crate::progress::Work;
@@ -20,7 +20,6 @@ const USUAL_FRICTION: f64 = 1.0;
 pub(super) struct Analysis {
     pub(super) varied: Varied,
     pub(super) range: [f64; 2],
-    pub(super) shown_in: ShownIn,
     pub(super) found: ModesFound,
     pub(super) reversed: Option<(Varied, ModesFound)>,
     /// What becomes of speeds along each mode, in both directions.
@@ -30,8 +29,7 @@ pub(super) struct Analysis {
 impl Analysis {
     pub(super) fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
         let vary = &options.vary;
-        let varied = Varied::new(model, &vary.name)?;
-        let shown_in = vary.shown_in(&varied);
+        let varied = vary.of(model)?;
         let range = vary.ends(&varied, || usual_range(model, &varied))?;
         let directions = 1 + usize::from(options.both_directions);
         let (modes, along) = (work.part(0, 2), work.part(1, 2));
@@ -41,7 +39,7 @@ impl Analysis {
         };
         let found = find(&varied, 0)?;
         let reversed = if options.both_directions {
-            let varied = Varied::new(&model.reversed(), &vary.name)?;
+            let varied = vary.of(&model.reversed())?;
             let found = find(&varied, 1)?;
             Some((varied, found))
         } else {
@@ -50,13 +48,13 @@ impl Analysis {
         let opposite =
             reversed.as_ref().map(|(varied, found)| speeds(varied, found, along.part(1, directions)));
         let speeds = [speeds(&varied, &found, along.part(0, directions)), opposite.unwrap_or_default()];
-        Ok(Self { varied, range, shown_in, found, reversed, speeds })
+        Ok(Self { varied, range, found, reversed, speeds })
     }
 
     pub(super) fn report(&self, naming: &Naming) -> LimitsReport {
         let [speeds, opposite] = &self.speeds;
         let reversed = self.reversed.as_ref().map(|(_, found)| (found, opposite.as_slice()));
-        answer::report(naming, &self.varied, self.range, ((&self.found, speeds), reversed))
+        answer::report(naming, &self.varied, self.range, (&self.found, speeds), reversed)
     }
 }
 

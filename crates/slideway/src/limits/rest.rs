@@ -5,12 +5,11 @@
 
 use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
 use super::scan::{bisect, kind};
-use super::varied::Varied;
 use super::vary::Vary;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
-use crate::report::{finite, precise};
+use crate::report::finite;
 use crate::standstill::{HoldOptions, can_rest};
 
 /// Evenly spaced values that are tried: a heuristic.
@@ -61,7 +60,7 @@ fn rest_limits_of(
     options: &HoldOptions,
     work: Work<'_>,
 ) -> Result<RestLimitsReport, Faults> {
-    let varied = Varied::at_rest(model, &vary.name)?;
+    let varied = vary.at_rest(model)?;
     let range = vary.ends(&varied, || {
         let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
         Err(Fault::general(kind).into())
@@ -82,7 +81,7 @@ fn rest_limits_of(
         load: options.load.clone(),
         guarantee: format!(
             "Decided at values {} apart; where the answer changes between two of them it was bisected. Narrower stretches may be missed.",
-            precise((range[1] - range[0]) / STEPS as f64)
+            varied.shown_in.precise((range[1] - range[0]) / STEPS as f64)
         ),
         spans,
     })

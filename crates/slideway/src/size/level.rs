@@ -38,7 +38,7 @@ pub(super) fn level(
         efforts: state.drives.iter().map(|drive| drive.effort).collect(),
         normal_forces: state.contacts.iter().map(|contact| contact.normal_force).collect(),
     };
-    let between_faces = varied.states_between_faces((value, 1.0), None, work);
+    let between_faces = varied.states_between_faces(value, 1.0, None, work);
     let states = patterns.iter().filter_map(of_pattern).chain(between_faces.iter().map(between));
     let levels = states.map(|forces| of_forces(varied, against, &efforts, &forces));
     let levels: Vec<f64> = levels.collect::<Result<_, _>>()?;

@@ -36,7 +36,7 @@ pub use report::{
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, Vary, range_around};
+use crate::limits::{Vary, range_around};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -156,14 +156,13 @@ pub fn size_with(
 }
 
 fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeReport, Faults> {
-    let name = &options.vary.name;
     let at_rest = options.against.is_at_rest();
     if at_rest && options.both_directions {
         return Err(Fault::general(FaultKind::NoDirectionAtRest).into());
     }
-    let varied = Varied::new(model, name)?;
+    let varied = options.vary.of(model)?;
     let range = options.vary.ends(&varied, || range_around(model, &varied))?;
-    let opposite = if options.both_directions { Some(Varied::new(&model.reversed(), name)?) } else { None };
+    let opposite = if options.both_directions { Some(options.vary.of(&model.reversed())?) } else { None };
     if matches!(options.against, Against::Effort { .. } | Against::Efficiency) && model.drives.is_empty() {
         let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
         return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());

@@ -1,11 +1,12 @@
 //! What is told of a design: plain data, which are the JSON output.
 
 use super::margin::{Margin, MarginQuestion};
-use super::search::{Cause, End, SizesFound, Tried};
+use super::search::{End, MetCause, SizesFound, Tried};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
 use crate::model::{Effort, Model};
+use crate::units::Unit;
 use serde::Serialize;
 
 /// Version of the layout of a [`SizeReport`]; changes whenever a field is renamed or removed.
@@ -72,8 +73,11 @@ pub struct SizeReport {
     pub load: Option<String>,
     /// The wanted margin; against an effort, normal force or efficiency the limit that it has to keep.
     pub margin: f64,
-    /// Unit of the limit, empty for a pure number.
+    /// SI unit of the limit, empty for a pure number.
     pub unit: &'static str,
+    /// The unit in which texts show it.
+    #[serde(skip)]
+    pub limit_shown_in: Unit,
     /// Whether the smaller margin of both directions of motion counts.
     pub both_directions: bool,
     /// The margin in the model.
@@ -184,6 +188,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         Against::NormalForce { contact } => (MarginKind::NormalForce, contact.clone()),
         Against::Efficiency => (MarginKind::Efficiency, None),
     };
+    let unit = unit(model, &options.against);
     let told: Told<'_> = &|margin| against.told(margin, options.margin);
     let vary = VariedQuantity::new(question.varied, *range, *value);
     let mut report = SizeReport {
@@ -193,13 +198,14 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         against,
         load,
         margin: options.margin,
-        unit: unit(model, &options.against),
+        unit,
+        limit_shown_in: if unit.is_empty() { Unit::default() } else { model.units.of(unit) },
         both_directions: options.both_directions,
         present: sample(&Tried { at: *value, margin: *present }, told),
         met: found.met.iter().map(|ends| interval(ends, told)).collect(),
         without_position: found.gaps.iter().map(gap).collect(),
         samples: samples(found, (*steps, options.margin), told),
-        guarantee: words::guarantee(*range, *steps, against),
+        guarantee: words::guarantee(*range, *steps, against, &question.varied.shown_in),
         conclusion: Vec::new(),
     };
     report.conclusion = Words { report: &report, places: &found.places }.conclusion();
@@ -230,7 +236,7 @@ type Told<'t> = &'t dyn Fn(Margin) -> (SampleKind, Option<f64>);
 
 fn interval([from, to]: &[End; 2], told: Told<'_>) -> MetInterval {
     let jumps_to = |end: &End| match end.cause {
-        Cause::Jump(margin) => told(margin).1,
+        MetCause::Jump(margin) => told(margin).1,
         _ => None,
     };
     MetInterval {
@@ -245,14 +251,14 @@ fn interval([from, to]: &[End; 2], told: Told<'_>) -> MetInterval {
 
 fn cause(end: &End) -> MetEnd {
     match end.cause {
-        Cause::Range => MetEnd::Range,
-        Cause::Margin => MetEnd::Margin,
-        Cause::Jump(_) => MetEnd::Jump,
-        Cause::NoPosition => MetEnd::NoPosition,
+        MetCause::Range => MetEnd::Range,
+        MetCause::Margin => MetEnd::Margin,
+        MetCause::Jump(_) => MetEnd::Jump,
+        MetCause::NoPosition => MetEnd::NoPosition,
     }
 }
 
-fn gap(gap: &super::search::Gap) -> RangeWithoutPosition {
+fn gap(gap: &super::search::SizeGap) -> RangeWithoutPosition {
     let reason = gap.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string());
     RangeWithoutPosition { from: gap.from, to: gap.to, reason }
 }
@@ -273,7 +279,7 @@ fn samples(found: &SizesFound, (steps, wanted): (usize, f64), told: Told<'_>) ->
     };
     let mut samples: Vec<Sample> =
         found.places.iter().filter(is_row).map(|place| sample(place, told)).collect();
-    let exact = found.met.iter().flatten().filter(|end| end.cause == Cause::Margin);
+    let exact = found.met.iter().flatten().filter(|end| end.cause == MetCause::Margin);
     samples.extend(exact.map(|end| Sample { at: end.at, is: SampleKind::Finite, margin: Some(wanted) }));
     samples.sort_by(|one, other| one.at.total_cmp(&other.at));
     samples.dedup_by(|next, kept| next.at == kept.at);

@@ -1,7 +1,7 @@
 //! A design as text for people.
 
 use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
-use super::words::{quantity, subject, unit};
+use super::words::{level, subject};
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -25,7 +25,7 @@ impl Page<'_, SizeReport> {
             self.headline(title);
         }
         let vary = &report.vary;
-        self.line(&format!("{} from {} to {}", vary.name, precise(vary.from), quantity(report, vary.to)));
+        self.line(&vary.shown_in.range(&vary.name, [vary.from, vary.to]));
         self.line("");
         for sentence in &report.conclusion {
             self.headline(sentence);
@@ -39,48 +39,41 @@ impl Page<'_, SizeReport> {
             return;
         }
         self.line("");
-        let (what, limit) = (subject(report), precise(report.margin));
+        let (what, limit) = (subject(report), level(report, report.margin));
         let side = match report.against {
             MarginKind::Effort | MarginKind::NormalForce => "at most",
             _ => "at least",
         };
-        self.headline(&format!("Where the {what} is {side} {limit}{}", unit(report)));
+        self.headline(&format!("Where the {what} is {side} {limit}"));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
-        self.lines(&table(&["from", "to", "begins with", "ends with"], &rows, 0));
+        let [from, to] = ["from", "to"].map(|end| report.vary.shown_in.title(end));
+        self.lines(&table(&[&from, &to, "begins with", "ends with"], &rows, 0));
     }
 
     fn margins(&mut self) {
         let report = self.report;
         self.line("");
         let what = subject(report);
-        self.headline(&match report.against.is_limit() {
-            true => format!("The {what}"),
-            false => "Margins".to_owned(),
-        });
-        let name = match report.vary.unit.as_str() {
-            "" => report.vary.name.clone(),
-            unit => format!("{} in {unit}", report.vary.name),
-        };
+        self.headline(&if report.against.is_limit() { format!("The {what}") } else { "Margins".to_owned() });
+        let unit = &report.vary.shown_in;
+        let name = unit.title(&report.vary.name);
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
-            (_, Some(margin)) => precise(margin),
+            (_, Some(margin)) => report.limit_shown_in.precise_number(margin),
             (SampleKind::NoSolution, _) => "no solution".to_owned(),
             _ => "no answer".to_owned(),
         };
-        let header = match report.unit {
-            "" => what,
-            unit => format!("{what} in {unit}"),
-        };
-        let rows: Vec<Vec<String>> =
-            report.samples.iter().map(|sample| vec![precise(sample.at), margin(sample)]).collect();
+        let header = report.limit_shown_in.title(&what);
+        let row = |sample: &super::Sample| vec![unit.precise_number(sample.at), margin(sample)];
+        let rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
         self.lines(&table(&[&name, &header], &rows, 0));
     }
 }
 
 fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
     vec![
-        precise(interval.from),
-        precise(interval.to),
+        report.vary.shown_in.precise_number(interval.from),
+        report.vary.shown_in.precise_number(interval.to),
         cause(report, interval.from_is, interval.from_jumps_to),
         cause(report, interval.to_is, interval.to_jumps_to),
     ]
@@ -91,7 +84,9 @@ fn cause(report: &SizeReport, is: MetEnd, jumps_to: Option<f64>) -> String {
         (MetEnd::Range, _) => "the range".to_owned(),
         (MetEnd::Margin, _) if report.against.is_limit() => "the limit".to_owned(),
         (MetEnd::Margin, _) => format!("margin {}", precise(report.margin)),
-        (MetEnd::Jump, Some(margin)) => format!("a jump of the {} to {}", subject(report), precise(margin)),
+        (MetEnd::Jump, Some(margin)) => {
+            format!("a jump of the {} to {}", subject(report), level(report, margin))
+        }
         (MetEnd::Jump, None) => format!("a jump of the {}", subject(report)),
         _ => "no answer".to_owned(),
     }

@@ -4,6 +4,7 @@ use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeRep
 use super::search::Tried;
 use crate::report::number::number;
 use crate::report::number::precise;
+use crate::units::Unit;
 
 /// Margins closer than this, relative to the greater one, are the same.
 const SAME: f64 = 1e-9;
@@ -14,14 +15,14 @@ pub(super) struct Words<'r> {
     pub(super) places: &'r [Tried],
 }
 
-pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind) -> String {
+pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
     let (wanted, level) =
         if against.is_limit() { ("limit", "of the quantity") } else { ("wanted margin", "of the margin") };
     let step = (to - from) / steps as f64;
     format!(
         "{} evenly spaced values were tried; crossings of the {wanted} between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump {level} there and back, or a second dip, within two steps of {} may be missed.",
         steps + 1,
-        number(step)
+        shown_in.show(step)
     )
 }
 
@@ -51,17 +52,17 @@ impl Words<'_> {
             [] => {
                 let best = self.places.iter().filter_map(|place| Some((place.at, place.margin?)));
                 let best = best.min_by(|(_, one), (_, other)| one.demand(1.0).total_cmp(&other.demand(1.0)));
-                let range = format!("{} to {}", precise(report.vary.from), quantity(report, report.vary.to));
+                let from = report.vary.shown_in.precise_number(report.vary.from);
+                let range = format!("{from} to {}", quantity(report, report.vary.to));
                 let gives =
                     if report.without_position.is_empty() { "gives it" } else { "is known to give it" };
                 let best =
                     best.and_then(|(at, margin)| Some((at, report.against.told(margin, report.margin).1?)));
                 match best {
                     Some((at, level)) if report.against.is_limit() => format!(
-                        "{wish}: no {name} from {range} {gives}; of the values that were tried, {} comes nearest to it, with {}{}.",
+                        "{wish}: no {name} from {range} {gives}; of the values that were tried, {} comes nearest to it, with {}.",
                         quantity(report, at),
-                        precise(level),
-                        unit(report)
+                        self::level(report, level)
                     ),
                     Some((at, margin)) => format!(
                         "{wish}: no {name} from {range} {gives}; the greatest margin of the values that were tried is {}, at {}.",
@@ -82,7 +83,7 @@ impl Words<'_> {
     fn interval(&self, interval: &MetInterval) -> String {
         let report = self.report;
         let [from, to] = [interval.from, interval.to].map(|value| quantity(report, value));
-        let bare = precise(interval.from);
+        let bare = report.vary.shown_in.precise_number(interval.from);
         match (interval.from_is, interval.to_is) {
             (MetEnd::Range, MetEnd::Range) => format!("anything from {bare} to {to}"),
             (_, MetEnd::Range) => format!("at least {from} (examined up to {to})"),
@@ -112,7 +113,7 @@ impl Words<'_> {
                     _ => level <= report.margin,
                 };
                 let kept = if is_kept { "the limit is kept" } else { "the limit is not kept" };
-                format!("{model}: the {what} is {}{}; {kept}.", number(level), unit(report))
+                format!("{model}: the {what} is {}; {kept}.", report.limit_shown_in.show(level))
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking => format!("{model}: it is on the verge of locking."),
@@ -199,9 +200,9 @@ pub(super) fn subject(report: &SizeReport) -> String {
     }
 }
 
-/// The unit of these numbers behind one of them; that of efforts depends on the drives.
-pub(super) fn unit(report: &SizeReport) -> String {
-    if report.unit.is_empty() { String::new() } else { format!(" {}", report.unit) }
+/// One of these numbers with its unit.
+pub(super) fn level(report: &SizeReport, value: f64) -> String {
+    report.limit_shown_in.precise(value)
 }
 
 fn wish(report: &SizeReport) -> String {
@@ -215,7 +216,7 @@ fn wish(report: &SizeReport) -> String {
         MarginKind::SelfLocking => format!("For a margin of {margin} against self-locking under {load}"),
         MarginKind::Hold => format!("To hold any {load} with a margin of {margin}"),
         MarginKind::Effort | MarginKind::NormalForce => {
-            format!("For a {} of {margin}{} at most", subject(report), unit(report))
+            format!("For a {} of {} at most", subject(report), level(report, report.margin))
         }
         MarginKind::Efficiency => format!("For an efficiency of {margin} at least"),
     }
@@ -223,9 +224,5 @@ fn wish(report: &SizeReport) -> String {
 
 /// A value of what is varied, with its unit.
 pub(super) fn quantity(report: &SizeReport, value: f64) -> String {
-    match report.vary.unit.as_str() {
-        "" => precise(value),
-        "rad" => format!("{} rad ({} deg)", precise(value), number(value.to_degrees())),
-        unit => format!("{} {unit}", precise(value)),
-    }
+    report.vary.shown_in.precise(value)
 }

@@ -30,6 +30,7 @@ mod from_rest;
 mod margins;
 mod mode_problem;
 mod parts;
+mod stages;
 mod state;
 mod trail;
 mod uncertainty;
@@ -43,25 +44,24 @@ pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
-pub(crate) use parts::{Parts, Stages};
+pub(crate) use parts::Parts;
+pub(crate) use stages::{ProblemData, Stages, rougher};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
 pub(crate) use with_friction::solve_with_friction;
 pub use words::mode_in_words;
+pub(crate) use words::sliding_in_words;
 
 use crate::configuration::Configuration;
 use crate::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};
 use crate::fault::Faults;
-use crate::influence::Influence;
 use crate::interval::Interval;
-use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::Callback;
 use crate::report::{SolveReport, finite};
-use nalgebra::DVector;
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -129,23 +129,20 @@ pub fn solve_with(
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
-    let mut mechanism = Mechanism::new(model)?;
+    let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::new(&mechanism)?;
-    configuration.put_friction(&mut mechanism)?;
-    let equations = KineticEquations::new(&mechanism, &configuration)?;
-    let influence = Influence::new(&equations);
-    let velocity_signs = velocity_signs(&mechanism, &configuration)?;
+    let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
-    let enclosed = enclosure(model, &middle(&ranges), &mechanism, &configuration);
-    let stated = (&mechanism, &influence, &velocity_signs);
-    let (result, jumps) = searched(&enclosed, stated, &options.search, progress)?;
+    let Stages { mechanism, configuration, influence, velocity_signs, .. } = &stages;
+    let enclosed = enclosure(model, &middle(&ranges), mechanism, configuration);
+    let (result, jumps) = searched(&enclosed, stages.data(), &options.search, progress)?;
     let answer = answer::Answer {
-        mechanism: &mechanism,
-        configuration: &configuration,
+        mechanism,
+        configuration,
         equations: &equations,
-        influence: &influence,
-        velocity_signs: &velocity_signs,
+        influence,
+        velocity_signs,
         jumps,
         enclosed: enclosed.as_ref().ok(),
     };
@@ -157,7 +154,7 @@ pub fn solve_with(
     let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
     report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
     if options.margins {
-        margins::add(&mut report, &mechanism, &influence, &velocity_signs);
+        margins::add(&mut report, stages.data());
         from_rest::add(&mut report, model);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
@@ -171,7 +168,7 @@ pub fn solve_with(
 /// Numbers beyond the range of floating point.
 fn searched(
     enclosed: &Result<EnclosedModeProblem, NotEnclosed>,
-    (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
+    data: ProblemData<'_>,
     options: &SearchOptions,
     progress: &mut Callback<'_>,
 ) -> Result<(SearchResult, Vec<bool>), Faults> {
@@ -179,7 +176,7 @@ fn searched(
         let jumps = enclosed.problem.centre().jumps_of_contacts();
         return Ok((search(&enclosed.problem, options, progress), jumps));
     }
-    let problem = mode_problem(mechanism, influence, velocity_signs)?;
+    let problem = data.problem()?;
     Ok((search(&problem, options, progress), problem.jumps_of_contacts()))
 }
 

@@ -119,9 +119,3 @@ pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>)
 pub(super) fn overflow() -> Faults {
     Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() }).into()
 }
-
-/// Whether the preload of a contact rubs on a face that the mode problem does not tell: its friction jumps
-/// with the side of the contact, but no normal force with it, as `has_jump` says of each contact.
-pub(super) fn has_free_face(mechanism: &Mechanism, has_jump: &[bool], contact: usize) -> bool {
-    mechanism.preload_jumps(ContactId(contact)) && !has_jump[contact]
-}

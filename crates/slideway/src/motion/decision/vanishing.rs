@@ -1,6 +1,5 @@
 //! What is zero at an event is exactly zero.
 
-use super::BOUNDARY;
 use super::assessment::{Assessment, assess};
 use super::instant::Instant;
 use super::rules;
@@ -8,17 +7,17 @@ use super::sticking::ENOUGH;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use nalgebra::DVector;
 
-/// What is left of a normal force, in units, or of a share, where an event has found it to be zero; it is
-/// greater only where it has no bounds.
+/// What may be left of a normal force, in units, or of a share, that an event has found to be zero; more is
+/// left only if the value has no bounds.
 const NEARLY_ZERO: f64 = 1e-4;
 
-/// Makes exactly zero in the previous phase what the event has found to be zero.
-pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::Instant<'_>, previous: &Phase) {
+/// Sets to exactly zero in the previous phase what the event has found to be zero.
+pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>, previous: &Phase) {
     if event.zero.is_empty() {
         return;
     }
     let stopped = vec![false; instant.joints.len()];
-    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, (BOUNDARY, ENOUGH));
+    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, ENOUGH);
     if let Ok(Some(before)) = before {
         let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
         instant.vanish(&contacts, &before);
@@ -26,9 +25,9 @@ pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::Instant<'_>, prev
 }
 
 impl Instant<'_> {
-    /// Makes normal forces, or what is left of preload gaps, exactly zero in a state: its equations hold
-    /// again with loads that differ by no more than what is left of them, and so do those of its neighbours,
-    /// in which the contacts press on the other side.
+    /// Sets normal forces, or what is left of preload gaps, to exactly zero in a state: its equations hold
+    /// again with loads changed by no more than this remainder, and so do those of its neighbours, in which
+    /// the contacts press on the other side.
     fn vanish(&mut self, contacts: &[usize], state: &Assessment) {
         let mut shift = DVector::zeros(self.outputs.base.len());
         for &k in contacts {
