@@ -88,7 +88,7 @@ fn a_peg_that_slows_down_stops_and_stays() {
     for sentence in [
         "One solution: it slows down.",
         "Friction takes more than the loads give. To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.",
-        "It slows down, and would stop after 4.5455e-7 s and 2.2727e-10 m if nothing changed.",
+        "It slows down, and would stop after 4.5455e-7 s and 2.2727e-7 mm if nothing changed.",
         "Once it is at rest, these loads would not move it again.",
         "the contact mode stays the same however much friction grows, but the motion slows down in it",
     ] {
