@@ -134,7 +134,7 @@ impl Axis {
             let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
             Err(Fault::general(kind).into())
         })?;
-        Ok(Self { range, varied })
+        Ok(Self { varied, range })
     }
 
     /// The value in the middle of a pixel.

@@ -216,7 +216,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
 fn unit(model: &Model, against: &Against) -> &'static str {
     let of_drive = |drive: &crate::model::Drive| match drive.effort {
         Effort::Force { .. } => "N",
-        _ => "N m",
+        Effort::Torque { .. } => "N m",
     };
     match against {
         Against::Effort { drive } => {
