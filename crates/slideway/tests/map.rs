@@ -383,7 +383,7 @@ fn a_map_of_rest_is_that_of_its_closed_form() {
 fn a_map_without_any_answer_is_refused_with_the_reason() {
     let bracket = model("bracket-on-pole", &[]);
     let faults = map(&bracket, &options("B=0.1..0.2", "x=0.1..0.5", [8, 8], ColourBy::Solutions));
-    let faults = faults.unwrap_err();
+    let faults = faults.expect_err("nothing can be solved");
     let FaultKind::NoAnswerOnMap { reason } = &faults.sorted()[0].kind else { panic!("{faults}") };
     assert!(!reason.is_empty());
 }
@@ -418,7 +418,7 @@ fn a_map_of_motion_has_the_classes_of_the_acceleration() {
         slide = "floor"
         rate = 1
     "#;
-    let block = Model::parse(text).unwrap();
+    let block = Model::parse(text).expect("sound");
     let report = mapped(&block, &options("mu=0..1", "P=0..10", [16, 12], ColourBy::Motion));
     for (row, column) in (0..12).flat_map(|row| (0..16).map(move |column| (row, column))) {
         let (mu, push) = (middle([0.0, 1.0], column, 16), middle([0.0, 10.0], row, 12));
