@@ -52,6 +52,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Modes(arguments) => commands::modes(arguments, output),
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Import(arguments) => commands::import(arguments, output),
+        Command::Questions => commands::questions(output),
         Command::Schema => commands::schema(output),
         Command::Completions { shell } => commands::completions(*shell, Arguments::command(), output),
     }

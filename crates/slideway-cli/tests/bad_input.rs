@@ -58,7 +58,8 @@ refused! {
     rod_too_short: ["solve", "models/slider-crank.toml", "--set", "l=45 mm", "--at", "phi=90 deg"];
     hold_unknown_load: ["hold", DRAWER, "--load", "pusch"];
     hold_load_of_nothing: ["hold", KLEPP, "--load", "damper"];
-    hold_vary_without_load: ["hold", DRAWER, "--vary", "mu"];
+    hold_vary_without_load: ["hold", KLEPP, "--vary", "mu_1"];
+    map_without_answer: ["map", "models/bracket-on-pole.toml", "--x", "x=0.1 m..0.5 m", "--y", "B=0.1 m..0.2 m", "--output", "map.svg", "--size", "8x8"];
     hold_vary_geometry: ["hold", DRAWER, "--load", "push", "--vary", "a"];
     size_unknown_parameter: ["size", DRAWER, "--vary", "l", "--margin", "2"];
     size_reversed_range: ["size", DRAWER, "--vary", "L=1 m..0.1 m", "--margin", "2"];

@@ -30,6 +30,11 @@ golden! {
     klepp: 0 ["solve", KLEPP];
     no_solution: 1 ["solve", KLEPP, "--set", "F_20=0", "--set", "direction=-1"];
     preload_gap: 0 ["solve", KLEPP, "--set", "mu_1=0.24", "--set", "F_30=0.5*m*g", "--set", "F_20=0"];
+    peg_pushed_by_a_load: 0 ["solve", "docs/src/examples/peg-pushed-by-load.toml"];
+    limits_of_a_peg: 0 ["limits", "docs/src/examples/peg-pushed-by-load.toml", "--vary", "mu=0..0.5"];
+    hold_over_a_range: 0 ["hold", BRACKET, "--vary", "x=0.1 m..0.5 m"];
+    size_by_effort: 0 ["size", DRAWER, "--vary", "L", "--max-effort", "30"];
+    help_questions: 0 ["help", "questions"];
     driven_drawer: 0 ["solve", "models/drawer.toml"];
     csv: 0 ["solve", "models/drawer.toml", "--format", "csv"];
     range_of_friction: 0 ["solve", KLEPP, "--set", "F_20=0", "--set", "mu_1=0.4..0.6"];

@@ -393,6 +393,14 @@ pub enum FaultKind {
     // Standstill.
     #[error("the load {load} vanishes at rest, so no factor changes it")]
     NoLoadAtRest { load: String },
+    #[error("self-locking is asked of one load, and the model has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    HeldLoadNeeded { known: Vec<String> },
+    #[error(
+        "the efficiency has no value: the motion takes no power without friction, or drives brake what they would push"
+    )]
+    NoEfficiency,
+    #[error("nowhere on the map is there an answer: {reason}")]
+    NoAnswerOnMap { reason: String },
     #[error("`{parameter}` is not a parameter of static friction alone")]
     NotOnlyFriction { parameter: String },
     #[error("the joints and contacts have {} states; at most {limit} are tried", counted(*states))]
@@ -538,9 +546,9 @@ impl FaultKind {
             Self::OverlapVanished { .. } => {
                 Some("the block has left its guide; choose --at closer to the drawing")
             }
-            Self::MotionWithoutInertia { .. } => {
-                Some("give a mass to the bodies that move, or prescribe the motion with a drive")
-            }
+            Self::MotionWithoutInertia { .. } => Some(
+                "its acceleration is not determined: ask `slideway hold` whether it stays at rest, prescribe the motion with a drive, or give a mass to the bodies that move",
+            ),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NoDirectionAtRest => Some("omit --both-directions"),
             Self::ZeroSlidingVelocity { .. } => Some(
@@ -559,6 +567,7 @@ impl FaultKind {
                 "+ and - are the signs of normal forces, 0 is a preload gap, = is a contact whose joint sticks",
             ),
             Self::NothingToSimulate { .. } => Some("choose a greater --until, or an earlier --time"),
+            Self::HeldLoadNeeded { .. } => Some("name it with --load"),
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
                 "friction coefficients must be linear functions of it, and nothing else may depend on it",

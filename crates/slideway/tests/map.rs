@@ -5,6 +5,7 @@ use slideway::gallery;
 use slideway::limits::Vary;
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, MapReport, map, map_with};
 use slideway::model::{Model, Settings};
+use slideway::report::SpeedChange;
 use slideway::solve::solve;
 use std::ops::ControlFlow;
 
@@ -361,4 +362,70 @@ fn states_between_faces_beside_pressed_sliders_are_those_of_solve() {
 
 fn patterns_told(meaning: &ClassMeaning) -> &[String] {
     if let ClassMeaning::Modes { patterns } = meaning { patterns } else { &[] }
+}
+
+/// The bracket holds where x >= B / (2 mu_static) with B = 152.4 mm.
+#[test]
+fn a_map_of_rest_is_that_of_its_closed_form() {
+    let bracket = model("bracket-on-pole", &[]);
+    let size = [40, 30];
+    let report = mapped(&bracket, &options("mu_static=0.2..0.6", "x=0.1..0.5", size, ColourBy::Hold));
+    for (row, column) in (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (row, column))) {
+        let mu = middle([0.2, 0.6], column, size[0]);
+        let x = middle([0.1, 0.5], row, size[1]);
+        let class = &report.classes[report.class_at(column, row)];
+        assert_eq!(class.meaning, ClassMeaning::Rest { holds: Some(x >= 0.1524 / (2.0 * mu)) }, "{mu} {x}");
+    }
+}
+
+/// The bracket has no inertia: as long as it slides nothing can be said, which is said once, with the reason.
+#[test]
+fn a_map_without_any_answer_is_refused_with_the_reason() {
+    let bracket = model("bracket-on-pole", &[]);
+    let faults = map(&bracket, &options("B=0.1..0.2", "x=0.1..0.5", [8, 8], ColourBy::Solutions));
+    let faults = faults.expect_err("nothing can be solved");
+    let FaultKind::NoAnswerOnMap { reason } = &faults.sorted()[0].kind else { panic!("{faults}") };
+    assert!(!reason.is_empty());
+}
+
+/// A block of 1 kg pushed by P along a floor: m a = P - mu m g, and with a tolerance of a pixel nothing else.
+#[test]
+fn a_map_of_motion_has_the_classes_of_the_acceleration() {
+    let text = r#"
+        gravity = 10
+        [parameters]
+        P = 4
+        mu = 0.3
+        [points]
+        M = [0, 0]
+        [bodies.block]
+        points = ["M"]
+        mass = 1
+        centre_of_mass = "M"
+        moment_of_inertia = 0.1
+        [joints.floor]
+        type = "block_slider"
+        block = "block"
+        at = "M"
+        along = 0
+        length = 0.4
+        mu = "mu"
+        [loads.push]
+        type = "force"
+        at = "block.M"
+        components = ["P", 0]
+        [coordinates.s]
+        slide = "floor"
+        rate = 1
+    "#;
+    let block = Model::parse(text).expect("sound");
+    let report = mapped(&block, &options("mu=0..1", "P=0..10", [16, 12], ColourBy::Motion));
+    for (row, column) in (0..12).flat_map(|row| (0..16).map(move |column| (row, column))) {
+        let (mu, push) = (middle([0.0, 1.0], column, 16), middle([0.0, 10.0], row, 12));
+        let change = if push > 10.0 * mu { SpeedChange::SpeedsUp } else { SpeedChange::SlowsDown };
+        let expected = ClassMeaning::Motion { solutions: vec![vec![change]] };
+        assert_eq!(report.classes[report.class_at(column, row)].meaning, expected, "{mu} {push}");
+    }
+    let words: Vec<&str> = report.classes.iter().map(|class| &*class.words).collect();
+    assert_eq!(words, ["one solution: speeds up", "one solution: slows down"]);
 }

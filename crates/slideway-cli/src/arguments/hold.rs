@@ -8,12 +8,17 @@ Examples:
   slideway hold bracket-on-pole.toml
   slideway hold bracket-on-pole.toml --load W
   slideway hold bracket-on-pole.toml --load W --vary mu_static
+  slideway hold bracket-on-pole.toml --vary mu_static=0..0.5
   slideway hold cam-follower.toml --load cam
   slideway hold slider-crank.toml --at phi=\"0 deg\" --load gas
 
 The rates of the model are set to zero. With --load NAME the load is multiplied by a factor, 1 being the load of the
 model; everything else is reported for the factor 1. The name of a drive stands for its effort in N or N m,
 and everything else is reported without it. A load takes precedence over a drive of the same name.
+The name gravity stands for all weights together.
+
+With --vary NAME=FROM..TO the answer is for which values it can stay at rest; over a plane of two quantities
+that is `slideway map --colour-by hold`.
 
 Exit codes:
   0    it can stay at rest
@@ -33,9 +38,10 @@ pub(crate) struct HoldArguments {
     #[arg(long, value_name = "NAME")]
     pub(crate) load: Option<String>,
 
-    /// Find the value of this static friction parameter at which the load is held however great it is;
-    /// by default, the factor on all static coefficients.
-    #[arg(long, value_name = "NAME", requires = "load")]
+    /// NAME: the value of this static friction parameter from which on the load is held however great it is
+    /// (by default, the factor on all static coefficients); NAME=FROM..TO: for which values of this
+    /// parameter, this coordinate or `friction` it can stay at rest.
+    #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: Option<String>,
 
     /// What the drives do.

@@ -11,6 +11,7 @@ Examples:
   slideway map klepp-2002.toml --x mu_1=0..0.8 --y alpha=\"60 deg..88 deg\" --colour-by modes --output modes.svg
   slideway map drawer.toml --x mu=0..1 --y L=\"200 mm..500 mm\" --colour-by margin --output drawer.png
   slideway map slider-crank.toml --x phi=\"-180 deg..180 deg\" --y mu=0..1 --colour-by jam --output crank.json
+  slideway map bracket-on-pole.toml --x mu_static=0..0.5 --y x=\"0.1 m..0.5 m\" --colour-by hold --output hold.svg
 
 Exit codes:
   0    done
@@ -73,6 +74,10 @@ pub(crate) enum MapColours {
     Margin,
     /// Whether it can move as in the model, and in the opposite direction.
     Jam,
+    /// Whether each solution speeds up or slows down.
+    Motion,
+    /// Whether it can stay at rest, its drives absent.
+    Hold,
 }
 
 impl From<MapColours> for ColourBy {
@@ -82,6 +87,8 @@ impl From<MapColours> for ColourBy {
             MapColours::Modes => Self::Modes,
             MapColours::Margin => Self::Margin,
             MapColours::Jam => Self::Jam,
+            MapColours::Motion => Self::Motion,
+            MapColours::Hold => Self::Hold,
         }
     }
 }

@@ -12,6 +12,7 @@ mod model;
 mod models;
 mod modes;
 mod plot;
+mod questions;
 mod report;
 mod search;
 mod simulate;
@@ -33,6 +34,7 @@ pub(crate) use model::ModelArguments;
 pub(crate) use models::ModelsArguments;
 pub(crate) use modes::{ModesArguments, ModesFormat};
 pub(crate) use plot::{PictureTheme, PlotArguments};
+pub(crate) use questions::TEXT as QUESTIONS;
 pub(crate) use report::ReportArguments;
 pub(crate) use search::SearchArguments;
 pub(crate) use simulate::{Preference, SimulateArguments};
@@ -77,6 +79,7 @@ Examples:
   slideway report drawer.toml -o drawer.html    all of it as a page to mail or print
   slideway import drawing.dxf -o drawer.toml    a model to complete, from a DXF drawing
   slideway modes problem.json                   all solutions of an LCP or similar
+  slideway help questions                       which command and model for which question
 
 Exit codes: 0 done, 1 no solution (friction locks the mechanism), 2 invalid input,
 3 undecided or out of time, 130 interrupted.";
@@ -129,6 +132,9 @@ pub(crate) enum Command {
     /// Print the JSON Schema of model files, for editors
     #[command(after_help = SCHEMA_HELP)]
     Schema,
+    /// Say which command and which kind of model answers which question
+    #[command(long_about = questions::TEXT, help_template = "{about}\n")]
+    Questions,
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_HELP)]
     Completions {

@@ -14,6 +14,9 @@ Examples:
   slideway size cam-follower.toml --vary A=\"0 m..0.2 m\" --margin 2
   slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold --load W
   slideway size cam-follower.toml --vary phi --margin 2 --against self-locking --load cam
+  slideway size drawer.toml --vary L --max-effort 30           how long for a push of 30 N
+  slideway size drawer.toml --vary L --min-efficiency 0.7
+  slideway size drawer.toml --vary L --max-normal-force 25
 
 The margin against locking is the factor by which all kinetic friction may grow before there is no
 solution. At rest it concerns a load, or the effort of a drive. Against self-locking it is the
@@ -39,15 +42,15 @@ pub(crate) struct SizeArguments {
     #[arg(long, value_name = "NAME[=FROM..TO]")]
     pub(crate) vary: String,
 
-    /// The wanted margin: a factor on friction.
-    #[arg(long, value_name = "FACTOR", value_parser = positive)]
-    pub(crate) margin: f64,
+    #[command(flatten)]
+    limit: Limit,
 
     /// Against what.
     #[arg(long, value_enum, default_value_t)]
     against: Against,
 
-    /// The load, or the drive whose effort is the load, for a margin at rest.
+    /// The load, or the drive whose effort is the load, for a margin at rest; the drive of --max-effort, or the
+    /// contact of --max-normal-force, by default all of them.
     #[arg(long, value_name = "NAME")]
     load: Option<String>,
 
@@ -81,12 +84,51 @@ enum Against {
     Hold,
 }
 
+/// What is wanted.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+struct Limit {
+    /// The wanted margin: a factor on friction.
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    margin: Option<f64>,
+
+    /// Instead of a margin: no solution may need more effort of a drive than this (N or N m).
+    #[arg(long, value_name = "EFFORT", value_parser = positive, conflicts_with = "against")]
+    max_effort: Option<f64>,
+
+    /// Instead of a margin: no solution may have a greater normal force than this (N).
+    #[arg(long, value_name = "N", value_parser = positive, conflicts_with = "against")]
+    max_normal_force: Option<f64>,
+
+    /// Instead of a margin: no solution may have a lower efficiency than this (0.7 is 70 %).
+    #[arg(long, value_name = "RATIO", value_parser = positive, conflicts_with = "against")]
+    min_efficiency: Option<f64>,
+}
+
 impl SizeArguments {
-    /// Against what, with the load that it concerns.
+    /// The wanted margin, or the limit that is to be kept.
+    pub(crate) fn wanted(&self) -> f64 {
+        let Limit { margin, max_effort, max_normal_force, min_efficiency } = self.limit;
+        margin.or(max_effort).or(max_normal_force).or(min_efficiency).unwrap_or_default()
+    }
+
+    /// Against what, with the load, drive or contact that it concerns.
     ///
     /// # Errors
     /// A margin at rest without a load, one of motion with a load.
     pub(crate) fn against(&self, loads: Vec<String>) -> Result<size::Against, Faults> {
+        if self.limit.max_effort.is_some() {
+            return Ok(size::Against::Effort { drive: self.load.clone() });
+        }
+        if self.limit.max_normal_force.is_some() {
+            return Ok(size::Against::NormalForce { contact: self.load.clone() });
+        }
+        if self.limit.min_efficiency.is_some() {
+            return match &self.load {
+                None => Ok(size::Against::Efficiency),
+                Some(load) => Err(Fault::general(FaultKind::LoadUnused { load: load.clone() }).into()),
+            };
+        }
         match (self.against, self.load.clone()) {
             (Against::Locking, None) => Ok(size::Against::Locking),
             (Against::SelfLocking, Some(load)) => Ok(size::Against::SelfLocking { load }),

@@ -30,10 +30,17 @@ pub(crate) use size::size;
 pub(crate) use solve::solve;
 pub(crate) use sweep::sweep;
 
+use crate::arguments::QUESTIONS;
 use crate::failure::Failure;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use clap_complete::Shell;
+
+/// Prints which command and which kind of model answers which question.
+pub(crate) fn questions(output: &Output) -> Result<Outcome, Failure> {
+    output.write(&format!("{QUESTIONS}\n"))?;
+    Ok(Outcome::Done)
+}
 
 /// Prints the JSON Schema of model files.
 pub(crate) fn schema(output: &Output) -> Result<Outcome, Failure> {

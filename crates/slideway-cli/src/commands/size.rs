@@ -21,7 +21,7 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let names = loads.chain(model.drives.iter().map(|drive| &drive.name)).map(ToString::to_string).collect();
     let mut watch = Watch::new(arguments.time.time_limit);
     let report = arguments.against(names).and_then(|against| {
-        let options = SizeOptions::new(vary, arguments.margin)
+        let options = SizeOptions::new(vary, arguments.wanted())
             .against(against)
             .both_directions(arguments.both_directions);
         size::size_with(&model, &options, &mut |progress| watch.look(progress))

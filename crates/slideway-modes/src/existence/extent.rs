@@ -51,6 +51,17 @@ impl Line {
         zeros.unwrap_or_default().into_iter().map(|Root(at)| at).collect()
     }
 
+    /// Where a condition may become an equality inside a range, each place to machine precision where it
+    /// changes its sign; none if eigenvalues could not be computed, or the determinant vanishes throughout.
+    pub(super) fn zeros(&self, condition: Condition, range: [f64; 2]) -> Option<Vec<f64>> {
+        let (line, conditions) = self.in_units(&[condition], range);
+        let reduced = line.reduced(&conditions, range)?;
+        let value = |at| reduced.value(0, at).map_or(f64::NAN, |value| value.value);
+        let farther = |at: f64| if at - range[0] > range[1] - at { range[0] } else { range[1] };
+        let inside = reduced.zeros(0)?.into_iter().filter(|root| range[0] < root.0 && root.0 < range[1]);
+        Some(inside.map(|Root(at)| bisect(at, farther(at), value).unwrap_or(at)).collect())
+    }
+
     /// The equations at the base point with the best pivots.
     fn reduced(&self, conditions: &[Condition], range: [f64; 2]) -> Option<Reduced> {
         let mut best: Option<(f64, f64, LU<f64, Dyn, Dyn>)> = None;

@@ -291,6 +291,25 @@ impl ModeProblemLine {
         mode.line.solution(at).is_some_and(|unknowns| mode.violated(&unknowns).is_empty())
     }
 
+    /// Where an output may vanish in the solution of a pattern inside a range, in increasing order; each place
+    /// to machine precision where it changes its sign. None if eigenvalues could not be computed, or the
+    /// determinant of the pattern vanishes throughout.
+    pub fn output_zeros(&self, pattern: &[ContactState], output: usize, range: [f64; 2]) -> Option<Vec<f64>> {
+        let condition = Condition { weights: [(pattern.len() + output, 1.0), NONE], offset: 0.0 };
+        self.line(pattern).zeros(condition, range)
+    }
+
+    /// The sign of an output in the solution of a pattern at a parameter, 0 where it is zero within rounding;
+    /// none where the determinant vanishes.
+    pub fn output_sign(&self, pattern: &[ContactState], output: usize, at: f64) -> Option<i8> {
+        let line = self.line(pattern);
+        let unknown = pattern.len() + output;
+        if line.vanishes(at)?[unknown] {
+            return Some(0);
+        }
+        Some(if line.solution(at)?[unknown] > 0.0 { 1 } else { -1 })
+    }
+
     /// What vanishes within rounding in the solution of a pattern at a parameter, as the cause by which it
     /// would end there; [`EndCause::Range`] if nothing does, or if its determinant vanishes.
     pub fn cause_at(&self, pattern: &[ContactState], at: f64, options: &ExistenceOptions) -> EndCause {

@@ -3,6 +3,7 @@
 use crate::plot::Hatching;
 use crate::theme::{DARK, Theme};
 use slideway::map::{ClassMeaning, MapClass};
+use slideway::report::SpeedChange;
 
 /// How a region is filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +29,8 @@ const LOCKED: &str = "#d8382c";
 const LOCKED_AS_IN_MODEL: &str = "#f0937a";
 const LOCKED_IN_OPPOSITE: &str = "#f7d488";
 const BOTH: &str = "#8cc4e6";
+/// It slows down, or does not stay at rest.
+const SLIPS: &str = "#e69f00";
 const SEVERAL: &str = "#d9a5c3";
 
 /// How the points of a class are filled; sets of modes take their colours in the order of the classes.
@@ -64,11 +67,29 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Moves { as_in_model: true, opposite: true } => plain(BOTH),
         ClassMeaning::Moves { as_in_model: true, .. } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
+        ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
+        ClassMeaning::Rest { holds: Some(true) } => plain(numbers[1]),
+        ClassMeaning::Rest { holds: Some(false) } => plain(SLIPS),
         ClassMeaning::Continuum => plain(theme.ink),
-        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } => {
+        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } | ClassMeaning::Rest { holds: None } => {
             let fill = if *theme == DARK { "#30363d" } else { "#e1e4e8" };
             Paint { fill, hatching: Some(Hatching::Falling) }
         }
+    }
+}
+
+/// What all solutions say, if they agree: green where it speeds up or starts, yellow where it keeps its speed,
+/// orange where it slows down.
+fn of_motion(solutions: &[Vec<SpeedChange>]) -> &'static str {
+    let mut changes = solutions.iter().flatten();
+    let first = changes.next();
+    match first {
+        Some(first) if changes.all(|other| other == first) => match first {
+            SpeedChange::SpeedsUp | SpeedChange::StartsForwards | SpeedChange::StartsBackwards => "#7fcfb4",
+            SpeedChange::SlowsDown => SLIPS,
+            _ => "#f2cf80",
+        },
+        _ => SEVERAL,
     }
 }
 

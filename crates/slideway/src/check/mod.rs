@@ -24,7 +24,7 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::report::finite;
-use crate::solve::{check_size, mode_problem, velocity_signs};
+use crate::solve::{mode_problem, velocity_signs};
 use crate::units::Units;
 use crate::warning::{Warning, warnings};
 use serde::Serialize;
@@ -272,7 +272,7 @@ pub fn check(model: &Model) -> Result<CheckReport, Faults> {
     let mut faults = Faults::default();
     let mut keep = |result: Result<(), Faults>| faults.append(result.err().unwrap_or_default());
     // What is too large to be solved is too large to be analysed further.
-    check_size(&mechanism)?;
+    mechanism.check_size()?;
     let drawing = Configuration::drawing(&mechanism);
     let state = Configuration::new(&mechanism);
     keep(state.as_ref().map(|_| ()).map_err(Clone::clone));

@@ -293,9 +293,11 @@ pub(crate) fn motions_without_inertia(
     let without = (0..motions.ncols()).filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest);
     let in_words = |index: usize| {
         let mut motion = motions * eigen.eigenvectors.column(index);
-        let power = loads.map_or(0.0, |loads| loads.dot(&motion));
-        // Without loads it is the direction whose greatest component is positive.
-        let forwards = if power == 0.0 { motion[motion.icamax()] } else { power };
+        // Of loads that do no work but for rounding, or without any, it is the direction whose greatest
+        // component is positive.
+        let work = loads.map(|loads| (loads.dot(&motion), loads.abs().dot(&motion.abs())));
+        let work = work.filter(|(work, terms)| work.abs() > RANK_TOLERANCE * terms);
+        let forwards = work.map_or(motion[motion.icamax()], |(work, _)| work);
         if forwards < 0.0 {
             motion = -motion;
         }

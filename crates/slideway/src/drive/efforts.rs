@@ -1,12 +1,13 @@
 //! The efforts of the drives at one value of what is varied.
 
 use super::report::{Efficiency, EfficiencyKind};
+use super::state::PATTERNS;
 use crate::fault::Faults;
 use crate::ids::DriveId;
 use crate::kinetics::effort_forces;
 use crate::limits::Varied;
 use crate::modes::ContactState;
-use crate::modes::existence::ModeProblemLine;
+use crate::modes::existence::{ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::solve::Stages;
 
 /// Powers below this share of what the single drives do are rounding.
@@ -18,9 +19,11 @@ const NEAR: [f64; 2] = [1e-5, 1e-7];
 pub(super) const GROWTH: f64 = 30.0;
 
 /// Everything that is known at one value.
-pub(super) struct Efforts {
+pub(crate) struct Efforts {
     line: ModeProblemLine,
     drives: usize,
+    /// Names of the contacts.
+    pub(crate) contacts: Vec<String>,
     /// Without friction (N or N m).
     pub(super) frictionless: Vec<f64>,
     /// The velocity at which each effort works (m/s or rad/s).
@@ -37,6 +40,7 @@ impl Efforts {
         Ok(Self {
             line: parts.line_to(&parts),
             drives,
+            contacts: stages.mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),
             frictionless: (0..drives)
                 .map(|drive| stages.influence.frictionless[effort(drive)] + 0.0)
                 .collect(),
@@ -46,23 +50,33 @@ impl Efforts {
 
     /// # Errors
     /// Whatever `solve` refuses there.
-    pub(super) fn at(varied: &Varied, value: f64) -> Result<Self, Faults> {
+    pub(crate) fn at(varied: &Varied, value: f64) -> Result<Self, Faults> {
         varied.at(value, Self::new)
     }
 
     /// The efforts in the solution of a pattern; none where its determinant vanishes.
-    pub(super) fn of(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
+    pub(crate) fn of(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
         let unknowns = self.line.unknowns(pattern, 0.0)?;
         // The efforts stand at the end. Adding zero turns -0 into 0.
         Some(unknowns.iter().skip(unknowns.len() - self.drives).map(|effort| effort + 0.0).collect())
     }
 
-    fn normal_forces(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
+    /// The patterns that have a solution, preload-gap states among them, as long as `goes_on`.
+    ///
+    /// # Errors
+    /// More patterns than are tried.
+    pub(crate) fn present(&self, goes_on: &dyn Fn() -> bool) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
+        let options = ExistenceOptions { range: [0.0, 1.0], greatest_normal_force: None, patterns: PATTERNS };
+        self.line.present(0.0, &options, goes_on)
+    }
+
+    /// The normal forces in the solution of a pattern; none where its determinant vanishes.
+    pub(crate) fn normal_forces(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
         Some(self.line.normal_force(pattern, 0.0)?.iter().copied().collect())
     }
 
     /// The power of efforts, and their efficiency.
-    pub(super) fn power(&self, efforts: &[f64]) -> (f64, Efficiency) {
+    pub(crate) fn power(&self, efforts: &[f64]) -> (f64, Efficiency) {
         (power(efforts, &self.velocities), efficiency(efforts, &self.frictionless, &self.velocities))
     }
 }

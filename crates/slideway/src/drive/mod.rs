@@ -37,17 +37,17 @@ mod report;
 mod state;
 mod text;
 
+pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport,
     DriveSolution, Efficiency, EfficiencyKind, Frictionless, SCHEMA, Sense,
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{VariedQuantity, Vary};
+use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{finite, locked};
-use crate::size::usual_range;
 
 /// The most rows of a table that are computed.
 pub const GREATEST_ROWS: usize = 10_001;
@@ -143,7 +143,7 @@ fn course(
     work: Work<'_>,
 ) -> Result<Course, Faults> {
     let varied = vary.of(model)?;
-    let range = vary.ends(&varied, || usual_range(model, &varied))?;
+    let range = vary.ends(&varied, || range_around(model, &varied))?;
     let opposite = vary.of(reversed)?;
     let steps = rows.clamp(2, GREATEST_ROWS) - 1;
     let (guarantee, forwards) = course::direction(&varied, (range, steps), Sense::Model, work.part(0, 2))?;

@@ -11,7 +11,7 @@ use crate::report::{CoordinateState, Solution};
 use crate::solve::{SolveOptions, Stages, pattern, solve_with};
 
 /// The most patterns whose locking is sought.
-const PATTERNS: u64 = 1 << 12;
+pub(super) const PATTERNS: u64 = 1 << 12;
 /// Less and more friction than in the model, as factors.
 const FACTORS: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, f64::INFINITY]];
 /// Blow-ups of a mode at the same factor count once.

@@ -1,10 +1,10 @@
 //! From kinetic equations within intervals to bounds of the influence coefficients.
 
-use super::{EnclosedCouple, NotEnclosed, solution};
+use super::{EnclosedCouple, EnclosedOutput, NotEnclosed, solution};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
-use crate::kinetics::{Assembled, Reaction, equilibration, scaled};
+use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled};
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::{self, JointKind, Model, PreloadLine, SliderKind};
 use crate::modes::BySide;
@@ -28,33 +28,31 @@ pub(super) struct Coefficients<'a> {
 }
 
 impl Coefficients<'_> {
-    /// Bounds of everything that the mode problem is made of, and of the couples of guided sliders.
-    pub(super) fn influence(&self) -> Result<(IntervalInfluence, Vec<EnclosedCouple>), NotEnclosed> {
+    /// Bounds of everything that the mode problem is made of.
+    pub(super) fn influence(&self, unknowns: &DMatrix<Interval>) -> Result<IntervalInfluence, NotEnclosed> {
         let velocity_signs = self.velocity_signs()?;
         let contacts = &self.mechanism.contacts;
-        let unknowns = self.unknowns().ok_or(NotEnclosed::Equations)?;
-        let normal_forces = self.normal_forces(&unknowns).ok_or(NotEnclosed::Equations)?;
+        let normal_forces = self.normal_forces(unknowns).ok_or(NotEnclosed::Equations)?;
         let positive = normal_forces.columns(1, contacts.len()).into_owned();
         let eta = [positive.clone(), self.negative_versions(positive)];
         let preload = self.preload_columns(&eta);
         let values = |of: &dyn Fn(&Contact<Interval>) -> Interval| {
             bounded(&DMatrix::from_fn(contacts.len(), 1, |k, _| of(&contacts[k])))
         };
-        let influence = IntervalInfluence {
+        Ok(IntervalInfluence {
             eta: BySide { positive: bounded(&eta[0])?, negative: bounded(&eta[1])? },
             eta_preload: BySide { positive: bounded(&preload[0])?, negative: bounded(&preload[1])? },
             mu: BySide { positive: values(&|k| k.mu[0])?, negative: values(&|k| k.mu[1])? },
             preload: BySide { positive: values(&|k| k.preload[0])?, negative: values(&|k| k.preload[1])? },
             velocity_signs,
             frictionless: bounded(&normal_forces.columns(0, 1).into_owned())?,
-        };
-        Ok((influence, self.couples(&unknowns)))
+        })
     }
 
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
     /// face that is pressed when its normal force is positive; none if the equations are not proven to be
     /// regular.
-    fn unknowns(&self) -> Option<DMatrix<Interval>> {
+    pub(super) fn unknowns(&self) -> Option<DMatrix<Interval>> {
         let Assembled { matrix, load, friction, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
         let right = DMatrix::from_fn(load.len(), 1 + friction.len(), |row, column| {
@@ -88,7 +86,7 @@ impl Coefficients<'_> {
     }
 
     /// The couples of the guided sliders.
-    fn couples(&self, unknowns: &DMatrix<Interval>) -> Vec<EnclosedCouple> {
+    pub(super) fn couples(&self, unknowns: &DMatrix<Interval>) -> Vec<EnclosedCouple> {
         let joints = self.mechanism.joints.iter().enumerate();
         let couple = |(index, _)| {
             let joint = JointId(index);
@@ -104,12 +102,40 @@ impl Coefficients<'_> {
             Some(EnclosedCouple {
                 contact,
                 half_length: slider.length * Interval::point(0.5),
-                frictionless: unknowns[(row, 0)],
-                influence_preload: self.couple_of_preload(&influence),
-                influence,
+                couple: EnclosedOutput {
+                    frictionless: unknowns[(row, 0)],
+                    influence_preload: self.couple_of_preload(&influence),
+                    influence,
+                },
             })
         };
         joints.filter_map(couple).collect()
+    }
+
+    /// The accelerations of the coordinates. A couple between the two faces of a joint changes none, as
+    /// [`Self::negative_versions`] says.
+    pub(super) fn accelerations(&self, unknowns: &DMatrix<Interval>) -> Vec<EnclosedOutput> {
+        let output = |row: &ConstraintRow<Interval>| {
+            let times = |column: usize| {
+                let terms = row.entries.iter().map(|&(index, value)| value * unknowns[(index, column)]);
+                terms.fold(Interval::ZERO, |sum, term| sum + term)
+            };
+            let influence = (1..unknowns.ncols()).map(times).collect();
+            EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence)
+        };
+        self.equations.coordinate_rows.iter().map(output).collect()
+    }
+
+    /// The power of loads and weights, from which each friction force takes its own times the sliding
+    /// velocity.
+    pub(super) fn power(&self) -> EnclosedOutput {
+        let of_load = |wrench: &Wrench<Interval>| {
+            let velocity = self.configuration.velocity_at(wrench.frame, wrench.place);
+            wrench.force.dot(&velocity) + wrench.couple * self.configuration.angular_velocity(wrench.frame)
+        };
+        let loads = self.equations.applied.iter().map(of_load).fold(Interval::ZERO, |sum, power| sum + power);
+        let friction = self.equations.contacts.iter().map(|contact| -contact.sliding_velocity).collect();
+        EnclosedOutput::of_either_face(loads, friction)
     }
 
     /// The influence of the preload's friction on a couple: at the pressed face, or in the middle between

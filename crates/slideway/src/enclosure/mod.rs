@@ -29,10 +29,10 @@
 //! ```
 
 mod coefficients;
-mod couples;
 mod motion;
+mod outputs;
 
-pub use couples::{EnclosedCouple, Tipping};
+pub use outputs::{EnclosedCouple, EnclosedOutput, Tipping};
 
 use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
@@ -150,6 +150,10 @@ pub struct EnclosedModeProblem {
     pub problem: IntervalModeProblem,
     /// Bounds of the couples of guided sliders, in the order of the joints.
     pub couples: Vec<EnclosedCouple>,
+    /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
+    pub accelerations: Vec<EnclosedOutput>,
+    /// Bounds of the power of all loads and weights, and with friction, of both together (W).
+    pub power: EnclosedOutput,
 }
 
 /// Why the numbers of a mechanism could not be enclosed.
@@ -238,9 +242,16 @@ pub fn enclosure(
         equations: &equations,
         are_numbers: uncertain.are_numbers(),
     };
-    let (influence, couples) = coefficients.influence()?;
+    let unknowns = coefficients.unknowns().ok_or(NotEnclosed::Equations)?;
+    let influence = coefficients.influence(&unknowns)?;
     let problem = IntervalModeProblem::from_influence(&coefficients.without_shared_jumps(&influence)?)?;
-    Ok(EnclosedModeProblem { influence, problem, couples })
+    Ok(EnclosedModeProblem {
+        influence,
+        problem,
+        couples: coefficients.couples(&unknowns),
+        accelerations: coefficients.accelerations(&unknowns),
+        power: coefficients.power(),
+    })
 }
 
 /// Bounds of the solutions of a linear system; none if it is not proven to be regular.

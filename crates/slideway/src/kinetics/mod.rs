@@ -21,7 +21,7 @@ pub(crate) use elastic::MasslessMotions;
 pub(crate) use influences::{Accuracy, Elimination, Influences};
 pub use loads::Wrench;
 pub(crate) use loads::{Applied, unit_effort as effort_forces};
-pub(crate) use rows::ConstraintRow;
+pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows};
 
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -234,7 +234,7 @@ pub(crate) struct Assembled<T> {
     /// The contacts in this configuration.
     pub(crate) contacts: Vec<ContactGeometry<T>>,
     /// Weights and loads.
-    applied: Vec<Wrench<T>>,
+    pub(crate) applied: Vec<Wrench<T>>,
     /// [[M, -G^T, -B], [G, 0, 0], [C, 0, 0]]
     pub(crate) matrix: DMatrix<T>,
     /// Right-hand side without friction: f, gamma, prescribed accelerations.
@@ -242,7 +242,8 @@ pub(crate) struct Assembled<T> {
     /// Unit friction of each contact at its face where the normal force is positive, and where it is
     /// negative.
     pub(crate) friction: Vec<[DVector<T>; 2]>,
-    coordinate_rows: Vec<ConstraintRow<T>>,
+    /// The rows that give the accelerations of the chosen coordinates: C a - right-hand side.
+    pub(crate) coordinate_rows: Vec<ConstraintRow<T>>,
 }
 
 impl<T: Real> Assembled<T> {

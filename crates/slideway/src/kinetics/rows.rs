@@ -17,8 +17,13 @@ pub(crate) struct ConstraintRow<T = f64> {
 }
 
 impl ConstraintRow {
+    /// One of the unknowns itself.
+    pub(crate) fn unknown(index: usize) -> Self {
+        Self { entries: vec![(index, 1.0)], right_hand_side: 0.0 }
+    }
+
     /// Scalar product with the vector of unknowns.
-    pub(super) fn times(&self, unknowns: &DVector<f64>) -> f64 {
+    pub(crate) fn times(&self, unknowns: &DVector<f64>) -> f64 {
         self.entries.iter().map(|(index, value)| value * unknowns[*index]).sum()
     }
 }
@@ -181,7 +186,7 @@ pub(super) fn constraints<T: Real>(
 }
 
 /// The rows that give the accelerations of the coordinates: C a - right-hand side.
-pub(super) fn coordinates<T: Real>(
+pub(crate) fn coordinates<T: Real>(
     mechanism: &Mechanism<T>,
     configuration: &Configuration<T>,
 ) -> Vec<ConstraintRow<T>> {

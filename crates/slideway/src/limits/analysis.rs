@@ -4,7 +4,8 @@ use super::answer::{self, Naming};
 use super::find::find;
 use super::found::ModesFound;
 use super::options::LimitsOptions;
-use super::report::LimitsReport;
+use super::report::{LimitsReport, SpeedLimits};
+use super::speeds::speeds;
 use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::model::Model;
@@ -21,6 +22,8 @@ pub(super) struct Analysis {
     pub(super) range: [f64; 2],
     pub(super) found: ModesFound,
     pub(super) reversed: Option<(Varied, ModesFound)>,
+    /// What becomes of speeds along each mode, in both directions.
+    speeds: [Vec<Vec<SpeedLimits>>; 2],
 }
 
 impl Analysis {
@@ -29,8 +32,9 @@ impl Analysis {
         let varied = vary.of(model)?;
         let range = vary.ends(&varied, || usual_range(model, &varied))?;
         let directions = 1 + usize::from(options.both_directions);
+        let (modes, along) = (work.part(0, 2), work.part(1, 2));
         let find = |varied: &Varied, part: usize| {
-            let work = work.part(part, directions);
+            let work = modes.part(part, directions);
             find(varied, range, options.max_reaction, options.effort, work)
         };
         let found = find(&varied, 0)?;
@@ -41,12 +45,16 @@ impl Analysis {
         } else {
             None
         };
-        Ok(Self { varied, range, found, reversed })
+        let opposite =
+            reversed.as_ref().map(|(varied, found)| speeds(varied, found, along.part(1, directions)));
+        let speeds = [speeds(&varied, &found, along.part(0, directions)), opposite.unwrap_or_default()];
+        Ok(Self { varied, range, found, reversed, speeds })
     }
 
     pub(super) fn report(&self, naming: &Naming) -> LimitsReport {
-        let reversed = self.reversed.as_ref().map(|(_, found)| found);
-        answer::report(naming, &self.varied, self.range, &self.found, reversed)
+        let [speeds, opposite] = &self.speeds;
+        let reversed = self.reversed.as_ref().map(|(_, found)| (found, opposite.as_slice()));
+        answer::report(naming, &self.varied, self.range, (&self.found, speeds), reversed)
     }
 }
 

@@ -5,7 +5,7 @@ use super::found::{Elsewhere, Knowledge, Method, ModesFound};
 use super::guarantee::guarantee;
 use super::report::{
     CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
-    SCHEMA, VariedQuantity,
+    SCHEMA, SpeedLimits, VariedQuantity,
 };
 use super::varied::Varied;
 use crate::configuration::Configuration;
@@ -87,7 +87,7 @@ impl Naming {
         bounds.iter().filter_map(|&bound| names.get(bound)).map(|name| (*name).to_owned()).collect()
     }
 
-    fn mode(&self, mode: &ModeInterval) -> ModeLimits {
+    fn mode(&self, mode: &ModeInterval, speeds: &[SpeedLimits]) -> ModeLimits {
         let signs = signs(&mode.pattern);
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
             let ((from, from_grows), (to, to_grows)) = (limit(&mode.from, k), limit(&mode.to, k));
@@ -105,6 +105,7 @@ impl Naming {
             from_at: self.ends_at(&mode.from.cause),
             to_at: self.ends_at(&mode.to.cause),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
+            speeds: speeds.to_vec(),
         }
     }
 
@@ -119,7 +120,7 @@ impl Naming {
         }
     }
 
-    fn direction(&self, found: &ModesFound) -> Direction {
+    fn direction(&self, (found, speeds): Found<'_>) -> Direction {
         let count = |(interval, known): (&CountInterval, &Knowledge)| CountLimits {
             from: interval.from,
             to: interval.to,
@@ -135,7 +136,13 @@ impl Naming {
             spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
         };
         Direction {
-            modes: found.existence.modes.iter().map(|mode| self.mode(mode)).collect(),
+            modes: found
+                .existence
+                .modes
+                .iter()
+                .zip(speeds)
+                .map(|(mode, speeds)| self.mode(mode, speeds))
+                .collect(),
             counts: found.counts.iter().zip(&found.known).map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),
             between_faces_at: found.between_faces.values().to_vec(),
@@ -143,15 +150,19 @@ impl Naming {
     }
 }
 
+/// The modes of a direction, and for each what becomes of the speeds.
+type Found<'f> = (&'f ModesFound, &'f [Vec<SpeedLimits>]);
+
 /// The report on both directions, of which the opposite one may be absent.
 pub(super) fn report(
     naming: &Naming,
     varied: &Varied,
     range: [f64; 2],
-    found: &ModesFound,
-    reversed: Option<&ModesFound>,
+    forwards: Found<'_>,
+    reversed: Option<Found<'_>>,
 ) -> LimitsReport {
-    let forwards = naming.direction(found);
+    let (found, _) = forwards;
+    let forwards = naming.direction(forwards);
     let reversed = reversed.map(|found| naming.direction(found));
     let locked = locked(varied.model().has_guided_sliders());
     let conclusion = conclusion((varied, found.method), locked, &forwards, reversed.as_ref());

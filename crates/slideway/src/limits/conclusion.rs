@@ -1,7 +1,7 @@
 //! What limits come to, in words.
 
 use super::found::Method;
-use super::report::{CountLimits, Direction, Known};
+use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
 
 /// Sentences on where the mechanism moves, and in which direction (Klepp (2002), section 7); `locked` says
@@ -13,7 +13,7 @@ pub(super) fn conclusion(
     reversed: Option<&Direction>,
 ) -> Vec<String> {
     let pieces = match reversed {
-        None => one_direction(&forwards.counts, locked),
+        None => one_direction(forwards, locked),
         Some(reversed) => both_directions(&forwards.counts, &reversed.counts, locked),
     };
     let mut joined: Vec<Piece> = Vec::new();
@@ -64,8 +64,8 @@ impl Piece {
     }
 }
 
-fn one_direction(counts: &[CountLimits], locked: &str) -> Vec<Piece> {
-    let piece = |count: &CountLimits| {
+fn one_direction(direction: &Direction, locked: &str) -> Vec<Piece> {
+    let pieces = |count: &CountLimits| {
         let without = format!("no solution: {locked}");
         let verdict = match (count.solutions, count.preload_gap_states) {
             (0, 0) => &without,
@@ -75,9 +75,36 @@ fn one_direction(counts: &[CountLimits], locked: &str) -> Vec<Piece> {
             (3, _) => "three solutions",
             _ => "more than three solutions",
         };
-        Piece { from: count.from, to: count.to, verdict: verdict.to_owned(), known: count.known }
+        let whole = Piece { from: count.from, to: count.to, verdict: verdict.to_owned(), known: count.known };
+        match count.solutions {
+            1 => by_speed(whole, &direction.modes),
+            _ => vec![whole],
+        }
     };
-    counts.iter().map(piece).collect()
+    direction.counts.iter().flat_map(pieces).collect()
+}
+
+/// A stretch with one solution, cut where its only coordinate goes over from speeding up to slowing down.
+fn by_speed(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
+    let pressed = modes.iter().filter(|mode| !mode.preload_gap);
+    let mut speeds: Vec<&SpeedLimits> = pressed.flat_map(|mode| &mode.speeds).collect();
+    let is_only = speeds.windows(2).all(|pair| pair[0].coordinate == pair[1].coordinate);
+    speeds.retain(|speed| speed.to > whole.from && speed.from < whole.to);
+    if speeds.is_empty() || !is_only {
+        return vec![whole];
+    }
+    speeds.sort_by(|one, other| one.from.total_cmp(&other.from));
+    // Where one mode gives way to another both may have been found to end a little apart.
+    let begins = std::iter::once(whole.from).chain(speeds.iter().skip(1).map(|speed| speed.from));
+    let begins: Vec<f64> = begins.collect();
+    let ends = begins.iter().skip(1).copied().chain([whole.to]);
+    let piece = |((from, to), speed): ((&f64, f64), &SpeedLimits)| Piece {
+        from: *from,
+        to,
+        verdict: format!("{}: it {}", whole.verdict, speed.speed.in_words()),
+        known: whole.known,
+    };
+    begins.iter().zip(ends).zip(speeds).map(piece).collect()
 }
 
 fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits], locked: &str) -> Vec<Piece> {

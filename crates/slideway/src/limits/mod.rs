@@ -23,9 +23,9 @@
 //! `closed_form.rs` has `modes::existence` find the ends then, `scan.rs` finds them elsewhere. `examine.rs`
 //! asks the certified search for the numbers of solutions over whole intervals, and `find.rs` scans anew
 //! where these contradict; `between_faces.rs` counts the states of guided sliders between their faces, which
-//! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `guarantee.rs`
-//! and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
-//! quantities along the modes that were found, for plots.
+//! `solve::states_between_faces` finds at single values (for `map`, `drive` and `size`, too); `speeds.rs` tells
+//! where motion along a mode speeds up and slows down; `guarantee.rs` and `conclusion.rs` put it into words, and `answer.rs` makes the report. `limits/curves.rs` samples
+//! quantities along the modes that were found, for plots. `rest.rs` asks `standstill` over a range.
 
 mod analysis;
 mod answer;
@@ -39,7 +39,9 @@ mod found;
 mod guarantee;
 mod options;
 mod report;
+mod rest;
 mod scan;
+mod speeds;
 mod text;
 mod varied;
 mod vary;
@@ -51,14 +53,16 @@ pub(crate) use found::ModesFound;
 pub(crate) use guarantee::guarantee;
 pub use options::{EFFORT, LimitsOptions};
 pub use report::{
-    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, RangeWithoutProblem,
-    SCHEMA, VariedQuantity,
+    CountLimits, Direction, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits, REST_SCHEMA,
+    RangeWithoutProblem, RestLimitsReport, SCHEMA, SpanOfRest, SpeedLimits, VariedQuantity,
 };
+pub use rest::{rest_limits, rest_limits_with};
 pub(crate) use scan::bisect;
 pub(crate) use text::no_answer;
 pub use varied::FRICTION;
 pub(crate) use varied::{Varied, mechanism_with};
 pub use vary::Vary;
+pub(crate) use vary::range_around;
 
 use crate::fault::Faults;
 use crate::model::Model;

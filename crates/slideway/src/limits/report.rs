@@ -1,7 +1,7 @@
 //! What is told of limits: plain data, which are the JSON output.
 
 use super::found::left_out;
-use crate::report::{JointMode, ModeEndCause};
+use crate::report::{JointMode, ModeEndCause, SpeedChange};
 use crate::units::Unit;
 use serde::Serialize;
 
@@ -119,6 +119,22 @@ pub struct ModeLimits {
     pub to_at: Vec<String>,
     /// What the normal force of each contact does towards both ends.
     pub reactions: Vec<EndReaction>,
+    /// What becomes of the speed of each coordinate that no drive moves, from value to value.
+    pub speeds: Vec<SpeedLimits>,
+}
+
+/// An interval of a mode in which the speed of a coordinate changes one way.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpeedLimits {
+    /// The coordinate.
+    pub coordinate: String,
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends: where the acceleration vanishes, or the mode ends.
+    pub to: f64,
+    /// What becomes of the speed.
+    pub speed: SpeedChange,
 }
 
 /// What a normal force does towards both ends of an interval.
@@ -179,6 +195,43 @@ impl CountLimits {
     pub fn left_out(&self) -> f64 {
         left_out([self.from, self.to], &self.proven)
     }
+}
+
+/// Version of the layout of a [`RestLimitsReport`]; changes whenever a field is renamed or removed.
+pub const REST_SCHEMA: &str = "slideway/rest-limits/1";
+
+/// For which values a mechanism can stay at rest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RestLimitsReport {
+    /// Version of this layout: [`REST_SCHEMA`].
+    pub schema: &'static str,
+    /// The title of the model.
+    pub title: Option<String>,
+    /// What is varied.
+    pub vary: VariedQuantity,
+    /// The load that was named, if one was: with its present magnitude, the effort of a drive with none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<String>,
+    /// The stretches, one after another.
+    pub spans: Vec<SpanOfRest>,
+    /// What may have been missed, in words.
+    pub guarantee: String,
+}
+
+/// A stretch with one answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpanOfRest {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Whether it can stay at rest; null where that was not decided, and where there is no answer.
+    pub holds: Option<bool>,
+    /// Why there is no answer, if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// A range in which there is no mode problem.

@@ -258,7 +258,7 @@ impl Scanner<'_> {
 }
 
 /// The kind of the first fault.
-fn kind(faults: &Faults) -> Option<std::mem::Discriminant<crate::fault::FaultKind>> {
+pub(super) fn kind(faults: &Faults) -> Option<std::mem::Discriminant<crate::fault::FaultKind>> {
     faults.sorted().first().map(|fault| std::mem::discriminant(&fault.kind))
 }
 

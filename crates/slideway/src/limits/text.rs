@@ -1,6 +1,9 @@
 //! Limits as text for people.
 
-use super::report::{CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem};
+use super::report::{
+    CountLimits, Known, LimitsReport, ModeLimits, RangeWithoutProblem, RestLimitsReport, SpanOfRest,
+    SpeedLimits,
+};
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -18,6 +21,32 @@ impl Report for LimitsReport {
             let parts = (&*reversed.modes, &*reversed.counts, &*reversed.without_mode_problem);
             text.direction(", moving in the opposite direction", parts);
         }
+        text.text()
+    }
+}
+
+impl Report for RestLimitsReport {
+    /// Each stretch in a sentence.
+    fn text(&self, style: Style) -> String {
+        let mut text = Page::new(self, style);
+        if let Some(title) = &self.title {
+            text.headline(title);
+        }
+        let vary = &self.vary;
+        let unit = &vary.shown_in;
+        let (range, value) = (unit.range(&vary.name, [vary.from, vary.to]), unit.precise(vary.value));
+        text.line(&format!("At rest, {range} (in the model {value})"));
+        text.line("");
+        for SpanOfRest { from, to, holds, reason } in &self.spans {
+            let verdict = match (holds, reason) {
+                (_, Some(reason)) => format!("there is no answer: {reason}"),
+                (Some(true), _) => "it can stay at rest".to_owned(),
+                (Some(false), _) => "it does not hold".to_owned(),
+                (None, _) => "not decided".to_owned(),
+            };
+            text.headline(&format!("{}: {verdict}.", unit.range(&vary.name, [*from, *to])));
+        }
+        text.line(&self.guarantee);
         text.text()
     }
 }
@@ -52,6 +81,9 @@ impl Page<'_, LimitsReport> {
         let [from, to] = ["from", "to"].map(|end| unit.title(end));
         let rows: Vec<Vec<String>> = modes.iter().map(|mode| mode_row(mode, unit)).collect();
         self.lines(&table(&["signs", &from, &to, "begins with", "ends with", "contact mode"], &rows, 1));
+        for mode in modes.iter().filter(|mode| !mode.speeds.is_empty()) {
+            self.line(&format!("  {}: {}", spaced(&mode.pattern), speeds_in_words(&mode.speeds, unit)));
+        }
         self.line("");
         self.headline(&format!("Number of solutions{which}"));
         let rows: Vec<Vec<String>> = counts.iter().map(|count| count_row(count, unit)).collect();
@@ -83,6 +115,17 @@ fn mode_row(mode: &ModeLimits, unit: &Unit) -> Vec<String> {
         cause(mode.to_is, &mode.to_at, mode.reactions.iter().map(|r| (&*r.contact, r.to_grows))),
         words.join("; "),
     ]
+}
+
+/// "z speeds up from 0 to 0.2, slows down from 0.2 to 1".
+fn speeds_in_words(speeds: &[SpeedLimits], unit: &Unit) -> String {
+    let of_coordinate = |speeds: &[SpeedLimits]| {
+        let stretch = |one: &SpeedLimits| unit.range(one.speed.in_words(), [one.from, one.to]);
+        let stretches: Vec<String> = speeds.iter().map(stretch).collect();
+        format!("{} {}", speeds[0].coordinate, stretches.join(", "))
+    };
+    let coordinates = speeds.chunk_by(|one, next| one.coordinate == next.coordinate);
+    coordinates.map(of_coordinate).collect::<Vec<_>>().join("; ")
 }
 
 /// Why a mode begins or ends, in words.

@@ -10,8 +10,8 @@ use crate::model::{Dependence, Model, Setting, SettingKind, Settings, Value};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::search;
 use crate::progress::{Progress, Work};
-use crate::report::Solution;
-use crate::solve::{Parts, SolveOptions, Stages, certain_counts, states_between_faces};
+use crate::report::{Solution, SolveReport};
+use crate::solve::{Parts, SolveOptions, Stages, certain_counts, solve_with_friction, states_between_faces};
 use crate::units::Unit;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -47,6 +47,18 @@ impl Varied {
     /// # Errors
     /// An unknown name; with a factor of friction whatever `solve` refuses.
     pub(crate) fn new(model: &Model, name: &str) -> Result<Self, Faults> {
+        let mut varied = Self::at_rest(model, name)?;
+        if varied.is_friction_factor() {
+            varied.stages = Some(Stages::new(model)?);
+        }
+        Ok(varied)
+    }
+
+    /// The same for questions of rest, which need no inertia.
+    ///
+    /// # Errors
+    /// An unknown name.
+    pub(crate) fn at_rest(model: &Model, name: &str) -> Result<Self, Faults> {
         let parameter = model.parameters.iter().any(|parameter| &*parameter.name == name);
         let coordinate = model.coordinates.iter().any(|coordinate| &*coordinate.name == name);
         let kind = match (parameter, coordinate, name) {
@@ -55,14 +67,13 @@ impl Varied {
             (_, _, FRICTION) => Kind::Friction,
             _ => return Err(unknown(model, name)),
         };
-        let stages = if kind == Kind::Friction { Some(Stages::new(model)?) } else { None };
         let shown_in = match kind {
             Kind::Friction => Unit::default(),
             Kind::Parameter => model.units.parameter(name, &model.parameter_unit(name)),
             Kind::Coordinate => model.units.of(coordinate_unit(model, name)),
         };
         let (model, name, follower) = (model.clone(), name.to_owned(), Mutex::default());
-        Ok(Self { model, name, kind, shown_in, stages, follower })
+        Ok(Self { model, name, kind, shown_in, stages: None, follower })
     }
 
     /// The same, shown in the unit of both ends of a range as they were typed, if they have one.
@@ -216,6 +227,21 @@ impl Varied {
         found.unwrap_or_default()
     }
 
+    /// The certified solutions at a value.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn solved(&self, value: f64, work: Work<'_>) -> Result<SolveReport, Faults> {
+        let (model, _) = self.model_at(value)?;
+        let options = SolveOptions::default();
+        self.at(value, |stages, factor| {
+            let mut goes_on = |_: &Progress| {
+                if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            solve_with_friction(&model, stages.rougher(factor), &options, &mut goes_on)
+        })
+    }
+
     fn follower(&self) -> MutexGuard<'_, Follower> {
         self.follower.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -278,9 +304,9 @@ impl Varied {
         if let Some(stages) = &self.stages {
             return question(stages, value);
         }
-        let mechanism = Mechanism::new(&self.model_at(value)?.0)?;
-        let stages = Stages::following(&mut self.follower(), mechanism)?;
-        question(&stages, 1.0)
+        let (model, factor) = self.model_at(value)?;
+        let stages = Stages::following(&mut self.follower(), Mechanism::new(&model)?)?;
+        question(&stages, factor)
     }
 
     /// The line of mode problems from no friction (`t = 0`) to the friction at a value (`t = 1`).

@@ -7,6 +7,8 @@ use crate::model::{Model, Value};
 use std::fmt;
 use std::str::FromStr;
 
+/// Without a range a parameter goes from its value divided by this to its value multiplied by it.
+const FACTOR_AROUND: f64 = 5.0;
 /// Between the ends of a range.
 const TO: &str = "..";
 
@@ -79,8 +81,20 @@ impl Vary {
     /// # Errors
     /// As [`Varied::new`].
     pub(crate) fn of(&self, model: &Model) -> Result<Varied, Faults> {
-        let varied = Varied::new(model, &self.name)
-            .map_err(|faults| faults.in_argument(&self.to_string(), |_| 0..self.name.len()))?;
+        self.placed(Varied::new(model, &self.name))
+    }
+
+    /// It in a model that is asked about rest.
+    ///
+    /// # Errors
+    /// As [`Varied::at_rest`].
+    pub(crate) fn at_rest(&self, model: &Model) -> Result<Varied, Faults> {
+        self.placed(Varied::at_rest(model, &self.name))
+    }
+
+    fn placed(&self, varied: Result<Varied, Faults>) -> Result<Varied, Faults> {
+        let varied =
+            varied.map_err(|faults| faults.in_argument(&self.to_string(), |_| 0..self.name.len()))?;
         Ok(varied.typed_as(self.range.as_ref()))
     }
 
@@ -146,5 +160,25 @@ impl fmt::Display for Vary {
             None => formatter.write_str(&self.name),
             Some([from, to]) => write!(formatter, "{}={from}..{to}", self.name),
         }
+    }
+}
+
+/// A range around the value in the model; coordinates and values of zero need one.
+///
+/// # Errors
+/// A fault if a range is needed.
+pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
+    if varied.is_friction_factor() {
+        return Ok([0.0, 2.0 * FACTOR_AROUND]);
+    }
+    let present = varied.present()?;
+    if model.is_friction_coefficient(&varied.name) {
+        Ok([0.0, (2.0 * present).max(1.0)])
+    } else if varied.is_coordinate() || present == 0.0 {
+        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
+        Err(Fault::general(kind).into())
+    } else {
+        let ends = [present / FACTOR_AROUND, present * FACTOR_AROUND];
+        Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })
     }
 }

@@ -4,6 +4,7 @@ use super::ColourBy;
 use crate::fault::{FaultKind, Faults};
 use crate::modes::existence::{ExistenceOptions, counts};
 use crate::modes::{ContactState, Limits, Solutions, enumerate};
+use crate::report::SpeedChange;
 use crate::solve::{AT_ONCE, Parts, pattern};
 use nalgebra::DVector;
 use serde::Serialize;
@@ -46,6 +47,16 @@ pub enum ClassMeaning {
         /// The other way.
         opposite: bool,
     },
+    /// What becomes of the speeds in each solution.
+    Motion {
+        /// For each solution, for each coordinate that no drive moves.
+        solutions: Vec<Vec<SpeedChange>>,
+    },
+    /// Whether it can stay at rest.
+    Rest {
+        /// Whether it can; null where that was not decided.
+        holds: Option<bool>,
+    },
     /// Infinitely many solutions.
     Continuum,
     /// Too many patterns to try all of them.
@@ -63,8 +74,10 @@ pub(super) struct ClassKey(pub(super) ClassMeaning);
 
 /// What is known of one direction at a point.
 pub(super) struct Point {
-    /// Its mode problem.
+    /// Its mode problem; for `Motion` with the accelerations of the coordinates as outputs.
     pub(super) parts: Parts,
+    /// The coordinates that no drive moves, with their rates.
+    pub(super) free: Vec<(usize, f64)>,
     /// The patterns of its states with a guided slider between its faces, which the mode problem does not
     /// tell.
     pub(super) between_faces: Vec<String>,
@@ -74,6 +87,8 @@ pub(super) struct Point {
 #[derive(Default)]
 struct States {
     solutions: Vec<String>,
+    /// The sides of the solutions.
+    sides: Vec<Vec<ContactState>>,
     gaps: Vec<String>,
     continuum: bool,
 }
@@ -111,7 +126,9 @@ pub(super) fn class(
         ColourBy::Margin if states.solutions.len() == 1 => {
             margin(&point.parts).unwrap_or(ClassMeaning::TooLarge)
         }
-        ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam => number,
+        ColourBy::Motion if !point.free.is_empty() && !states.solutions.is_empty() => motion(point, &states),
+        // Whoever asks whether it holds asks no mode problem.
+        ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam | ColourBy::Motion | ColourBy::Hold => number,
         ColourBy::Modes => {
             let mut patterns = [states.solutions, states.gaps].concat();
             // '+' comes before '-', and '-' before '0', as the states do in an enumeration.
@@ -119,6 +136,21 @@ pub(super) fn class(
             ClassMeaning::Modes { patterns }
         }
     }
+}
+
+/// What becomes of the speeds in each solution.
+fn motion(point: &Point, states: &States) -> ClassMeaning {
+    let line = point.parts.line_to(&point.parts);
+    let of_solution = |sides: &Vec<ContactState>| {
+        let change = |&(coordinate, rate): &(usize, f64)| {
+            let sign = line.output_sign(sides, point.parts.couples() + coordinate, 0.0);
+            SpeedChange::of_sign(rate, sign)
+        };
+        point.free.iter().map(change).collect()
+    };
+    let mut solutions: Vec<Vec<SpeedChange>> = states.sides.iter().map(of_solution).collect();
+    solutions.sort_unstable();
+    ClassMeaning::Motion { solutions }
 }
 
 /// All states in which no guided slider tips; none if there are too many patterns.
@@ -137,7 +169,10 @@ fn states(point: &Point) -> Option<States> {
     for solution in &found.solutions {
         let sides: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
         let zero = &solution.on_boundary;
-        states.solutions.extend(standing(&sides, zero, &solution.normal_force, &none));
+        let stand: Vec<String> = standing(&sides, zero, &solution.normal_force, &none).collect();
+        // Preloads at one face or the other change no acceleration.
+        states.sides.extend(stand.iter().map(|_| sides.clone()));
+        states.solutions.extend(stand);
     }
     for gap in &found.gaps {
         let mut shares = none.clone();

@@ -1,15 +1,16 @@
 //! The mode problem at a point of the plane: interpolated where it depends bilinearly on both quantities,
 //! else made anew.
 
-use super::class::{ClassKey, Point, class, reason};
+use super::class::{ClassKey, ClassMeaning, Point, class, reason};
 use super::{Axis, ColourBy};
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
 use crate::limits::mechanism_with;
 use crate::model::{Model, Settings};
-use crate::progress::{Progress, Work};
+use crate::progress::{Progress, Work, undisturbed};
 use crate::solve::{Parts, SolveOptions, Stages, Trail, states_between_faces};
+use crate::standstill::{HoldOptions, can_rest};
 use std::ops::ControlFlow;
 
 /// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least
@@ -17,13 +18,17 @@ use std::ops::ControlFlow;
 struct Corners {
     parts: Box<[Parts; 4]>,
     accuracy: Accuracy,
+    /// The coordinates that no drive moves, with rates of the signs that they have at each corner.
+    free: Vec<(usize, f64)>,
 }
 
 /// What finds the class of a point.
 pub(super) struct Evaluator<'a> {
     axes: &'a [Axis; 2],
     colour_by: ColourBy,
-    forwards: Source,
+    model: &'a Model,
+    /// Where mode problems come from; none where statics is asked.
+    forwards: Option<Source>,
     /// Motion the other way, for `Jam`.
     opposite: Option<Source>,
 }
@@ -34,23 +39,23 @@ struct Source {
     /// Between these mode problems are interpolated; if there are none, they are made from the model at every
     /// point, from the states of the points before it.
     corners: Option<Corners>,
+    /// Whether mode problems have the accelerations of the coordinates as outputs.
+    with_accelerations: bool,
 }
 
 impl<'a> Evaluator<'a> {
     /// # Errors
     /// A quantity on which nothing depends; a model that cannot be turned round.
-    pub(super) fn new(model: &Model, axes: &'a [Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
-        let forwards = Source::new(model.clone(), axes)?;
-        let opposite = match colour_by {
-            ColourBy::Jam => Some(Source::new(model.reversed(), axes)?),
-            _ => None,
-        };
-        Ok(Self { axes, colour_by, forwards, opposite })
+    pub(super) fn new(model: &'a Model, axes: &'a [Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
+        let source = |model: Model| Source::new(model, axes, colour_by == ColourBy::Motion).map(Some);
+        let forwards = if colour_by == ColourBy::Hold { None } else { source(model.clone())? };
+        let opposite = if colour_by == ColourBy::Jam { source(model.reversed())? } else { None };
+        Ok(Self { axes, colour_by, model, forwards, opposite })
     }
 
     /// Whether mode problems are interpolated.
     pub(super) fn is_bilinear(&self) -> bool {
-        self.forwards.corners.is_some()
+        self.forwards.as_ref().is_some_and(|source| source.corners.is_some())
     }
 
     /// The classes of points with these values, one after another, until the work is to end.
@@ -60,11 +65,41 @@ impl<'a> Evaluator<'a> {
         points.map(|values| self.class(values, &mut trails, work)).collect()
     }
 
+    /// Why there is no answer in the middle of the plane, where there is none anywhere.
+    pub(super) fn no_answer(&self) -> Faults {
+        let middle = self.axes.each_ref().map(|axis| f64::midpoint(axis.range[0], axis.range[1]));
+        let faults = match &self.forwards {
+            None => undisturbed(|work| self.rests(middle, work)).err(),
+            Some(source) => {
+                undisturbed(|work| source.point(self.axes, middle, &mut Trail::default(), work)).err()
+            }
+        };
+        let faults = faults.unwrap_or_default();
+        let sorted = faults.sorted();
+        let reason = sorted.first().map_or_else(String::new, |fault| {
+            let hint = fault.kind.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
+            format!("{}{hint}", fault.kind)
+        });
+        Fault::general(FaultKind::NoAnswerOnMap { reason }).into()
+    }
+
+    /// Whether it can stay at rest at a point.
+    fn rests(&self, values: [f64; 2], work: Work<'_>) -> Result<Option<bool>, Faults> {
+        let (model, friction) = model_at(self.model, self.axes, values)?;
+        can_rest((&model, friction), &HoldOptions::default(), work)
+    }
+
     fn class(&self, values: [f64; 2], [there, back]: &mut [Trail; 2], work: Work<'_>) -> ClassKey {
+        let Some(source) = &self.forwards else {
+            return ClassKey(match self.rests(values, work) {
+                Ok(holds) => ClassMeaning::Rest { holds },
+                Err(faults) => ClassMeaning::NotSolved { reason: reason(&faults) },
+            });
+        };
         let at = |source: &Source, trail: &mut Trail| {
             source.point(self.axes, values, trail, work).map_err(|faults| reason(&faults))
         };
-        let forwards = at(&self.forwards, there);
+        let forwards = at(source, there);
         let opposite = self.opposite.as_ref().map(|opposite| at(opposite, back));
         ClassKey(class(
             self.colour_by,
@@ -75,26 +110,28 @@ impl<'a> Evaluator<'a> {
 }
 
 impl Source {
-    fn new(model: Model, axes: &[Axis; 2]) -> Result<Self, Faults> {
+    fn new(model: Model, axes: &[Axis; 2], with_accelerations: bool) -> Result<Self, Faults> {
         let at = |[u, v]: [f64; 2]| {
             let (model, friction) = model_at(&model, axes, [along(&axes[0], u), along(&axes[1], v)])?;
             let stages = Stages::new(&model)?;
-            Ok::<_, Faults>((stages.parts(friction)?, stages.accuracy))
+            let parts = parts(&stages, friction, with_accelerations)?;
+            Ok::<_, Faults>((parts, stages.accuracy, free(&stages)))
         };
         let [x, y] = axes.each_ref().map(|axis| axis.varied.dependence().problem);
         nothing_varies(axes, [x, y])?;
         // What is affine in each of both while the other stays as it is, is bilinear in both.
         let corners = if x.max(y) <= Degree::Affine
             && let [Ok(a), Ok(b), Ok(c), Ok(d)] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(at)
+            && [&b.2, &c.2, &d.2].into_iter().all(|other| have_same_signs(&a.2, other))
         {
             let greatest =
                 |number: fn(&Accuracy) -> f64| [a.1, b.1, c.1, d.1].iter().map(number).fold(0.0, f64::max);
             let accuracy = Accuracy { part: greatest(|one| one.part), of_load: greatest(|one| one.of_load) };
-            Some(Corners { parts: Box::new([a.0, b.0, c.0, d.0]), accuracy })
+            Some(Corners { parts: Box::new([a.0, b.0, c.0, d.0]), accuracy, free: a.2 })
         } else {
             None
         };
-        Ok(Self { model, corners })
+        Ok(Self { model, corners, with_accelerations })
     }
 
     fn point(
@@ -104,16 +141,18 @@ impl Source {
         trail: &mut Trail,
         work: Work<'_>,
     ) -> Result<Point, Faults> {
-        let (parts, accuracy, stages) = if let Some(corners) = &self.corners {
-            (corners.parts_at(axes, values).ok_or_else(Faults::default)?, corners.accuracy, None)
+        let (parts, accuracy, free, stages) = if let Some(corners) = &self.corners {
+            let parts = corners.parts_at(axes, values).ok_or_else(Faults::default)?;
+            (parts, corners.accuracy, corners.free.clone(), None)
         } else {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));
             let (mechanism, friction) = mechanism_with(&self.model, &[x, y])?;
             let stages = Stages::along(trail, mechanism)?;
-            (stages.parts(friction)?, stages.accuracy, Some(stages))
+            let parts = parts(&stages, friction, self.with_accelerations)?;
+            (parts, stages.accuracy, free(&stages), Some(stages))
         };
         if parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy) {
-            return Ok(Point { parts, between_faces: Vec::new() });
+            return Ok(Point { parts, free, between_faces: Vec::new() });
         }
         let (model, friction) = model_at(&self.model, axes, values)?;
         let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
@@ -122,8 +161,25 @@ impl Source {
         let (at, options) = (stages.rougher(friction), SolveOptions::default());
         let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();
-        Ok(Point { parts, between_faces })
+        Ok(Point { parts, free, between_faces })
     }
+}
+
+/// The mode problem of stages, with the accelerations of the coordinates as outputs if these are asked.
+fn parts(stages: &Stages, friction: f64, with_accelerations: bool) -> Result<Parts, Faults> {
+    if with_accelerations { stages.parts_with_accelerations(friction) } else { stages.parts(friction) }
+}
+
+/// The coordinates that no drive moves, with their rates.
+fn free(stages: &Stages) -> Vec<(usize, f64)> {
+    let drives = &stages.mechanism.drives;
+    let rates = stages.mechanism.coordinates.iter().map(|coordinate| coordinate.rate).enumerate();
+    rates.filter(|(index, _)| drives.iter().all(|drive| drive.coordinate.index() != *index)).collect()
+}
+
+fn have_same_signs(one: &[(usize, f64)], other: &[(usize, f64)]) -> bool {
+    let sign = |rate: f64| if rate == 0.0 { 0.0 } else { rate.signum() };
+    one.iter().zip(other).all(|(one, other)| sign(one.1) == sign(other.1))
 }
 
 impl Corners {
@@ -176,7 +232,6 @@ fn nothing_varies(axes: &[Axis; 2], degrees: [Degree; 2]) -> Result<(), Faults> 
 mod tests {
     use super::*;
     use crate::gallery;
-    use crate::progress::undisturbed;
 
     /// The oracle assembles the model of every point from the drawing and factors with full pivoting. Between
     /// neighbouring points lie up to 11 degrees; a rod shorter than the crank cannot pass 90 degrees, which
@@ -193,8 +248,9 @@ mod tests {
         let walking = |step: usize| [(step as f64 + 0.5) / 32.0, 0.1 + 0.02 * step as f64];
         for (name, x, y) in planes {
             let model = Model::parse(gallery::find(name).expect("in the gallery").text).expect("sound");
-            let axes =
-                [x, y].map(|axis| Axis::new(&model, &axis.parse().expect("a range")).expect("an axis"));
+            let axes = [x, y].map(|axis| {
+                Axis::new(&model, &axis.parse().expect("a range"), ColourBy::Modes).expect("an axis")
+            });
             for colour_by in [ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
                 let evaluator = Evaluator::new(&model, &axes, colour_by).expect("something varies");
                 assert!(!evaluator.is_bilinear(), "{name}");
@@ -207,7 +263,7 @@ mod tests {
                             let (model, friction) = model_at(model, &axes, values)?;
                             let parts = Stages::new(&model)?.parts(friction)?;
                             assert!(parts.with_free_faces().is_empty(), "{name}");
-                            Ok(Point { parts, between_faces: Vec::new() })
+                            Ok(Point { parts, free: Vec::new(), between_faces: Vec::new() })
                         };
                         let at = |model: &Model| anew(model).map_err(|faults| reason(&faults));
                         let (forwards, opposite) = (at(&model), at(&backwards));

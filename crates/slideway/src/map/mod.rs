@@ -59,6 +59,10 @@ pub enum ColourBy {
     Margin,
     /// Whether it moves as in the model, and the other way.
     Jam,
+    /// What becomes of the speed of each coordinate that no drive moves, in each solution.
+    Motion,
+    /// Whether it can stay at rest, drives absent.
+    Hold,
 }
 
 impl ColourBy {
@@ -133,8 +137,11 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(model: &Model, vary: &Vary) -> Result<Self, Faults> {
-        let varied = vary.of(model)?;
+    fn new(model: &Model, vary: &Vary, colour_by: ColourBy) -> Result<Self, Faults> {
+        let varied = match colour_by {
+            ColourBy::Hold => vary.at_rest(model)?,
+            _ => vary.of(model)?,
+        };
         let range = vary.ends(&varied, || {
             let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
             Err(Fault::general(kind).into())
@@ -163,7 +170,8 @@ impl Axis {
 ///
 /// # Errors
 /// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a
-/// point cannot be assembled or solved is no error: it has a class of its own.
+/// point cannot be assembled or solved is no error, as it has a class of its own, unless there is no other
+/// class.
 pub fn map(model: &Model, options: &MapOptions) -> Result<MapReport, Faults> {
     undisturbed(|work| map_of(model, options, work))
 }
@@ -189,12 +197,17 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
     let grid = Grid { width, height, probe: options.probe.max(1) };
     let raster = Raster::<ClassKey>::new(grid, &classes, &mut |progress| work.tell(progress));
     let Some(raster) = raster else { return Ok(MapReport::default()) };
+    let is_answer = |class: &ClassKey| !matches!(class.0, ClassMeaning::NotSolved { .. });
+    if !raster.classes.iter().any(is_answer) {
+        return Err(evaluator.no_answer());
+    }
     finite(report::report((model, options), &axes, &evaluator, &raster, work))
 }
 
 fn axes(model: &Model, options: &MapOptions) -> Result<[Axis; 2], Faults> {
     let mut faults = Faults::default();
-    let mut axis = |vary: &Vary| Axis::new(model, vary).map_err(|found| faults.append(found)).ok();
+    let mut axis =
+        |vary: &Vary| Axis::new(model, vary, options.colour_by).map_err(|found| faults.append(found)).ok();
     let both = (axis(&options.x), axis(&options.y));
     let (Some(x), Some(y)) = both else { return Err(faults) };
     if x.varied.name == y.varied.name {

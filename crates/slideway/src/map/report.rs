@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::progress::Work;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Report, Style, indented, locked, precise, spaced};
+use crate::report::{Report, SpeedChange, Style, indented, locked, precise, spaced};
 use crate::units::Unit;
 use serde::Serialize;
 
@@ -181,13 +181,15 @@ pub(super) fn report(
         y: axis(&axes[1], raster.grid.height),
         classes,
         points: raster.solved,
-        guarantee: guarantee(raster, evaluator.is_bilinear()),
+        guarantee: guarantee(raster, options.colour_by, evaluator.is_bilinear()),
         rows,
     }
 }
 
-fn guarantee(raster: &Raster<ClassKey>, is_bilinear: bool) -> String {
-    let source = if is_bilinear {
+fn guarantee(raster: &Raster<ClassKey>, colour_by: ColourBy, is_bilinear: bool) -> String {
+    let source = if colour_by == ColourBy::Hold {
+        "Statics was decided at every point, the rates of the model set to zero and its drives absent."
+    } else if is_bilinear {
         "The mode problem depends bilinearly on both, so its numbers were interpolated."
     } else {
         "The mechanism was assembled at every point."
@@ -244,6 +246,21 @@ fn words(meaning: &ClassMeaning, locked: &str) -> String {
         ClassMeaning::Moves { as_in_model: false, opposite: false } => {
             format!("{locked} in both directions")
         }
+        ClassMeaning::Motion { solutions } => {
+            let of_solution = |changes: &Vec<SpeedChange>| {
+                changes.iter().map(|change| change.in_words()).collect::<Vec<_>>().join(", ")
+            };
+            let each: Vec<String> = solutions.iter().map(of_solution).collect();
+            let number = if each.len() == 1 {
+                "one solution".to_owned()
+            } else {
+                format!("{} solutions", counted(each.len()))
+            };
+            format!("{number}: {}", each.join(" | "))
+        }
+        ClassMeaning::Rest { holds: Some(true) } => "can stay at rest".to_owned(),
+        ClassMeaning::Rest { holds: Some(false) } => "does not hold".to_owned(),
+        ClassMeaning::Rest { holds: None } => "whether it holds is not decided".to_owned(),
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),

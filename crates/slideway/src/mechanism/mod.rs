@@ -21,6 +21,8 @@ use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
 pub(crate) const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+/// More contacts are refused before any matrix is built: those would be large, too.
+const MOST_CONTACTS: usize = 500;
 
 /// A mechanism in its reference drawing: its numbers are rounded (`T` is `f64`), or lie within intervals.
 #[derive(Debug, Clone)]
@@ -429,6 +431,20 @@ impl Mechanism {
             check(format!("the value or the rate of {}", coordinate.name), Some(&coordinate.place), &values);
         }
         faults.or(())
+    }
+}
+
+impl Mechanism {
+    /// Refuses more contacts than can be dealt with, before any matrix is built.
+    ///
+    /// # Errors
+    /// A fault that says how many contacts there are.
+    pub(crate) fn check_size(&self) -> Result<(), Faults> {
+        let contacts = self.contacts.len();
+        if contacts > MOST_CONTACTS {
+            return Err(Fault::general(FaultKind::TooManyContacts { contacts, limit: MOST_CONTACTS }).into());
+        }
+        Ok(())
     }
 }
 

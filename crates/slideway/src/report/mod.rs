@@ -9,6 +9,7 @@ mod end;
 mod finite;
 mod json;
 pub(crate) mod page;
+mod speed;
 pub(crate) mod table;
 mod text;
 
@@ -18,6 +19,7 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;
+pub use speed::{FromRest, SpeedChange, Stop};
 pub use text::{Style, followed};
 pub(crate) use text::{count, locked, spaced};
 
@@ -83,6 +85,8 @@ pub struct SolveReport {
     pub model: ModelSummary,
     /// The state: chosen coordinates and their rates.
     pub state: Vec<CoordinateState>,
+    /// The coordinates whose rates the model does not give: they are taken as zero.
+    pub rates_not_given: Vec<String>,
     /// Time of the state (s).
     pub time: f64,
     /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
@@ -114,6 +118,10 @@ pub struct SolveReport {
     /// a guided slider is between its faces, which is no mode that could be followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins: Option<Margins>,
+    /// Where some coordinate slows down: what the same loads do from rest in the same position; absent where
+    /// it was not asked (margins are not, drives prescribe the motion, there are many states of rest).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_rest: Option<FromRest>,
     /// What parameters known within bounds leave certain; absent if there are none. Everything else in the
     /// report holds for the middle of their ranges.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -225,6 +233,9 @@ pub struct Solution {
     pub bodies: Vec<Body>,
     /// The accelerations of the chosen coordinates.
     pub coordinates: Vec<CoordinateAcceleration>,
+    /// Whether it is proven that the loads and weights push the motion and friction takes more power than they
+    /// give; never with drives.
+    pub friction_exceeds_loads: bool,
     /// The efforts of the drives.
     pub drives: Vec<Drive>,
     /// Greatest relative residual of a body's force and moment balance, recomputed independently.
@@ -473,6 +484,15 @@ pub struct CoordinateAcceleration {
     pub unit: &'static str,
     /// Its acceleration.
     pub acceleration: f64,
+    /// Proven bounds of its acceleration; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acceleration_bounds: Option<[f64; 2]>,
+    /// What becomes of its speed; absent if a drive prescribes its motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<SpeedChange>,
+    /// If it slows down: when and where it stops if its acceleration stays as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop: Option<Stop>,
 }
 
 /// The effort of a drive.

@@ -4,8 +4,8 @@ use super::number::number;
 use super::page::Page;
 use super::table::table;
 use super::{
-    CertificateKind, ClosestMode, Contact, JointMode, ModeEndCause, ModeMargin, PatternSummary, Persistence,
-    Report, Solution, SolveReport, Status, UncertainMode,
+    CertificateKind, ClosestMode, Contact, CoordinateAcceleration, JointMode, ModeEndCause, ModeMargin,
+    PatternSummary, Persistence, Report, Solution, SolveReport, SpeedChange, Status, UncertainMode,
 };
 use crate::units::{Unit, Units};
 use std::fmt::Write;
@@ -92,7 +92,10 @@ impl Text<'_> {
             Status::One if report.partial => {
                 "One solution found; not every pattern could be decided.".to_owned()
             }
-            Status::One => "One solution.".to_owned(),
+            Status::One => match self.only_speed() {
+                Some(change) => format!("One solution: it {}.", change.in_words()),
+                None => "One solution.".to_owned(),
+            },
             Status::Several if report.partial => {
                 format!("{} solutions found; not every pattern could be decided.", report.count)
             }
@@ -126,6 +129,11 @@ impl Text<'_> {
         for group in &report.jammed_groups {
             self.line(&format!("Contacts without a solution on their own: {}.", group.join(", ")));
         }
+        if report.solutions.iter().any(slows_though_pushed) {
+            self.line(
+                "Friction takes more than the loads give. To ask whether it jams, prescribe the motion (a drive) or see `slideway hold`.",
+            );
+        }
         let listed = report.solutions.len();
         if report.count != listed.to_string() {
             self.line(&format!("{listed} of them are listed."));
@@ -153,6 +161,7 @@ impl Text<'_> {
             self.line("  Found within tolerances, not proven.");
         }
         self.modes(&solution.joints);
+        self.speeds(solution);
         self.line(&format!("  {}", solution.attainability.in_words()));
         self.line("");
         let contacts = contact_table(&solution.contacts, &self.report.model.units);
@@ -162,13 +171,46 @@ impl Text<'_> {
         self.lines(&motion);
         self.line("");
         if let Some(margin) = &solution.margin {
-            self.line(&format!("  {}", margin_in_words(margin)));
+            self.line(&format!("  {}", margin_in_words(margin, slows_though_pushed(solution))));
         }
         self.line(&format!(
             "  determinant {}, equilibrium of every body to within {}",
             number(solution.determinant),
             power_of_ten_above(solution.residual)
         ));
+    }
+
+    /// What becomes of the speed of the only coordinate, in the only solution; none if that is not known.
+    fn only_speed(&self) -> Option<SpeedChange> {
+        let [solution] = self.report.solutions.as_slice() else { return None };
+        let [coordinate] = solution.coordinates.as_slice() else { return None };
+        coordinate.speed.filter(|change| *change != SpeedChange::Undecided)
+    }
+
+    /// What becomes of the speeds: "It slows down, and would stop after 0.1 s and 0.2 m if nothing changed".
+    fn speeds(&mut self, solution: &Solution) {
+        let report = self.report;
+        let is_only = report.state.len() == 1;
+        for (state, coordinate) in report.state.iter().zip(&solution.coordinates) {
+            let Some(change) = coordinate.speed else { continue };
+            let who = if is_only { "It" } else { &coordinate.name };
+            let mut line = format!("  {who} {}", change.in_words());
+            if let Some(stop) = &coordinate.stop {
+                let units = &report.model.units;
+                let (time, distance) =
+                    (units.of("s").show(stop.time), units.of(state.unit).show(stop.distance));
+                let _ = write!(line, ", and would stop after {time} and {distance}");
+                line.push_str(" if nothing changed");
+            }
+            if report.rates_not_given.contains(&coordinate.name) {
+                line.push_str(" (the model gives no rate: it is taken as zero)");
+            }
+            self.line(&format!("{line}."));
+        }
+        let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
+        if let Some(from_rest) = report.from_rest.filter(|_| slows) {
+            self.line(&format!("  Once it is at rest, {}.", from_rest.in_words()));
+        }
     }
 
     fn modes(&mut self, joints: &[JointMode]) {
@@ -375,10 +417,17 @@ fn tried(counts: &PatternSummary) -> String {
     line
 }
 
+/// Whether it slows down although the loads push it.
+fn slows_though_pushed(solution: &Solution) -> bool {
+    let slows = |one: &CoordinateAcceleration| one.speed == Some(SpeedChange::SlowsDown);
+    solution.friction_exceeds_loads && solution.coordinates.iter().any(slows)
+}
+
 /// "the mode ends at 1.1 times the friction: locking"
-fn margin_in_words(margin: &ModeMargin) -> String {
+fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let Some(factor) = margin.factor else {
-        return "the mode persists however much friction grows".to_owned();
+        let but = if slows_though_pushed { ", but the motion slows down in it" } else { "" };
+        return format!("the contact mode stays the same however much friction grows{but}");
     };
     let contacts = margin.contacts.join(", ");
     let end = match margin.ends_with {

@@ -1,6 +1,7 @@
 //! The margin at one value of what is varied.
 
 use super::Against;
+use super::level::level;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::limits::Varied;
 use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooManyModes};
@@ -66,6 +67,8 @@ pub(super) struct MarginQuestion<'v> {
     /// The same with all rates reversed, if both directions count.
     pub(super) reversed: Option<&'v Varied>,
     pub(super) against: &'v Against,
+    /// What an effort, normal force or efficiency has to keep.
+    pub(super) limit: f64,
 }
 
 impl MarginQuestion<'_> {
@@ -75,12 +78,9 @@ impl MarginQuestion<'_> {
     /// Whatever keeps the mechanism from being assembled or solved there.
     pub(super) fn margin(&self, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
         match self.against {
-            Against::Locking => {
-                let margin = against_locking(self.varied, value, work)?;
-                match self.reversed {
-                    Some(reversed) => Ok(margin.least(against_locking(reversed, value, work)?)),
-                    None => Ok(margin),
-                }
+            Against::Locking => self.both(|varied| against_locking(varied, value, work)),
+            Against::Effort { .. } | Against::NormalForce { .. } | Against::Efficiency => {
+                self.both(|varied| Ok(self.kept(level(varied, self.against, value, work)?)))
             }
             Against::SelfLocking { load } => {
                 Ok(self.threshold(load, value, work)?.map_or(Margin::Infinite, Margin::Finite))
@@ -90,6 +90,25 @@ impl MarginQuestion<'_> {
                 Some(0.0) => Margin::Infinite,
                 Some(factor) => Margin::Finite(factor.recip()),
             }),
+        }
+    }
+
+    /// The smaller margin of both directions, if both count.
+    fn both(&self, margin: impl Fn(&Varied) -> Result<Margin, Faults>) -> Result<Margin, Faults> {
+        let forwards = margin(self.varied)?;
+        match self.reversed {
+            Some(reversed) => Ok(forwards.least(margin(reversed)?)),
+            None => Ok(forwards),
+        }
+    }
+
+    /// How many times a level keeps its limit; not at all without a solution.
+    fn kept(&self, level: Option<f64>) -> Margin {
+        match (level, self.against) {
+            (None, _) => Margin::Finite(0.0),
+            (Some(level), Against::Efficiency) => Margin::Finite(level / self.limit),
+            (Some(0.0), _) => Margin::Infinite,
+            (Some(level), _) => Margin::Finite(self.limit / level),
         }
     }
 

@@ -21,8 +21,10 @@
 //!
 //! # Files
 //! `size` asks for the margin at one value (`margin.rs`: `modes::existence` in motion, the threshold of
-//! `standstill` at rest) and brackets it over what `limits::Varied` varies (`search.rs`).
+//! `standstill` at rest; `level.rs`: efforts, normal forces and efficiency, whose margin is how many times they
+//! keep their limit) and brackets it over what `limits::Varied` varies (`search.rs`).
 
+mod level;
 mod margin;
 mod report;
 mod search;
@@ -34,7 +36,7 @@ pub use report::{
 };
 
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::limits::{Varied, Vary};
+use crate::limits::{Vary, range_around};
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -45,8 +47,6 @@ use search::MarginSearch;
 const STEPS: usize = 500;
 /// The same at rest, where each value takes linear programs.
 const STEPS_AT_REST: usize = 100;
-/// Without a range a parameter goes from its value divided by this to its value multiplied by it.
-const USUAL_FACTOR: f64 = 5.0;
 
 /// Against what there is to be a margin.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,6 +64,31 @@ pub enum Against {
         /// Name of the load or drive.
         load: String,
     },
+    /// The greatest effort of this drive, or of all, in any solution; without a solution it is exceeded.
+    Effort {
+        /// Name of the drive.
+        drive: Option<String>,
+    },
+    /// The greatest normal force of this contact, or of all, in any solution; without a solution it is
+    /// exceeded.
+    NormalForce {
+        /// Name of the contact.
+        contact: Option<String>,
+    },
+    /// The least efficiency of the drives in any solution; without a solution it is not reached.
+    Efficiency,
+}
+
+impl Against {
+    /// Whether it is a limit of a force or of the efficiency rather than a factor of friction.
+    pub(crate) fn is_limit(&self) -> bool {
+        matches!(self, Self::Effort { .. } | Self::NormalForce { .. } | Self::Efficiency)
+    }
+
+    /// Whether it concerns rest.
+    fn is_at_rest(&self) -> bool {
+        matches!(self, Self::SelfLocking { .. } | Self::Hold { .. })
+    }
 }
 
 /// What is to be sized.
@@ -74,7 +99,8 @@ pub struct SizeOptions {
     /// twice its value, but at least to 1, any other parameter that is not zero from a fifth of its value to
     /// five times it.
     pub vary: Vary,
-    /// The wanted margin, positive: a factor of friction.
+    /// The wanted margin, positive: a factor of friction. Against an effort or normal force the greatest that
+    /// is allowed (N or N m), against the efficiency the least.
     pub margin: f64,
     /// Against what.
     pub against: Against,
@@ -130,18 +156,28 @@ pub fn size_with(
 }
 
 fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeReport, Faults> {
-    let at_rest = options.against != Against::Locking;
+    let at_rest = options.against.is_at_rest();
     if at_rest && options.both_directions {
         return Err(Fault::general(FaultKind::NoDirectionAtRest).into());
     }
     let varied = options.vary.of(model)?;
-    let range = options.vary.ends(&varied, || usual_range(model, &varied))?;
+    let range = options.vary.ends(&varied, || range_around(model, &varied))?;
     let opposite = if options.both_directions { Some(options.vary.of(&model.reversed())?) } else { None };
-    let question = MarginQuestion { varied: &varied, reversed: opposite.as_ref(), against: &options.against };
+    if matches!(options.against, Against::Effort { .. } | Against::Efficiency) && model.drives.is_empty() {
+        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
+        return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
+    }
+    let question = MarginQuestion {
+        varied: &varied,
+        reversed: opposite.as_ref(),
+        against: &options.against,
+        limit: options.margin,
+    };
     let value = varied.present()?;
     let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
-    let found = MarginSearch { question: &question, wanted: options.margin, range, steps, work }.run();
+    let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
+    let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
     finite(report::report(model, options, &report::Sought { question, range, steps, value, present, found }))
 }
 
@@ -161,25 +197,5 @@ fn present(question: &MarginQuestion<'_>, value: f64, work: Work<'_>) -> Result<
         Ok(margin) => Ok(Some(margin)),
         Err(faults) if faults.sorted().iter().any(everywhere) => Err(faults),
         Err(_) => Ok(None),
-    }
-}
-
-/// A range around the value in the model; coordinates and values of zero need one.
-///
-/// # Errors
-/// A fault if a range is needed.
-pub(crate) fn usual_range(model: &Model, varied: &Varied) -> Result<[f64; 2], Faults> {
-    if varied.is_friction_factor() {
-        return Ok([0.0, 2.0 * USUAL_FACTOR]);
-    }
-    let present = varied.present()?;
-    if model.is_friction_coefficient(&varied.name) {
-        Ok([0.0, (2.0 * present).max(1.0)])
-    } else if varied.is_coordinate() || present == 0.0 {
-        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
-        Err(Fault::general(kind).into())
-    } else {
-        let ends = [present / USUAL_FACTOR, present * USUAL_FACTOR];
-        Ok(if present > 0.0 { ends } else { [ends[1], ends[0]] })
     }
 }

@@ -5,7 +5,8 @@ use super::search::{End, MetCause, SizesFound, Tried};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
-use crate::model::Model;
+use crate::model::{Effort, Model};
+use crate::units::Unit;
 use serde::Serialize;
 
 /// Version of the layout of a [`SizeReport`]; changes whenever a field is renamed or removed.
@@ -24,6 +25,35 @@ pub enum MarginKind {
     SelfLocking,
     /// The factor by which static friction may be smaller while a load is held however great it is.
     Hold,
+    /// Not a factor but the greatest effort of a drive, or of all (N or N m).
+    Effort,
+    /// Not a factor but the greatest normal force of a contact, or of all (N).
+    NormalForce,
+    /// Not a factor but the least efficiency.
+    Efficiency,
+}
+
+impl MarginKind {
+    /// Whether it is a limit of a force or of the efficiency rather than a factor of friction.
+    pub(super) fn is_limit(self) -> bool {
+        matches!(self, Self::Effort | Self::NormalForce | Self::Efficiency)
+    }
+
+    /// What a margin of the search stands for, which is how many times a limit is kept.
+    pub(super) fn told(self, margin: Margin, limit: f64) -> (SampleKind, Option<f64>) {
+        match (self, margin) {
+            (Self::Effort | Self::NormalForce, Margin::Infinite) => (SampleKind::Finite, Some(0.0)),
+            (Self::Effort | Self::NormalForce | Self::Efficiency, Margin::Finite(0.0)) => {
+                (SampleKind::NoSolution, None)
+            }
+            (Self::Effort | Self::NormalForce, Margin::Finite(kept)) => {
+                (SampleKind::Finite, Some(limit / kept))
+            }
+            (Self::Efficiency, Margin::Finite(kept)) => (SampleKind::Finite, Some(limit * kept)),
+            (_, Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
+            (_, Margin::Infinite) => (SampleKind::Infinite, None),
+        }
+    }
 }
 
 /// For which values a wanted margin is met.
@@ -38,11 +68,16 @@ pub struct SizeReport {
     pub vary: VariedQuantity,
     /// Which margin is meant.
     pub against: MarginKind,
-    /// The load that it concerns; absent against locking.
+    /// The load, drive or contact that it concerns; absent against locking, and where it concerns all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
-    /// The wanted margin.
+    /// The wanted margin; against an effort, normal force or efficiency the limit that it has to keep.
     pub margin: f64,
+    /// SI unit of the limit, empty for a pure number.
+    pub unit: &'static str,
+    /// The unit in which texts show it.
+    #[serde(skip)]
+    pub limit_shown_in: Unit,
     /// Whether the smaller margin of both directions of motion counts.
     pub both_directions: bool,
     /// The margin in the model.
@@ -104,6 +139,8 @@ pub enum SampleKind {
     Finite,
     /// No friction reaches the limit.
     Infinite,
+    /// There is no solution, of which an effort, normal force or efficiency could be told.
+    NoSolution,
     /// The mechanism cannot be assembled or solved there, or a guided slider is between its faces.
     NoPosition,
 }
@@ -150,7 +187,12 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         Against::Locking => (MarginKind::Locking, None),
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
         Against::Hold { load } => (MarginKind::Hold, Some(load.clone())),
+        Against::Effort { drive } => (MarginKind::Effort, drive.clone()),
+        Against::NormalForce { contact } => (MarginKind::NormalForce, contact.clone()),
+        Against::Efficiency => (MarginKind::Efficiency, None),
     };
+    let unit = unit(model, &options.against);
+    let told: Told<'_> = &|margin| against.told(margin, options.margin);
     let vary = VariedQuantity::new(question.varied, *range, *value);
     let mut report = SizeReport {
         schema: SCHEMA,
@@ -159,22 +201,46 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
         against,
         load,
         margin: options.margin,
+        unit,
+        limit_shown_in: if unit.is_empty() { Unit::default() } else { model.units.of(unit) },
         both_directions: options.both_directions,
-        present: sample(&Tried { at: *value, margin: *present }),
-        met: found.met.iter().map(interval).collect(),
+        present: sample(&Tried { at: *value, margin: *present }, told),
+        met: found.met.iter().map(|ends| interval(ends, told)).collect(),
         without_position: found.gaps.iter().map(gap).collect(),
-        samples: samples(found, *steps, options.margin),
-        tried: found.places.iter().map(sample).collect(),
-        guarantee: words::guarantee(*range, *steps, &question.varied.shown_in),
+        samples: samples(found, (*steps, options.margin), told),
+        tried: found.places.iter().map(|place| sample(place, told)).collect(),
+        guarantee: words::guarantee(*range, *steps, against, &question.varied.shown_in),
         conclusion: Vec::new(),
     };
     report.conclusion = Words { report: &report, places: &found.places }.conclusion();
     report
 }
 
-fn interval([from, to]: &[End; 2]) -> MetInterval {
+/// The unit of what has a limit: of efforts that of the drive, or of all drives if they have one.
+fn unit(model: &Model, against: &Against) -> &'static str {
+    let of_drive = |drive: &crate::model::Drive| match drive.effort {
+        Effort::Force { .. } => "N",
+        Effort::Torque { .. } => "N m",
+    };
+    match against {
+        Against::Effort { drive } => {
+            let is_meant =
+                |other: &&crate::model::Drive| drive.as_ref().is_none_or(|name| **name == *other.name);
+            let mut units = model.drives.iter().filter(is_meant).map(of_drive);
+            let first = units.next().unwrap_or_default();
+            if units.all(|unit| unit == first) { first } else { "" }
+        }
+        Against::NormalForce { .. } => "N",
+        _ => "",
+    }
+}
+
+/// What a margin of the search stands for.
+type Told<'t> = &'t dyn Fn(Margin) -> (SampleKind, Option<f64>);
+
+fn interval([from, to]: &[End; 2], told: Told<'_>) -> MetInterval {
     let jumps_to = |end: &End| match end.cause {
-        MetCause::Jump(margin) => margin.factor(),
+        MetCause::Jump(margin) => told(margin).1,
         _ => None,
     };
     MetInterval {
@@ -201,17 +267,13 @@ fn gap(gap: &super::search::SizeGap) -> RangeWithoutPosition {
     RangeWithoutPosition { from: gap.from, to: gap.to, reason }
 }
 
-fn sample(place: &Tried) -> Sample {
-    let (is, margin) = match place.margin {
-        Some(Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
-        Some(Margin::Infinite) => (SampleKind::Infinite, None),
-        None => (SampleKind::NoPosition, None),
-    };
+fn sample(place: &Tried, told: Told<'_>) -> Sample {
+    let (is, margin) = place.margin.map_or((SampleKind::NoPosition, None), told);
     Sample { at: place.at, is, margin }
 }
 
 /// Every so many of the values that were tried, and those at which the wanted margin is just met.
-fn samples(found: &SizesFound, steps: usize, wanted: f64) -> Vec<Sample> {
+fn samples(found: &SizesFound, (steps, wanted): (usize, f64), told: Told<'_>) -> Vec<Sample> {
     let [first, last] = [found.places.first(), found.places.last()].map(|place| place.map_or(0.0, |p| p.at));
     let step = (last - first) / steps as f64;
     let is_row = |place: &&Tried| {
@@ -219,7 +281,8 @@ fn samples(found: &SizesFound, steps: usize, wanted: f64) -> Vec<Sample> {
         let row = (index / (steps / ROWS) as f64).round() * (steps / ROWS) as f64;
         (index - row).abs() < 1e-6
     };
-    let mut samples: Vec<Sample> = found.places.iter().filter(is_row).map(sample).collect();
+    let mut samples: Vec<Sample> =
+        found.places.iter().filter(is_row).map(|place| sample(place, told)).collect();
     let exact = found.met.iter().flatten().filter(|end| end.cause == MetCause::Margin);
     samples.extend(exact.map(|end| Sample { at: end.at, is: SampleKind::Finite, margin: Some(wanted) }));
     samples.sort_by(|one, other| one.at.total_cmp(&other.at));

@@ -1,6 +1,7 @@
 //! A design as text for people.
 
-use super::report::{MetEnd, MetInterval, SampleKind, SizeReport};
+use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
+use super::words::{level, subject};
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::table::table;
@@ -38,7 +39,12 @@ impl Page<'_, SizeReport> {
             return;
         }
         self.line("");
-        self.headline(&format!("Where the margin is at least {}", precise(report.margin)));
+        let (what, limit) = (subject(report), level(report, report.margin));
+        let side = match report.against {
+            MarginKind::Effort | MarginKind::NormalForce => "at most",
+            _ => "at least",
+        };
+        self.headline(&format!("Where the {what} is {side} {limit}"));
         let rows: Vec<Vec<String>> = report.met.iter().map(|interval| row(report, interval)).collect();
         let [from, to] = ["from", "to"].map(|end| report.vary.shown_in.title(end));
         self.lines(&table(&[&from, &to, "begins with", "ends with"], &rows, 0));
@@ -47,20 +53,20 @@ impl Page<'_, SizeReport> {
     fn margins(&mut self) {
         let report = self.report;
         self.line("");
-        self.headline("Margins");
+        let what = subject(report);
+        self.headline(&if report.against.is_limit() { format!("The {what}") } else { "Margins".to_owned() });
         let unit = &report.vary.shown_in;
         let name = unit.title(&report.vary.name);
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
-            (_, Some(margin)) => precise(margin),
+            (_, Some(margin)) => report.limit_shown_in.precise_number(margin),
+            (SampleKind::NoSolution, _) => "no solution".to_owned(),
             _ => "no answer".to_owned(),
         };
-        let rows: Vec<Vec<String>> = report
-            .samples
-            .iter()
-            .map(|sample| vec![unit.precise_number(sample.at), margin(sample)])
-            .collect();
-        self.lines(&table(&[&name, "margin"], &rows, 0));
+        let header = report.limit_shown_in.title(&what);
+        let row = |sample: &super::Sample| vec![unit.precise_number(sample.at), margin(sample)];
+        let rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
+        self.lines(&table(&[&name, &header], &rows, 0));
     }
 }
 
@@ -76,9 +82,12 @@ fn row(report: &SizeReport, interval: &MetInterval) -> Vec<String> {
 fn cause(report: &SizeReport, is: MetEnd, jumps_to: Option<f64>) -> String {
     match (is, jumps_to) {
         (MetEnd::Range, _) => "the range".to_owned(),
+        (MetEnd::Margin, _) if report.against.is_limit() => "the limit".to_owned(),
         (MetEnd::Margin, _) => format!("margin {}", precise(report.margin)),
-        (MetEnd::Jump, Some(margin)) => format!("a jump of the margin to {}", precise(margin)),
-        (MetEnd::Jump, None) => "a jump of the margin".to_owned(),
+        (MetEnd::Jump, Some(margin)) => {
+            format!("a jump of the {} to {}", subject(report), level(report, margin))
+        }
+        (MetEnd::Jump, None) => format!("a jump of the {}", subject(report)),
         _ => "no answer".to_owned(),
     }
 }

@@ -15,10 +15,12 @@ pub(super) struct Words<'r> {
     pub(super) places: &'r [Tried],
 }
 
-pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, shown_in: &Unit) -> String {
+pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind, shown_in: &Unit) -> String {
+    let (wanted, level) =
+        if against.is_limit() { ("limit", "of the quantity") } else { ("wanted margin", "of the margin") };
     let step = (to - from) / steps as f64;
     format!(
-        "{} evenly spaced values were tried; crossings of the wanted margin between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump of the margin there and back, or a second dip, within two steps of {} may be missed.",
+        "{} evenly spaced values were tried; crossings of the {wanted} between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump {level} there and back, or a second dip, within two steps of {} may be missed.",
         steps + 1,
         shown_in.show(step)
     )
@@ -54,7 +56,14 @@ impl Words<'_> {
                 let range = format!("{from} to {}", quantity(report, report.vary.to));
                 let gives =
                     if report.without_position.is_empty() { "gives it" } else { "is known to give it" };
-                match best.and_then(|(at, margin)| Some((at, margin.factor()?))) {
+                let best =
+                    best.and_then(|(at, margin)| Some((at, report.against.told(margin, report.margin).1?)));
+                match best {
+                    Some((at, level)) if report.against.is_limit() => format!(
+                        "{wish}: no {name} from {range} {gives}; of the values that were tried, {} comes nearest to it, with {}.",
+                        quantity(report, at),
+                        self::level(report, level)
+                    ),
                     Some((at, margin)) => format!(
                         "{wish}: no {name} from {range} {gives}; the greatest margin of the values that were tried is {}, at {}.",
                         precise(margin),
@@ -93,7 +102,19 @@ impl Words<'_> {
             if margin >= report.margin { "the wanted margin is met" } else { "the wanted margin is not met" }
         };
         let load = report.load.as_deref().unwrap_or_default();
+        let what = subject(report);
         match (is, margin) {
+            (SampleKind::NoSolution, _) => {
+                format!("{model}: there is no solution, so the limit is not kept.")
+            }
+            (_, Some(level)) if report.against.is_limit() => {
+                let is_kept = match report.against {
+                    MarginKind::Efficiency => level >= report.margin,
+                    _ => level <= report.margin,
+                };
+                let kept = if is_kept { "the limit is kept" } else { "the limit is not kept" };
+                format!("{model}: the {what} is {}; {kept}.", report.limit_shown_in.show(level))
+            }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking => format!("{model}: it is on the verge of locking."),
                 _ => format!("{model}: {load} is just held however great it is."),
@@ -121,10 +142,22 @@ impl Words<'_> {
                     (MarginKind::Hold, _) if margin == 0.0 => {
                         format!("{model}: no static friction holds {load} however great it is.")
                     }
-                    (MarginKind::Hold, true) => format!(
+                    (
+                        MarginKind::Hold
+                        | MarginKind::Effort
+                        | MarginKind::NormalForce
+                        | MarginKind::Efficiency,
+                        true,
+                    ) => format!(
                         "{model}: static friction may be {factor} times smaller and {load} is still held however great it is; {met}."
                     ),
-                    (MarginKind::Hold, false) => format!(
+                    (
+                        MarginKind::Hold
+                        | MarginKind::Effort
+                        | MarginKind::NormalForce
+                        | MarginKind::Efficiency,
+                        false,
+                    ) => format!(
                         "{model}: {load} is not held however great it is; static friction would have to be {} times greater.",
                         number(margin.recip())
                     ),
@@ -139,7 +172,7 @@ impl Words<'_> {
         let [least, greatest] =
             demands.fold([f64::INFINITY, 0.0], |[least, greatest], one| [least.min(one), greatest.max(one)]);
         (greatest - least <= SAME * least || least == f64::INFINITY && greatest == f64::INFINITY)
-            .then(|| format!("The margin does not depend on {}.", self.report.vary.name))
+            .then(|| format!("The {} does not depend on {}.", subject(self.report), self.report.vary.name))
     }
 }
 
@@ -149,7 +182,27 @@ fn never(report: &SizeReport) -> String {
         MarginKind::Locking => "no friction, however great, locks it".to_owned(),
         MarginKind::SelfLocking => format!("no static friction, however great, holds every {load}"),
         MarginKind::Hold => format!("{load} is held without friction, however great it is"),
+        // These are numbers wherever there is a solution.
+        MarginKind::Effort | MarginKind::NormalForce | MarginKind::Efficiency => {
+            "there is no number".to_owned()
+        }
     }
+}
+
+/// What the numbers of the report are: "margin", "greatest effort of push".
+pub(super) fn subject(report: &SizeReport) -> String {
+    let of = report.load.as_ref().map_or(String::new(), |name| format!(" of {name}"));
+    match report.against {
+        MarginKind::Effort => format!("greatest effort{of}"),
+        MarginKind::NormalForce => format!("greatest normal force{of}"),
+        MarginKind::Efficiency => "least efficiency".to_owned(),
+        MarginKind::Locking | MarginKind::SelfLocking | MarginKind::Hold => "margin".to_owned(),
+    }
+}
+
+/// One of these numbers with its unit.
+pub(super) fn level(report: &SizeReport, value: f64) -> String {
+    report.limit_shown_in.precise(value)
 }
 
 fn wish(report: &SizeReport) -> String {
@@ -162,6 +215,10 @@ fn wish(report: &SizeReport) -> String {
         MarginKind::Locking => format!("For a margin of {margin} against locking"),
         MarginKind::SelfLocking => format!("For a margin of {margin} against self-locking under {load}"),
         MarginKind::Hold => format!("To hold any {load} with a margin of {margin}"),
+        MarginKind::Effort | MarginKind::NormalForce => {
+            format!("For a {} of {} at most", subject(report), level(report, report.margin))
+        }
+        MarginKind::Efficiency => format!("For an efficiency of {margin} at least"),
     }
 }
 

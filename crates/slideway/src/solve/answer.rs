@@ -13,6 +13,7 @@ use crate::enclosure::{EnclosedModeProblem, Tipping};
 use crate::fault::Faults;
 use crate::ids::{BodyId, DriveId, JointId};
 use crate::influence::{ContactFriction, Influence};
+use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, Effort, JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
@@ -20,7 +21,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SingularMode, SolutionSet,
     UndecidedPattern,
 };
-use crate::report::{self, Proof, SolveReport, Status};
+use crate::report::{self, Proof, SolveReport, SpeedChange, Status, Stop};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -92,6 +93,7 @@ impl<'a> Answer<'a> {
             nodes: found.result.nodes(),
             model: self.model(),
             state: self.state(),
+            rates_not_given: Vec::new(),
             time: self.configuration.time,
             steps_from_drawing: self.configuration.steps_from_drawing(),
             patterns: outcomes.map(|outcomes| pattern_summary(outcomes, tipping.count)),
@@ -106,6 +108,7 @@ impl<'a> Answer<'a> {
             }),
             jammed_groups: self.jammed_groups(found),
             margins: None,
+            from_rest: None,
             uncertainty: None,
             influence: self.influence_summary(),
             condition: self.equations.condition(),
@@ -246,7 +249,8 @@ impl<'a> Answer<'a> {
             joints: self.joint_modes(&state.signs),
             hinges: self.hinges(unknowns),
             bodies: self.bodies(unknowns, &residuals),
-            coordinates: self.coordinates(unknowns),
+            coordinates: self.coordinates(state, unknowns),
+            friction_exceeds_loads: self.friction_exceeds_loads(state),
             drives: self.drives(unknowns),
             residual: residuals.iter().map(|residual| residual.relative).fold(0.0, f64::max),
         }
@@ -359,16 +363,42 @@ impl<'a> Answer<'a> {
         residuals.iter().enumerate().map(one).collect()
     }
 
-    fn coordinates(&self, unknowns: &DVector<f64>) -> Vec<report::CoordinateAcceleration> {
+    fn coordinates(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Vec<report::CoordinateAcceleration> {
         let accelerations = self.equations.coordinate_accelerations(unknowns);
-        let one = |(coordinate, acceleration): (&crate::mechanism::Coordinate, f64)| {
+        let is_driven = |index| self.mechanism.drives.iter().any(|drive| drive.coordinate.index() == index);
+        let one = |(index, acceleration): (usize, f64)| {
+            let coordinate = &self.mechanism.coordinates[index];
+            let bounds = self.acceleration_bounds(state, index);
+            let speed = (!is_driven(index)).then(|| SpeedChange::of(coordinate.rate, bounds));
+            let slows = speed == Some(SpeedChange::SlowsDown);
             report::CoordinateAcceleration {
                 name: coordinate.name.to_string(),
                 unit: if coordinate.kind.is_angle() { "rad/s^2" } else { "m/s^2" },
                 acceleration,
+                acceleration_bounds: bounds,
+                speed,
+                stop: if slows { Stop::of(coordinate.rate, acceleration) } else { None },
             }
         };
-        self.mechanism.coordinates.iter().zip(accelerations).map(one).collect()
+        accelerations.into_iter().enumerate().map(one).collect()
+    }
+
+    /// Proven bounds of the acceleration of a coordinate.
+    fn acceleration_bounds(&self, state: &State<'_>, coordinate: usize) -> Option<[f64; 2]> {
+        let (enclosed, unknowns) = self.enclosed.zip(state.certificate.unknowns())?;
+        let bounds = enclosed.output(&enclosed.accelerations[coordinate], state.pattern, unknowns);
+        bounds.magnitude().is_finite().then_some([bounds.lower(), bounds.upper()])
+    }
+
+    /// Whether bounds prove that the power of the loads is positive and less than that of friction.
+    fn friction_exceeds_loads(&self, state: &State<'_>) -> bool {
+        let bounds = self.enclosed.zip(state.certificate.unknowns());
+        let exceeds = |(enclosed, unknowns): (&EnclosedModeProblem, &[Interval])| {
+            let power = &enclosed.power;
+            let left = enclosed.output(power, state.pattern, unknowns);
+            power.frictionless.lower() > 0.0 && left.upper() < 0.0
+        };
+        self.mechanism.drives.is_empty() && bounds.is_some_and(exceeds)
     }
 
     fn drives(&self, unknowns: &DVector<f64>) -> Vec<report::Drive> {

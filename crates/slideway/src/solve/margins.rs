@@ -10,7 +10,7 @@ use crate::modes::existence::{
 use crate::report::{self, CriticalContact, Margins, SolveReport};
 
 /// The most patterns for which margins are computed.
-const PATTERNS: u64 = 256;
+pub(super) const PATTERNS: u64 = 256;
 /// From the present friction without end, as a factor.
 pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.

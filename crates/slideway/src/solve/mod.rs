@@ -26,6 +26,7 @@ mod equilibrium;
 mod faces;
 mod found;
 mod friction;
+mod from_rest;
 mod margins;
 mod mode_problem;
 mod parts;
@@ -40,7 +41,7 @@ pub(crate) use between_faces::states_between_faces;
 pub(crate) use friction::friction;
 pub(crate) use margins::{AT_ONCE, GROWING};
 pub(crate) use mode_problem::{
-    NO_INFLUENCE, SAME_COLUMN, check_size, influence_coefficients, preload_columns, sides, sliding_signs,
+    NO_INFLUENCE, SAME_COLUMN, influence_coefficients, preload_columns, sides, sliding_signs,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
@@ -71,7 +72,7 @@ pub struct SolveOptions {
     pub search: SearchOptions,
     /// The most solutions, gap states and continua that are listed, each.
     pub most: usize,
-    /// Whether margins of friction are computed.
+    /// Whether margins of friction are computed, and what the loads do from rest once the motion has stopped.
     pub margins: bool,
 }
 
@@ -97,7 +98,7 @@ impl SolveOptions {
         self
     }
 
-    /// Whether margins of friction are computed.
+    /// Whether margins of friction are computed, and what the loads do from rest once the motion has stopped.
     #[must_use]
     pub fn margins(mut self, margins: bool) -> Self {
         self.margins = margins;
@@ -129,7 +130,7 @@ pub fn solve_with(
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
     let mechanism = Mechanism::new(model)?;
-    check_size(&mechanism)?;
+    mechanism.check_size()?;
     let configuration = Configuration::new(&mechanism)?;
     let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
@@ -150,8 +151,11 @@ pub fn solve_with(
         rounded: enclosed.as_ref().err(),
         most: options.most,
     })?;
+    let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
+    report.rates_not_given = not_given.map(|coordinate| coordinate.name.to_string()).collect();
     if options.margins {
         margins::add(&mut report, stages.data());
+        from_rest::add(&mut report, model);
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
     finite(report)

@@ -119,18 +119,3 @@ pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>)
 pub(super) fn overflow() -> Faults {
     Fault::general(FaultKind::Overflow { quantity: "a coefficient of the mode problem".to_owned() }).into()
 }
-
-/// More contacts are refused before any matrix is built: those would be large, too.
-const MOST_CONTACTS: usize = 500;
-
-/// More contacts than can be dealt with are refused before any matrix is built.
-///
-/// # Errors
-/// A fault that says how many contacts there are.
-pub(crate) fn check_size(mechanism: &Mechanism) -> Result<(), Faults> {
-    let contacts = mechanism.contacts.len();
-    if contacts > MOST_CONTACTS {
-        return Err(Fault::general(FaultKind::TooManyContacts { contacts, limit: MOST_CONTACTS }).into());
-    }
-    Ok(())
-}

@@ -4,7 +4,7 @@ use super::faces::{FreeFace, with_either_side};
 use super::stages::ProblemData;
 use crate::ids::JointId;
 use crate::influence::Influence;
-use crate::kinetics::{Accuracy, Reaction};
+use crate::kinetics::{Accuracy, ConstraintRow, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
 use crate::model::{PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
@@ -28,22 +28,23 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// The numbers of a mode problem, with the couples and then these unknowns as outputs.
-    pub(super) fn new(data: ProblemData<'_>, problem: &ModeProblem, others: &[usize]) -> Self {
+    /// The numbers of a mode problem, with the couples and then these functions of the unknowns as outputs.
+    pub(super) fn new(data: ProblemData<'_>, problem: &ModeProblem, others: Vec<ConstraintRow>) -> Self {
         let ProblemData { mechanism, influence, velocity_signs } = data;
         let contacts = problem.contacts();
         let couples = couples(mechanism, influence);
-        let outputs: Vec<usize> = couples.iter().map(|(_, row)| *row).chain(others.iter().copied()).collect();
+        let of_couples = couples.iter().map(|(_, row)| ConstraintRow::unknown(*row));
+        let outputs: Vec<ConstraintRow> = of_couples.chain(others).collect();
         let rows = contacts + outputs.len();
-        let extended = |upper: &DMatrix<f64>, below: &dyn Fn(usize, usize) -> f64| {
+        let extended = |upper: &DMatrix<f64>, below: &dyn Fn(&ConstraintRow, usize) -> f64| {
             DMatrix::from_fn(rows, contacts, |row, k| {
-                if row < contacts { upper[(row, k)] } else { below(outputs[row - contacts], k) }
+                if row < contacts { upper[(row, k)] } else { below(&outputs[row - contacts], k) }
             })
         };
         // C = C(0) + sum_k gamma_k F_k with F_k = (mu_k y_k + F_k0) s_k
         let side = |side: Side| {
             let face = usize::from(side == Side::Negative);
-            let gamma = |row: usize, k: usize| influence.columns[k][face][row];
+            let gamma = |row: &ConstraintRow, k: usize| row.times(&influence.columns[k][face]);
             let columns = extended(problem.columns(side), &|row, k| {
                 -gamma(row, k) * mechanism.contacts[k].mu[face] * velocity_signs[k]
             });
@@ -52,7 +53,8 @@ impl Parts {
                 let gamma = match contact.preload_line {
                     PreloadLine::Pressed => gamma(row, k),
                     PreloadLine::Centre => {
-                        f64::midpoint(influence.columns[k][0][row], influence.columns[k][1][row])
+                        let [positive, negative] = &influence.columns[k];
+                        f64::midpoint(row.times(positive), row.times(negative))
                     }
                 };
                 gamma * contact.preload[face] * velocity_signs[k]
@@ -64,7 +66,8 @@ impl Parts {
             if row < contacts {
                 problem.right_hand_side()[row]
             } else {
-                influence.frictionless[outputs[row - contacts]]
+                let output = &outputs[row - contacts];
+                output.times(&influence.frictionless) - output.right_hand_side
             }
         });
         let has_jump = problem.jumps_of_contacts();
@@ -149,6 +152,11 @@ impl Parts {
         parts.columns.positive = DMatrix::identity(rows, contacts);
         parts.columns.negative = -DMatrix::identity(rows, contacts);
         parts
+    }
+
+    /// Number of couples among the outputs, before all others.
+    pub(crate) fn couples(&self) -> usize {
+        self.bounds.len()
     }
 
     /// The mode problem alone, without couples.

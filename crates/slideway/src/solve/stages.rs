@@ -1,13 +1,13 @@
 //! The stages of a model up to the numbers of its mode problem.
 
-use super::mode_problem::{check_size, mode_problem, velocity_signs};
+use super::mode_problem::{mode_problem, velocity_signs};
 use super::parts::Parts;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
 use crate::ids::DriveId;
 use crate::influence::Influence;
-use crate::kinetics::{Accuracy, Influences, KineticEquations};
+use crate::kinetics::{Accuracy, ConstraintRow, Influences, KineticEquations, coordinate_rows};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::ModeProblem;
@@ -35,7 +35,7 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
+        mechanism.check_size()?;
         let configuration = follower.configuration(&mechanism)?;
         Ok(Self::with_equations(mechanism, configuration)?.0)
     }
@@ -45,7 +45,7 @@ impl Stages {
     /// # Errors
     /// Whatever `solve` refuses.
     pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
+        mechanism.check_size()?;
         let (configuration, influences) = trail.state(&mechanism)?;
         Self::of(mechanism, configuration, influences)
     }
@@ -104,11 +104,22 @@ impl Stages {
     /// # Errors
     /// As [`Stages::parts`].
     pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
+        let drives = 0..self.mechanism.drives.len();
+        let effort = |drive: usize| ConstraintRow::unknown(self.influence.layout().effort(DriveId(drive)));
+        self.parts_with(friction, drives.map(effort).collect())
+    }
+
+    /// The same with the accelerations of the coordinates as further outputs.
+    ///
+    /// # Errors
+    /// As [`Stages::parts`].
+    pub(crate) fn parts_with_accelerations(&self, friction: f64) -> Result<Parts, Faults> {
+        self.parts_with(friction, coordinate_rows(&self.mechanism, &self.configuration))
+    }
+
+    fn parts_with(&self, friction: f64, outputs: Vec<ConstraintRow>) -> Result<Parts, Faults> {
         let mechanism = rougher(&self.mechanism, &|_| friction);
-        let drives = 0..mechanism.drives.len();
-        let efforts: Vec<usize> =
-            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
-        ProblemData { mechanism: &mechanism, ..self.data() }.parts(&efforts)
+        ProblemData { mechanism: &mechanism, ..self.data() }.parts(outputs)
     }
 }
 
@@ -139,11 +150,11 @@ impl ProblemData<'_> {
         mode_problem(self.mechanism, self.influence, self.velocity_signs)
     }
 
-    /// Its numbers with the couples and then these unknowns as outputs.
+    /// Its numbers with the couples and then these functions of the unknowns as outputs.
     ///
     /// # Errors
     /// As [`Self::problem`].
-    pub(crate) fn parts(self, others: &[usize]) -> Result<Parts, Faults> {
+    pub(crate) fn parts(self, others: Vec<ConstraintRow>) -> Result<Parts, Faults> {
         Ok(Parts::new(self, &self.problem()?, others))
     }
 
@@ -153,7 +164,7 @@ impl ProblemData<'_> {
     /// # Errors
     /// As [`Self::problem`].
     pub(crate) fn scaled(self, factor: &dyn Fn(usize) -> f64) -> Result<Parts, Faults> {
-        ProblemData { mechanism: &rougher(self.mechanism, factor), ..self }.parts(&[])
+        ProblemData { mechanism: &rougher(self.mechanism, factor), ..self }.parts(Vec::new())
     }
 }
 

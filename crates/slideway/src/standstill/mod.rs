@@ -72,17 +72,19 @@ const MOST_STATES: u64 = 100_000;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct HoldOptions {
-    /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m.
+    /// The load that is multiplied by a factor; a drive's name means its effort as a load of 1 N or 1 N m,
+    /// "gravity" all weights together.
     pub load: Option<String>,
     /// The parameter of static friction that is varied for the threshold of self-locking; without it all
-    /// static coefficients are multiplied by a factor.
+    /// static coefficients are multiplied by a factor. Without a load it is that for the only one, weights
+    /// together being one.
     pub vary: Option<String>,
     /// Whether drives hold their coordinates; else they are taken as absent.
     pub hold_drives: bool,
 }
 
 impl HoldOptions {
-    /// Multiplies a load, or the effort of a drive, by a factor.
+    /// Multiplies a load, the effort of a drive, or all weights ("gravity") by a factor.
     #[must_use]
     pub fn load(mut self, name: &str) -> Self {
         self.load = Some(name.to_owned());
@@ -110,7 +112,7 @@ impl HoldOptions {
 /// Whatever makes no sense in the model or its position; a load or parameter that is unknown, a load that is
 /// zero, a parameter on which more than friction depends, and more states than are tried.
 pub fn hold(model: &Model, options: &HoldOptions) -> Result<HoldReport, Faults> {
-    undisturbed(|work| hold_of(model, options, work))
+    undisturbed(|work| hold_within(model, options, MOST_STATES, work))
 }
 
 /// [`hold`] with a callback that is called now and then; nothing if it breaks.
@@ -122,12 +124,22 @@ pub fn hold_with(
     options: &HoldOptions,
     callback: &mut Callback<'_>,
 ) -> Result<Option<HoldReport>, Faults> {
-    watched(callback, |work| hold_of(model, options, work))
+    watched(callback, |work| hold_within(model, options, MOST_STATES, work))
 }
 
-fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
+/// [`hold`], refused if there are more states of joints and contacts than these.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn hold_within(
+    model: &Model,
+    options: &HoldOptions,
+    most_states: u64,
+    work: Work<'_>,
+) -> Result<HoldReport, Faults> {
+    let options = &with_load(model, options)?;
     let setup = Setup::new(model, options)?;
-    let [rest_patterns, all_patterns] = check_states(&setup)?;
+    let [rest_patterns, all_patterns] = check_states(&setup, most_states)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
     let rest = rest::at_rest(&setup, nominal, work.part(0, 4));
     let load = load_report(model, options, &setup, work.part(1, 4))?;
@@ -167,6 +179,22 @@ fn hold_of(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldR
     })
 }
 
+/// Whether a mechanism with so many times the friction can stay at rest in its position; none where that could
+/// not be decided.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn can_rest(
+    (model, friction): (&Model, f64),
+    options: &HoldOptions,
+    work: Work<'_>,
+) -> Result<Option<bool>, Faults> {
+    let setup = Setup::new(model, options)?.rougher(friction);
+    check_states(&setup, MOST_STATES)?;
+    let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
+    Ok(rest::is_possible(&setup, nominal, work))
+}
+
 /// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no
 /// factor suffices. Beside it the number of patterns that could not be decided.
 ///
@@ -179,19 +207,37 @@ pub(crate) fn self_locking_factor(
 ) -> Result<(Option<f64>, usize), Faults> {
     let options = HoldOptions::default().load(load);
     let setup = Setup::new(model, &options)?;
-    check_states(&setup)?;
+    check_states(&setup, MOST_STATES)?;
     let threshold = threshold::threshold(model, &options, &setup, work)?;
     Ok(threshold.map_or((None, 0), |threshold| (threshold.found.value, threshold.undecided)))
 }
 
+/// The same question; a parameter that is varied without a load is varied for the only load.
+///
+/// # Errors
+/// Several loads, or none, of which one would have to be named.
+fn with_load(model: &Model, options: &HoldOptions) -> Result<HoldOptions, Faults> {
+    if options.vary.is_none() || options.load.is_some() {
+        return Ok(options.clone());
+    }
+    let mechanism = Mechanism::new(model)?;
+    let weights = (mechanism.gravity.norm() > 0.0).then(|| setup::GRAVITY.to_owned());
+    let loads = mechanism.loads.iter().map(|load| load.name.to_string());
+    let known: Vec<String> = loads.chain(weights).collect();
+    match known.as_slice() {
+        [only] => Ok(options.clone().load(only)),
+        _ => Err(Fault::general(FaultKind::HeldLoadNeeded { known }).into()),
+    }
+}
+
 /// Patterns of sides, and of states of joints and sides.
-fn check_states(setup: &Setup) -> Result<[usize; 2], Faults> {
+fn check_states(setup: &Setup, most: u64) -> Result<[usize; 2], Faults> {
     let product = |counts: &mut dyn Iterator<Item = u64>| counts.fold(1_u64, u64::saturating_mul);
     let sides = product(&mut side_options(setup).iter().map(|options| options.len() as u64));
     let states = product(&mut setup.sliders.iter().map(|_| 3)).saturating_mul(sides);
     match (usize::try_from(sides), usize::try_from(states)) {
-        (Ok(sides), Ok(all)) if states <= MOST_STATES => Ok([sides, all]),
-        _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into()),
+        (Ok(sides), Ok(all)) if states <= most => Ok([sides, all]),
+        _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: most }).into()),
     }
 }
 
@@ -260,9 +306,7 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let (mechanism, configuration) = (&setup.mechanism, &setup.configuration);
     let motions = held_motions(setup, free_motions(mechanism, configuration));
-    let varied = setup.load.as_ref().map(|load| &load.forces * load.nominal);
-    let loads = varied.map_or_else(|| setup.given.clone(), |varied| varied + &setup.given);
-    motions_without_inertia(mechanism, configuration, &motions, Some(&loads))
+    motions_without_inertia(mechanism, configuration, &motions, Some(&setup.loads()))
 }
 
 /// The motions that drives leave.

@@ -68,6 +68,23 @@ pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> Over<Option
     over
 }
 
+/// Whether some state of rest is possible with a factor of the varied load; none where a linear program that
+/// could have shown one was not solved.
+pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
+    let mut undecided = false;
+    for sides in until_over(sides(setup), work) {
+        let question = StateQuestion { moving: false, factor: Some(factor) };
+        let pattern = resting(setup, sides);
+        let Some(state) = State::new(setup, &pattern, question) else { continue };
+        match possible(state.region(&static_coefficients(setup))) {
+            Ok(Some(_)) => return Some(true),
+            Ok(None) => {}
+            Err(Unsolved) => undecided = true,
+        }
+    }
+    (!undecided && !work.is_over()).then_some(false)
+}
+
 /// The factors of the varied load that can be held: the union over all patterns.
 pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };

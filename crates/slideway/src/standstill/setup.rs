@@ -72,7 +72,7 @@ impl Setup {
     /// What makes no sense in the model or its position, an unknown load, a load that is zero.
     pub(super) fn new(model: &Model, options: &HoldOptions) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
-        crate::solve::check_size(&original)?;
+        original.check_size()?;
         let configuration = Configuration::new(&original)?;
         let mut mechanism = original.clone();
         if !options.hold_drives {
@@ -81,11 +81,10 @@ impl Setup {
         let mut load = None;
         if let Some(name) = &options.load {
             load = Some(varied(&original, &configuration, name)?);
-            let given = mechanism.loads.len();
-            mechanism.loads.retain(|load| *load.name != **name);
-            // A load comes before a drive of the same name.
-            if mechanism.loads.len() == given {
-                mechanism.drives.retain(|drive| *drive.name != **name);
+            match named(&original, name)? {
+                Named::Load => mechanism.loads.retain(|load| *load.name != **name),
+                Named::Drive => mechanism.drives.retain(|drive| *drive.name != **name),
+                Named::Gravity => mechanism.gravity = Vector2::zeros(),
             }
         }
         let assembled = Assembled::new(&mechanism, &configuration)?;
@@ -99,6 +98,21 @@ impl Setup {
     pub(super) fn law(&self, k: usize) -> Law {
         let contact = &self.mechanism.contacts[k];
         Law::new(&self.mechanism, (k, contact), (self.units.force, true), [true; 2])
+    }
+
+    /// What weights and loads put into the equations of motion, the varied load with its nominal factor.
+    pub(super) fn loads(&self) -> DVector<f64> {
+        let varied = self.load.as_ref().map(|load| &load.forces * load.nominal);
+        varied.map_or_else(|| self.given.clone(), |varied| &self.given + varied)
+    }
+
+    /// The same with all coefficients of friction multiplied by a factor.
+    pub(super) fn rougher(mut self, factor: f64) -> Self {
+        for contact in &mut self.mechanism.contacts {
+            contact.mu = contact.mu.map(|mu| mu * factor);
+            contact.mu_static = contact.mu_static.map(|mu| mu * factor);
+        }
+        self
     }
 
     /// Number of equations of motion: three for each body.
@@ -123,15 +137,45 @@ fn forces(mechanism: &Mechanism, assembled: &Assembled<f64>) -> DVector<f64> {
     assembled.load.rows(0, 3 * mechanism.bodies.len()).into_owned()
 }
 
-/// A load, or the effort of a drive, by its name.
+/// The name by which all weights together are a load.
+pub(super) const GRAVITY: &str = "gravity";
+
+/// What a name of a load stands for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Named {
+    Load,
+    Drive,
+    Gravity,
+}
+
+/// What a name stands for: a load, else the effort of a drive, else all weights.
+///
+/// # Errors
+/// A name of nothing.
+fn named(mechanism: &Mechanism, name: &str) -> Result<Named, Faults> {
+    if mechanism.loads.iter().any(|load| *load.name == *name) {
+        Ok(Named::Load)
+    } else if mechanism.drives.iter().any(|drive| *drive.name == *name) {
+        Ok(Named::Drive)
+    } else if name == GRAVITY {
+        Ok(Named::Gravity)
+    } else {
+        Err(unknown(mechanism, name))
+    }
+}
+
+/// A load, the effort of a drive, or the weights, by its name.
 fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> Result<VariedLoad, Faults> {
+    let what = named(mechanism, name)?;
     let mut alone = mechanism.clone();
-    alone.gravity = Vector2::zeros();
+    if what != Named::Gravity {
+        alone.gravity = Vector2::zeros();
+    }
     alone.loads.retain(|load| *load.name == *name);
     alone.drives.retain(|drive| *drive.name == *name);
     let assembled = Assembled::new(&alone, configuration)?;
-    let (forces, nominal, unit) = if alone.loads.is_empty() {
-        let Some(drive) = alone.drives.first() else { return Err(unknown(mechanism, name)) };
+    let drive = alone.drives.first().filter(|_| what == Named::Drive);
+    let (forces, nominal, unit) = if let Some(drive) = drive {
         let column = assembled.layout.effort(DriveId(0));
         let forces = -assembled.matrix.view((0, column), (3 * alone.bodies.len(), 1)).column(0).into_owned();
         let unit = if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" };
@@ -147,7 +191,9 @@ fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> R
 
 fn unknown(mechanism: &Mechanism, name: &str) -> Faults {
     let loads = mechanism.loads.iter().map(|load| &*load.name);
-    let known = loads.chain(mechanism.drives.iter().map(|drive| &*drive.name));
+    let drives = mechanism.drives.iter().map(|drive| &*drive.name);
+    let has_weight = mechanism.gravity != Vector2::zeros();
+    let known = loads.chain(drives).chain(has_weight.then_some(GRAVITY));
     let kind = FaultKind::UnknownName {
         what: "load",
         name: name.to_owned(),

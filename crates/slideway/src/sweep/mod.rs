@@ -72,7 +72,6 @@ use crate::fault::{AxisProblem, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::Callback;
-use crate::solve::check_size;
 use crate::units::Units;
 use axis::{Axis, Values};
 use breakpoints::Inserted;
@@ -143,7 +142,7 @@ impl Sweep {
         callback: &mut Callback<'_>,
     ) -> Result<Option<Self>, Faults> {
         let mechanism = Mechanism::new(model)?;
-        check_size(&mechanism)?;
+        mechanism.check_size()?;
         let axes = axes(model, &options.points)?;
         let varied: Vec<_> = axes.iter().map(|axis| axis.quantity.kind).collect();
         let friction = FrictionFormulas::new(model, &varied)?;

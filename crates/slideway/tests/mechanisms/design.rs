@@ -2,6 +2,7 @@
 
 use crate::answers::{assert_close, model, parameters};
 use slideway::drive::{Approach, DriveOptions, DriveReport, EfficiencyKind, drive};
+use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::Verdict;
@@ -352,4 +353,69 @@ fn sizes_agree_with_scanning() {
         let met = report.met.iter().any(|met| met.from <= phi && phi <= met.to);
         assert_eq!(met, margin(phi), "phi = {phi}");
     }
+}
+
+/// P = Q / (1 - 2 mu a / L) and N = P a / L with Q = 20 N, mu = 0.3, a = 0.3 m: for L up to 0.18 m no push
+/// moves the drawer.
+#[test]
+fn a_drawer_is_sized_by_effort_normal_force_and_efficiency() {
+    let drawer = model("drawer");
+    let effort = |drive: Option<&str>| Against::Effort { drive: drive.map(str::to_owned) };
+    let normal = |contact: Option<&str>| Against::NormalForce { contact: contact.map(str::to_owned) };
+    let table = [
+        // 1 - 0.18 / L = 2/3
+        (effort(None), 30.0, 0.54),
+        (effort(Some("push")), 30.0, 0.54),
+        // 6 / (L - 0.18) = 25
+        (normal(None), 25.0, 0.42),
+        (normal(Some("guide.rear")), 25.0, 0.42),
+        // 1 - 0.18 / L = 0.7
+        (Against::Efficiency, 0.7, 0.6),
+    ];
+    for (against, limit, expected) in table {
+        let report = sized(&drawer, "L", limit, against.clone());
+        let (found, above) = only_end(&report);
+        assert_close(found, expected, 0.0, 1e-12);
+        assert!(above, "{against:?}");
+        // In the model L = 0.4 m: P = 36.364 N, N = 27.273 N, efficiency 0.55.
+        let present = match against {
+            Against::Effort { .. } => 20.0 / 0.55,
+            Against::NormalForce { .. } => 6.0 / 0.22,
+            _ => 0.55,
+        };
+        assert_close(report.present.margin.unwrap(), present, 0.0, 1e-12);
+        // The usual range begins at 0.08 m, where friction locks it.
+        assert_eq!((report.samples[0].is, report.samples[0].margin), (SampleKind::NoSolution, None));
+    }
+    // Pulled back friction helps: the push of the model's direction decides.
+    let options = SizeOptions::new(Vary::usual("L"), 30.0).against(effort(None)).both_directions(true);
+    let (found, _) = only_end(&size(&drawer, &options).unwrap());
+    assert_close(found, 0.54, 0.0, 1e-12);
+}
+
+#[test]
+fn limits_of_forces_are_told_as_forces() {
+    use slideway::report::{Report, Style};
+    let effort = Against::Effort { drive: Some("push".to_owned()) };
+    let text = sized(&model("drawer"), "L", 30.0, effort).text(Style::Plain);
+    for sentence in [
+        "For a greatest effort of push of 30 N at most: L at least 0.54 m (examined up to 2 m).",
+        "In the model L = 0.4 m: the greatest effort of push is 36.364 N; the limit is not kept.",
+        "Where the greatest effort of push is at most 30 N",
+        "no solution",
+    ] {
+        assert!(text.contains(sentence), "{sentence}\n{text}");
+    }
+    assert!(!text.contains("margin of"), "{text}");
+}
+
+#[test]
+fn limits_of_what_is_not_there_are_refused() {
+    let unknown = Against::NormalForce { contact: Some("guide.middle".to_owned()) };
+    let faults =
+        size(&model("drawer"), &SizeOptions::new(Vary::usual("L"), 1.0).against(unknown)).unwrap_err();
+    assert!(matches!(faults.sorted()[0].kind, FaultKind::UnknownName { .. }), "{faults}");
+    let efficiency = SizeOptions::new(Vary::usual("x"), 0.5).against(Against::Efficiency);
+    let faults = size(&model("bracket-on-pole"), &efficiency).unwrap_err();
+    assert!(matches!(faults.sorted()[0].kind, FaultKind::NoDrives { .. }), "{faults}");
 }

@@ -30,6 +30,8 @@ mod margins;
 mod positions;
 mod preload_gap;
 mod properties;
+mod rest;
+mod speeds;
 mod standstill;
 mod symmetries;
 mod tables_and_events;

@@ -1,0 +1,119 @@
+//! For which values of a parameter, coordinate or factor of friction a mechanism can stay at rest.
+//!
+//! [`standstill`](crate::standstill) decides at evenly spaced values, and what changes between two of them is
+//! bisected.
+
+use super::report::{REST_SCHEMA, RestLimitsReport, SpanOfRest, VariedQuantity};
+use super::scan::{bisect, kind};
+use super::vary::Vary;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::model::Model;
+use crate::progress::{Callback, Work, undisturbed, watched};
+use crate::report::finite;
+use crate::standstill::{HoldOptions, can_rest};
+
+/// Evenly spaced values that are tried: a heuristic.
+const STEPS: usize = 100;
+
+/// What is known at a value: whether it can rest, if that was decided, or why there is no answer.
+type Found = Result<Option<bool>, Faults>;
+
+/// The stretches of a range in which a mechanism can stay at rest, and those in which it cannot.
+///
+/// # Errors
+/// As [`hold`](crate::standstill::hold); an unknown name, an empty or reversed range, none at all.
+///
+/// ```
+/// use slideway::limits::{Vary, rest_limits};
+/// use slideway::model::Model;
+/// use slideway::standstill::HoldOptions;
+///
+/// let bracket = Model::parse(slideway::gallery::find("bracket-on-pole").expect("in the gallery").text)?;
+/// let vary = Vary::between("x", "0.1 m", "0.5 m");
+/// let report = rest_limits(&bracket, &vary, &HoldOptions::default())?;
+/// // The bracket holds from x = B / (2 mu_static) = 304.8 mm on.
+/// let [slips, holds] = report.spans.as_slice() else { panic!("two stretches") };
+/// assert_eq!((slips.holds, holds.holds), (Some(false), Some(true)));
+/// assert!((holds.from - 0.3048).abs() < 1e-8);
+/// # Ok::<(), slideway::fault::Faults>(())
+/// ```
+pub fn rest_limits(model: &Model, vary: &Vary, options: &HoldOptions) -> Result<RestLimitsReport, Faults> {
+    undisturbed(|work| rest_limits_of(model, vary, options, work))
+}
+
+/// [`rest_limits`] with a callback that is called now and then; nothing if it breaks.
+///
+/// # Errors
+/// As [`rest_limits`].
+pub fn rest_limits_with(
+    model: &Model,
+    vary: &Vary,
+    options: &HoldOptions,
+    callback: &mut Callback<'_>,
+) -> Result<Option<RestLimitsReport>, Faults> {
+    watched(callback, |work| rest_limits_of(model, vary, options, work))
+}
+
+fn rest_limits_of(
+    model: &Model,
+    vary: &Vary,
+    options: &HoldOptions,
+    work: Work<'_>,
+) -> Result<RestLimitsReport, Faults> {
+    let varied = vary.at_rest(model)?;
+    let range = vary.ends(&varied, || {
+        let kind = FaultKind::RangeNeeded { what: varied.in_words(), name: varied.name.clone() };
+        Err(Fault::general(kind).into())
+    })?;
+    let found = |at: f64| -> Found {
+        let (model, friction) = varied.model_at(at)?;
+        can_rest((&model, friction), options, work)
+    };
+    let spans = spans(range, &found, work);
+    if spans.iter().all(|span| span.reason.is_some()) {
+        // Nowhere an answer: the faults in the middle say why.
+        found(f64::midpoint(range[0], range[1]))?;
+    }
+    finite(RestLimitsReport {
+        schema: REST_SCHEMA,
+        title: model.title.clone(),
+        vary: VariedQuantity::new(&varied, range, varied.present().unwrap_or_default()),
+        load: options.load.clone(),
+        guarantee: format!(
+            "Decided at values {} apart; where the answer changes between two of them it was bisected. Narrower stretches may be missed.",
+            varied.shown_in.precise((range[1] - range[0]) / STEPS as f64)
+        ),
+        spans,
+    })
+}
+
+/// The range cut where the answer changes.
+fn spans([from, to]: [f64; 2], found: &dyn Fn(f64) -> Found, work: Work<'_>) -> Vec<SpanOfRest> {
+    let value =
+        |step: usize| if step == STEPS { to } else { from + (to - from) * step as f64 / STEPS as f64 };
+    let goes_on = |step: &usize| work.piece("values", *step, STEPS + 1).is_continue();
+    let tried = (0..=STEPS).take_while(goes_on).map(|step| (value(step), found(value(step))));
+    let tried: Vec<(f64, Found)> = tried.collect();
+    let mut spans: Vec<SpanOfRest> = Vec::new();
+    for equal in tried.chunk_by(|one, next| is_same(&one.1, &next.1)) {
+        let (last, at_last) = &equal[equal.len() - 1];
+        let next = tried.iter().find(|(at, _)| at > last);
+        let end = next.map_or(*last, |(next, _)| bisect(*last, *next, |at| is_same(&found(at), at_last)).0);
+        let begin = spans.last().map_or(from, |span: &SpanOfRest| span.to);
+        let (holds, reason) = match &equal[equal.len() / 2].1 {
+            Ok(holds) => (*holds, None),
+            Err(faults) => (None, faults.sorted().first().map(|fault| fault.kind.to_string())),
+        };
+        spans.push(SpanOfRest { from: begin, to: end, holds, reason });
+    }
+    spans
+}
+
+/// Whether two values have the same answer, or none for the same kind of reason.
+fn is_same(one: &Found, other: &Found) -> bool {
+    match (one, other) {
+        (Ok(one), Ok(other)) => one == other,
+        (Err(one), Err(other)) => kind(one) == kind(other),
+        _ => false,
+    }
+}

@@ -1,0 +1,147 @@
+//! What a solution means for the speed of a motion.
+
+use serde::Serialize;
+
+/// What becomes of the speed of a coordinate, from the signs of its rate and of proven bounds of its
+/// acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum SpeedChange {
+    /// Its acceleration has the direction of its rate.
+    SpeedsUp,
+    /// Its acceleration is zero within rounding.
+    KeepsItsSpeed,
+    /// Its acceleration is opposite to its rate.
+    SlowsDown,
+    /// Its rate is zero, its acceleration positive.
+    StartsForwards,
+    /// Its rate is zero, its acceleration negative.
+    StartsBackwards,
+    /// Its rate is zero, and its acceleration is zero within rounding.
+    StaysAtRest,
+    /// Its acceleration has no proven bounds.
+    Undecided,
+}
+
+impl SpeedChange {
+    /// What becomes of a coordinate with this rate and these bounds of its acceleration.
+    pub fn of(rate: f64, acceleration: Option<[f64; 2]>) -> Self {
+        let sign = |[least, greatest]: [f64; 2]| i8::from(least > 0.0) - i8::from(greatest < 0.0);
+        Self::of_sign(rate, acceleration.map(sign))
+    }
+
+    /// What becomes of a coordinate with this rate and this sign of its acceleration, if that is known.
+    pub(crate) fn of_sign(rate: f64, sign: Option<i8>) -> Self {
+        let Some(sign) = sign else { return Self::Undecided };
+        let direction = i8::from(rate > 0.0) - i8::from(rate < 0.0);
+        match (direction, direction * sign) {
+            (0, _) if sign > 0 => Self::StartsForwards,
+            (0, _) if sign < 0 => Self::StartsBackwards,
+            (0, _) => Self::StaysAtRest,
+            (_, 1) => Self::SpeedsUp,
+            (_, -1) => Self::SlowsDown,
+            _ => Self::KeepsItsSpeed,
+        }
+    }
+
+    /// In words, after "it" or a name: "slows down".
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::SpeedsUp => "speeds up",
+            Self::KeepsItsSpeed => "keeps its speed",
+            Self::SlowsDown => "slows down",
+            Self::StartsForwards => "starts forwards",
+            Self::StartsBackwards => "starts backwards",
+            Self::StaysAtRest => "stays at rest",
+            Self::Undecided => "may speed up or slow down: its acceleration has no proven bounds",
+        }
+    }
+}
+
+/// When and where a coordinate stops if its acceleration stays as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Stop {
+    /// The time until then: t = |v|/|a| (s).
+    pub time: f64,
+    /// The way until then: v^2 / (2 |a|) (m or rad).
+    pub distance: f64,
+}
+
+impl Stop {
+    /// Of a rate and an acceleration against it; none where a number is beyond the range of floating point.
+    pub(crate) fn of(rate: f64, acceleration: f64) -> Option<Self> {
+        let time = (rate / acceleration).abs();
+        let stop = Self { time, distance: 0.5 * time * rate.abs() };
+        (stop.time.is_finite() && stop.distance.is_finite()).then_some(stop)
+    }
+}
+
+/// What the loads do with a mechanism that has stopped, as standstill in the same position tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum FromRest {
+    /// It stays at rest.
+    Rests,
+    /// It may stay at rest, and may begin to move.
+    RestsOrMoves,
+    /// It begins to move in the direction of its rate.
+    MovesOn,
+    /// It begins to move against its rate.
+    MovesBack,
+    /// It begins to move; in which direction is not one answer.
+    Moves,
+    /// It can neither stay at rest nor begin to move with finite accelerations.
+    Neither,
+}
+
+impl FromRest {
+    /// In words, after "once it is at rest,": "these loads would not move it again".
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Rests => "these loads would not move it again",
+            Self::RestsOrMoves => "these loads may move it again or not",
+            Self::MovesOn => "these loads would move it on",
+            Self::MovesBack => "these loads would move it back",
+            Self::Moves => "these loads would move it again",
+            Self::Neither => "it could neither stay so nor begin to move",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SpeedChange::{
+        KeepsItsSpeed, SlowsDown, SpeedsUp, StartsBackwards, StartsForwards, StaysAtRest, Undecided,
+    };
+    use super::{SpeedChange, Stop};
+
+    #[test]
+    fn signs_of_rate_and_acceleration_decide() {
+        let table = [
+            (1.0, [0.5, 1.0], SpeedsUp),
+            (-1.0, [-1.0, -0.5], SpeedsUp),
+            (1.0, [-1.0, -0.5], SlowsDown),
+            (-1.0, [0.5, 1.0], SlowsDown),
+            (2.0, [-1e-16, 1e-16], KeepsItsSpeed),
+            (-2.0, [0.0, 0.0], KeepsItsSpeed),
+            (0.0, [0.5, 1.0], StartsForwards),
+            (-0.0, [-1.0, -0.5], StartsBackwards),
+            (0.0, [-1e-16, 0.0], StaysAtRest),
+        ];
+        for (rate, bounds, change) in table {
+            assert_eq!(SpeedChange::of(rate, Some(bounds)), change, "{rate} {bounds:?}");
+        }
+        assert_eq!(SpeedChange::of(1.0, None), Undecided);
+    }
+
+    /// t = v/a = 0.1/4 s, v^2/(2a) = 0.01/8 m
+    #[test]
+    fn a_stop_is_that_of_uniform_deceleration() {
+        let stop = Stop::of(-0.1, 4.0);
+        assert_eq!(stop, Some(Stop { time: 0.025, distance: 0.00125 }));
+        assert_eq!(Stop::of(1.0, -1e-320), None);
+    }
+}

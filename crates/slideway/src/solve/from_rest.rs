@@ -1,0 +1,48 @@
+//! What the loads do with a mechanism that has slowed down and stopped.
+
+use super::margins::PATTERNS;
+use crate::model::Model;
+use crate::progress::undisturbed;
+use crate::report::{FromRest, SolveReport, SpeedChange};
+use crate::standstill::{HoldOptions, HoldReport, HoldVerdict, hold_within};
+
+/// Adds what the same loads do from rest, if some coordinate slows down, no drive prescribes a motion, and
+/// there are no more states of joints and contacts than modes for which margins are computed.
+pub(super) fn add(report: &mut SolveReport, model: &Model) {
+    let mut coordinates = report.solutions.iter().flat_map(|solution| &solution.coordinates);
+    if coordinates.all(|coordinate| coordinate.speed != Some(SpeedChange::SlowsDown)) {
+        return;
+    }
+    if !model.drives.is_empty() {
+        return;
+    }
+    let hold = undisturbed(|work| hold_within(model, &HoldOptions::default(), PATTERNS, work));
+    report.from_rest = hold.ok().filter(|hold| hold.undecided == 0).map(|hold| from_rest(report, &hold));
+}
+
+fn from_rest(report: &SolveReport, hold: &HoldReport) -> FromRest {
+    match hold.verdict {
+        HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed | HoldVerdict::MayHold => FromRest::Rests,
+        HoldVerdict::HoldsOrSlips => FromRest::RestsOrMoves,
+        HoldVerdict::Neither => FromRest::Neither,
+        HoldVerdict::Moves | HoldVerdict::DoesNotHold => match direction(report, hold) {
+            Some(1) => FromRest::MovesOn,
+            Some(-1) => FromRest::MovesBack,
+            _ => FromRest::Moves,
+        },
+    }
+}
+
+/// The one direction in which a mechanism of one degree of freedom begins to move, against that of its rate.
+fn direction(report: &SolveReport, hold: &HoldReport) -> Option<i8> {
+    let [state] = report.state.as_slice() else { return None };
+    let sign = |range: &crate::standstill::Range| match (range.least, range.greatest) {
+        (Some(least), _) if least > 0.0 => Some(1),
+        (_, Some(greatest)) if greatest < 0.0 => Some(-1),
+        _ => None,
+    };
+    let mut signs = hold.releases.iter().map(|release| sign(&release.coordinates.first()?.acceleration));
+    let first = signs.next()??;
+    let is_one = signs.all(|sign| sign == Some(first));
+    is_one.then_some(if state.rate < 0.0 { -first } else { first })
+}
