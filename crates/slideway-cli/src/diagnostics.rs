@@ -82,7 +82,7 @@ impl Texts {
     fn of(faulty: &FaultyInput) -> Self {
         let settings = faulty.settings.entries().iter().map(|setting| {
             let option = match setting.kind {
-                SettingKind::Parameter => "--set ",
+                SettingKind::Parameter => faulty.parameter_option,
                 SettingKind::Position => "--at ",
                 SettingKind::Rate => "--rate ",
                 // Its text is time=VALUE.

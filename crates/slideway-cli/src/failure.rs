@@ -25,6 +25,10 @@ pub(crate) enum Failure {
     NoProblem { path: PathBuf },
     /// The problem makes no sense.
     Problem { name: String, faults: RawFaults },
+    /// No template is named, and nobody can be asked.
+    NoTemplate,
+    /// There is no such template.
+    UnknownTemplate { name: String, nearest: Option<String> },
     /// There is no such model in the gallery.
     UnknownModel { name: String, nearest: Option<String> },
     /// Only the telescopic boom has stages.
@@ -115,6 +119,8 @@ impl Failure {
                 format!("`{}` cannot be read: {}", path.display(), reason(error))
             }
             Self::Input(_) | Self::Problem { .. } => String::new(),
+            Self::NoTemplate => "which template? None is named".to_owned(),
+            Self::UnknownTemplate { name, .. } => format!("there is no template `{name}`"),
             Self::UnknownModel { name, .. } => format!("the gallery has no model `{name}`"),
             Self::NoStages { name } => format!("`{name}` has no stages"),
             Self::StageCount { stages, most } => {
@@ -214,7 +220,13 @@ impl Failure {
             }
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
-            Self::UnknownModel { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
+            Self::UnknownModel { nearest: Some(nearest), .. }
+            | Self::UnknownTemplate { nearest: Some(nearest), .. } => {
+                Some(format!("did you mean `{nearest}`?"))
+            }
+            Self::NoTemplate | Self::UnknownTemplate { nearest: None, .. } => {
+                Some("`slideway new --list` lists them".to_owned())
+            }
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),
             Self::NoStages { .. } => Some("--stages is for `slideway models telescopic-boom`".to_owned()),
             Self::FileFormat { known, .. } | Self::SeriesFormat { known, .. } => {

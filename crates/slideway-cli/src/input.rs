@@ -69,7 +69,13 @@ impl Input {
     }
 
     fn refused_with(&self, settings: Settings, faults: Faults) -> Failure {
-        Failure::Input(Box::new(FaultyInput { name: self.name.clone(), text: self.text(), settings, faults }))
+        Failure::Input(Box::new(FaultyInput {
+            name: self.name.clone(),
+            text: self.text(),
+            settings,
+            parameter_option: "--set ",
+            faults,
+        }))
     }
 
     /// The text of the model; what is no UTF-8 is replaced by U+FFFD, which keeps everything before it in

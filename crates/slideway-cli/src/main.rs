@@ -38,6 +38,7 @@ fn main() -> ExitCode {
 
 fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
     match command {
+        Command::New(arguments) => commands::new(arguments, output),
         Command::Solve(arguments) => commands::solve(arguments, output),
         Command::Limits(arguments) => commands::limits(arguments, output),
         Command::Size(arguments) => commands::size(arguments, output),

@@ -65,6 +65,9 @@ golden! {
     help_of_sweep: 0 ["sweep", "--help"];
     help_of_hold: 0 ["hold", "--help"];
     list_of_models: 0 ["models"];
+    list_of_templates: 0 ["new", "--list"];
+    help_of_new: 0 ["new", "--help"];
+    help_of_a_template: 0 ["new", "peg", "-h"];
     help: 0 ["--help"];
     help_of_solve: 0 ["solve", "--help"];
     help_of_check: 0 ["check", "-h"];

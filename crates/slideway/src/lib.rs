@@ -77,6 +77,7 @@ pub mod size;
 pub mod solve;
 pub mod standstill;
 pub mod sweep;
+pub mod template;
 
 pub use check::check;
 pub use drawing::{Drawing, GROUND};

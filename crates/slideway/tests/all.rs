@@ -19,3 +19,4 @@ mod mutations;
 mod raw_problem;
 mod settings;
 mod sweep;
+mod templates;

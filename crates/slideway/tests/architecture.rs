@@ -22,6 +22,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("pattern", &["ids", "mechanism", "model", "modes"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),
+    ("template", &["configuration", "fault", "mechanism", "model", "printable"]),
 ];
 
 /// Modules of `slideway-modes`, floor by floor: a module knows only those of lower floors.
