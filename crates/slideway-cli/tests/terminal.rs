@@ -206,7 +206,7 @@ fn names_of_files_and_arguments_are_told_without_their_controls() {
         &["modes", &absent],
         &["models", &name],
         &["new", &name],
-        &["new", "drawer", "--L", &name],
+        &["new", "wedge", "--mu", &name],
         &["new", "drawer", "--output", &name],
         &["draw", "drawer.toml", "-o", &name],
         &["solve", "drawer.toml", "-o", &name],
