@@ -20,3 +20,4 @@ mod raw_problem;
 mod settings;
 mod sweep;
 mod templates;
+mod tutorial;
