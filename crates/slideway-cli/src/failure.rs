@@ -37,6 +37,8 @@ pub(crate) enum Failure {
     StageCount { stages: usize, most: usize },
     /// The output file exists.
     OutputExists { path: PathBuf },
+    /// The folder for several files exists.
+    FolderExists { path: PathBuf },
     /// A picture or page could not be made.
     Picture { reason: String },
     /// Two outputs would go to the same file.
@@ -127,6 +129,7 @@ impl Failure {
                 format!("a telescopic boom can have 1 to {most} stages, not {stages}")
             }
             Self::OutputExists { path } => format!("`{}` already exists", path.display()),
+            Self::FolderExists { path } => format!("`{}` already exists", path.display()),
             Self::Picture { reason } => format!("the picture could not be made: {reason}"),
             Self::SameOutput { path } => format!("two outputs would go to `{}`", path.display()),
             Self::FileFormat { path, .. } => {
@@ -233,6 +236,7 @@ impl Failure {
                 Some(format!("possible extensions: {}", known.join(", ")))
             }
             Self::OutputExists { .. } => Some("choose another name, or overwrite it with --force".to_owned()),
+            Self::FolderExists { .. } => Some("name a folder that does not exist yet".to_owned()),
             Self::Unfinished { .. } => {
                 Some("continue it with --resume, or start over with --force".to_owned())
             }

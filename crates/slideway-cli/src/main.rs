@@ -54,6 +54,7 @@ fn run(command: &Command, output: &Output) -> Result<Outcome, Failure> {
         Command::Models(arguments) => commands::models(arguments, output),
         Command::Schema => commands::schema(output),
         Command::Completions { shell } => commands::completions(*shell, Arguments::command(), output),
+        Command::Man { folder } => commands::man(folder, Arguments::command()),
     }
 }
 

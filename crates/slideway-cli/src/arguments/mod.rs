@@ -44,6 +44,7 @@ pub(crate) use time::TimeArguments;
 use anstream::ColorChoice;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use std::path::PathBuf;
 
 /// All solutions of planar mechanisms with dry friction in sliding joints.
 ///
@@ -134,6 +135,12 @@ pub(crate) enum Command {
     Completions {
         /// The shell.
         shell: Shell,
+    },
+    /// Write the manual pages of all commands, for packages
+    #[command(hide = true)]
+    Man {
+        /// The folder for them, which must not exist.
+        folder: PathBuf,
     },
 }
 

@@ -34,6 +34,9 @@ use crate::failure::Failure;
 use crate::outcome::Outcome;
 use crate::output::Output;
 use clap_complete::Shell;
+use std::fs;
+use std::io;
+use std::path::Path;
 
 /// Prints the JSON Schema of model files.
 pub(crate) fn schema(output: &Output) -> Result<Outcome, Failure> {
@@ -50,5 +53,15 @@ pub(crate) fn completions(
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut command, "slideway", &mut script);
     output.write(&String::from_utf8_lossy(&script))?;
+    Ok(Outcome::Done)
+}
+
+/// Writes the manual pages of all commands to a new folder.
+pub(crate) fn man(folder: &Path, command: clap::Command) -> Result<Outcome, Failure> {
+    let failure = |error: io::Error| match error.kind() {
+        io::ErrorKind::AlreadyExists => Failure::FolderExists { path: folder.to_owned() },
+        _ => Failure::CannotWrite { path: folder.to_owned(), error },
+    };
+    fs::create_dir(folder).and_then(|()| clap_mangen::generate_to(command, folder)).map_err(failure)?;
     Ok(Outcome::Done)
 }
