@@ -51,6 +51,46 @@ fn good_problems_are_answered() {
     }
 }
 
+/// P-matrices by their principal minors: [[2, 1], [1, 2]] has 2, 2, 3; [[1, 2], [2, 1]] has 1, 1, -3;
+/// [[1, -1], [-1, 1]] has 1, 1, 0. The equation 2 x + |x| = b has the coefficients 3 and 1, both positive.
+#[test]
+fn uniqueness_for_every_right_hand_side_is_decided() {
+    let cases = [
+        (
+            r#"{"M": [[2, 1], [1, 2]], "q": [-1, 1]}"#,
+            "one",
+            "For every q there is exactly one solution (M is a P-matrix)",
+        ),
+        (
+            r#"{"M": [[1, 2], [2, 1]], "q": [1, 1]}"#,
+            "not_one",
+            "For some q there are several solutions or none (M is not a P-matrix)",
+        ),
+        (
+            r#"{"M": [[1, -1], [-1, 1]], "q": [-1, 1]}"#,
+            "singular",
+            "For some q there is no solution or infinitely many (M is not a P-matrix)",
+        ),
+        (r#"{"A": [[2]], "B": [[1]], "b": [1]}"#, "one", "For every b there is exactly one solution: proven"),
+        (
+            r#"{"columns_positive": [[1]], "columns_negative": [[-1]], "right_hand_side": [1],
+                "jumps_positive": [[1]], "jumps_negative": [[0]]}"#,
+            "jumps",
+            "not decided: column 1 of `jumps_positive` jumps with the sign",
+        ),
+    ];
+    for (problem, answer, words) in cases {
+        let text = slideway_reading(&["modes", "-", "--uniqueness"], problem.as_bytes());
+        let told = text.stdout;
+        assert!(told.contains(words), "{told}");
+        let json = slideway_reading(&["modes", "-", "--uniqueness", "--format", "json"], problem.as_bytes());
+        let json: Value = serde_json::from_str(&json.stdout).unwrap();
+        assert_eq!(json["every_right_hand_side"]["answer"], answer);
+        let plain = slideway_reading(&["modes", "-", "--format", "json"], problem.as_bytes());
+        assert!(!plain.stdout.contains("every_right_hand_side"));
+    }
+}
+
 #[test]
 fn bad_problems_are_refused() {
     for folder in [folder("bad"), folder("npz")] {

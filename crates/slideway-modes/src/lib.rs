@@ -121,11 +121,11 @@ pub use search::{
     SolutionProduct, StateCounts, StateKind, StateLists, StateSet, StopReason, search,
 };
 pub use solutions::{
-    Certificate, ClosestMode, GapShare, GapState, Limits, ModeSolution, PatternCounts, SingularMode,
-    Solutions, UndecidedPattern,
+    Certificate, ClosestMode, GapShare, GapState, Limits, ModeSolution, ModeState, PatternCounts,
+    SingularMode, Solutions, UndecidedPattern,
 };
 pub use status::{Proof, Status};
-pub use uniqueness::{Uniqueness, UniquenessLimits, uniqueness};
+pub use uniqueness::{Unfinished, Uniqueness, UniquenessLimits, uniqueness, uniqueness_with};
 
 /// The example of the README runs.
 #[cfg(doctest)]

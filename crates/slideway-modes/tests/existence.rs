@@ -264,6 +264,7 @@ fn an_output_bound_ends_a_mode() -> Result<(), Box<dyn Error>> {
         right_hand_side: [dvector![4.0, 0.0], dvector![0.0, 0.0]],
         bounds: vec![OutputBound { output: 0, contact: 0, factor: 0.5 }],
         has_jump: vec![false],
+        sides_differ: vec![false],
     };
     let existence = line.existence(&options(0.0, 5.0))?;
     let [mode] = &existence.modes[..] else { panic!("{existence:#?}") };

@@ -77,7 +77,7 @@ fn assert_same_as_brute_force(problem: &ModeProblem) {
         assert_close(&solution.normal_force, normal_force, 1e-6);
         assert!((solution.determinant - determinant).abs() <= 1e-8 * determinant.abs() + 1e-13);
         let product: f64 = pattern.iter().map(|state| state.sign()).product();
-        assert_eq!(solution.oriented_determinant, solution.determinant * product);
+        assert_eq!(solution.oriented_determinant(), solution.determinant * product);
         assert_eq!(solution.pattern_count, 1);
         assert!(
             solution.signs.iter().zip(&solution.normal_force).all(|(&sign, n)| f64::from(sign) == n.signum())

@@ -1,11 +1,13 @@
 //! Uniqueness for every load against the determinants of all patterns, and known answers.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 use slideway_modes::{
-    BySide, InfluenceCoefficients, ModeProblem, Side, Uniqueness, UniquenessLimits, uniqueness,
+    BySide, InfluenceCoefficients, ModeProblem, Side, Unfinished, Uniqueness, UniquenessLimits, uniqueness,
+    uniqueness_with,
 };
 
 fn decide(problem: &ModeProblem) -> Uniqueness {
@@ -188,7 +190,7 @@ fn random_matrix(size: usize, mut state: u64) -> DMatrix<f64> {
 
 #[test]
 fn large_problems_are_proven_without_the_tree() {
-    let limits = UniquenessLimits { nodes: 200, exact: 0 };
+    let limits = UniquenessLimits { nodes: 200, exact: 0, ..UniquenessLimits::default() };
     // sigma_max < 1, though the spectral radius of |B| is above it.
     let b = random_matrix(100, 7) * 0.3 * (3.0 / 100.0_f64).sqrt();
     assert!(b.abs().complex_eigenvalues().iter().any(|value| value.norm() > 1.5));
@@ -206,11 +208,20 @@ fn limits_are_kept() -> Result<(), Box<dyn Error>> {
     (0..5).for_each(|k| m[(k, (k + 1) % 5)] = 1.9);
     let problem = complementarity(&m);
     assert_eq!(decide(&problem), Uniqueness::Unique { sign: -1 });
-    let limits = UniquenessLimits { nodes: 10, exact: 10 };
-    assert_eq!(uniqueness(&problem, &limits), Uniqueness::NotComputed { limit: 10 });
+    let limits = UniquenessLimits { nodes: 10, exact: 10, contacts: 5 };
+    assert_eq!(uniqueness(&problem, &limits), Uniqueness::NotComputed(Unfinished::Nodes(10)));
+    let limits = UniquenessLimits { contacts: 4, ..limits };
+    assert_eq!(uniqueness(&problem, &limits), Uniqueness::NotComputed(Unfinished::Contacts(4)));
+    let mut calls = 0;
+    let cancelled = uniqueness_with(&problem, &UniquenessLimits::default(), &mut |progress| {
+        calls += 1;
+        assert_eq!(progress.done, calls);
+        if calls == 7 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert_eq!((cancelled, calls), (Uniqueness::NotComputed(Unfinished::Cancelled), 7));
     // A determinant that is zero but for rounding, without exact arithmetic.
     let m = dmatrix![0.1, 0.3; 0.7, 2.1];
-    let limits = UniquenessLimits { nodes: 100, exact: 0 };
+    let limits = UniquenessLimits { nodes: 100, exact: 0, contacts: 2 };
     let problem = complementarity(&m);
     let pattern = vec![Side::Positive; 2];
     assert_eq!(uniqueness(&problem, &limits), Uniqueness::InDoubt { pattern: pattern.clone() });

@@ -6,7 +6,8 @@ use proptest::prelude::*;
 use slideway::Report;
 use slideway::modes::{Limits, SearchOptions};
 use slideway::raw_problem::{
-    Listing, RawContinuum, RawProblem, RawReport, Unknowns, solve, solve_with, to_npz,
+    Listing, RawContinuum, RawProblem, RawReport, RawUnknown, Unknowns, WithinRoundingAnswer, solve,
+    solve_with, to_npz,
 };
 use slideway::report::{Proof, Status, Style};
 use std::ops::ControlFlow;
@@ -278,7 +279,7 @@ fn values_beyond_floating_point_numbers_are_told_as_text() {
     // The numbers are exact, and so is what is left over.
     assert_eq!(solution.residual, Some(0.0));
     let [value] = solution.beyond_range.as_slice() else { panic!("one value") };
-    assert_eq!((value.name, value.index, value.value.as_str()), ("z", 0, "9.9999999999999997e309"));
+    assert_eq!((value.name, value.index, value.value.as_str()), (RawUnknown::Z, 0, "9.9999999999999997e309"));
     let json = report.json();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["solutions"][0]["z"], serde_json::json!([null, 1.0]));
@@ -449,7 +450,7 @@ fn a_pile_without_friction_has_a_solution_within_rounding() {
     let report = solved(&lcp(m.clone(), q.as_slice()));
     assert_eq!((report.status, report.complete), (Status::None, Proof::Proven));
     let within = report.within_rounding.as_ref().unwrap();
-    assert_eq!(within.answer, "solution");
+    assert_eq!(within.answer, WithinRoundingAnswer::Solution);
     let Some(Unknowns::Complementary { z, w }) = &within.unknowns else { panic!("z and w") };
     let z = DVector::from_column_slice(z);
     assert!(z.amax() < 10.0 && z.min() >= 0.0);
@@ -468,8 +469,11 @@ fn what_rounding_does_not_change_gets_no_hint() {
     let answer =
         |json: &[u8]| solved(&RawProblem::from_json(json).unwrap()).within_rounding.map(|it| it.answer);
     // w = z - 1 with z = 0: zeros are exact.
-    assert_eq!(answer(br#"{"M": [[0]], "q": [-1]}"#), Some("none"));
+    assert_eq!(answer(br#"{"M": [[0]], "q": [-1]}"#), Some(WithinRoundingAnswer::None));
     // With 0.1 + 1e-16 on the diagonal z_1 = z_2 = 1e16 would do: rounding would carry the load.
-    assert_eq!(answer(br#"{"M": [[0.1, -0.1], [-0.1, 0.1]], "q": [-1, -1]}"#), Some("unknown"));
+    assert_eq!(
+        answer(br#"{"M": [[0.1, -0.1], [-0.1, 0.1]], "q": [-1, -1]}"#),
+        Some(WithinRoundingAnswer::Unknown)
+    );
     assert_eq!(answer(br#"{"M": [[2]], "q": [-1]}"#), None);
 }

@@ -20,6 +20,7 @@ Examples:
   slideway modes problem.json
   slideway modes problem.npz --output result.npz
   slideway modes problem.json --time-limit 30s --format json
+  slideway modes problem.json --uniqueness
   slideway modes - < problem.json
 
 Exit codes:
@@ -43,6 +44,11 @@ pub(crate) struct ModesArguments {
     /// Also list what is part of a larger continuum: its ends and faces.
     #[arg(long)]
     pub(crate) all_faces: bool,
+
+    /// Also decide whether there is exactly one solution for every right-hand side (of an LCP: whether M is a
+    /// P-matrix).
+    #[arg(long)]
+    pub(crate) uniqueness: bool,
 
     #[command(flatten)]
     pub(crate) search: SearchArguments,

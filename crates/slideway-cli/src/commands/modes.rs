@@ -20,8 +20,12 @@ pub(crate) fn modes(arguments: &ModesArguments, output: &Output) -> Result<Outco
     let mut watch = Watch::since(begun, time.time_limit);
     let options = arguments.search.options();
     let listing = Listing { most: *max_solutions, all_faces: arguments.all_faces };
-    let report = solve_with(&problem, &options, listing, &mut |progress| watch.look(progress))
+    let mut report = solve_with(&problem, &options, listing, &mut |progress| watch.look(progress))
         .expect("shapes and values are checked where the problem is read");
+    if arguments.uniqueness {
+        report.every_right_hand_side =
+            problem.every_right_hand_side(&mut |progress| watch.look(progress)).ok();
+    }
     let halt = watch.finish();
     match arguments.format() {
         ModesFormat::Text => output.write(&report.text(output.style()))?,

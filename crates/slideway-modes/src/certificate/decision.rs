@@ -70,7 +70,7 @@ pub enum Precision {
 
 /// What [`decide`] returns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
+pub struct ProvenDecision {
     /// The outcome.
     pub decision: Decision,
     /// The arithmetic that led to it.
@@ -92,7 +92,7 @@ pub struct DecisionCounts {
 
 impl DecisionCounts {
     /// Counts one more verdict.
-    pub fn record(&mut self, verdict: &Verdict) {
+    pub fn record(&mut self, verdict: &ProvenDecision) {
         match (&verdict.decision, verdict.precision) {
             (Decision::Undecided { .. }, _) => self.undecided += 1,
             (_, Precision::Double) => self.double += 1,
@@ -137,7 +137,7 @@ impl DecisionCounts {
 /// assert_eq!(verdict.decision, Decision::NoSolution { contact: 0 });
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
-pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState]) -> Verdict {
+pub fn decide<'a>(problem: impl Into<ProblemView<'a>>, pattern: &[ContactState]) -> ProvenDecision {
     let Some(verdict) = decide_while(problem.into(), pattern, &mut || true) else {
         unreachable!("nothing stops it")
     };
@@ -150,7 +150,7 @@ pub(crate) fn decide_while(
     problem: ProblemView<'_>,
     pattern: &[ContactState],
     proceed: &mut dyn FnMut() -> bool,
-) -> Option<Verdict> {
+) -> Option<ProvenDecision> {
     assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
     let mut enclosure = None;
     if let Some(system) = PatternSystem::new(problem, pattern)
@@ -160,9 +160,9 @@ pub(crate) fn decide_while(
             enclosure = approximation.improve(precision).or(enclosure);
             match enclosure.as_ref().and_then(|found| found.decide(pattern)) {
                 Some(decision @ Decision::Solution { .. }) => {
-                    return Some(Verdict { decision: approximation.sharpened(decision), precision });
+                    return Some(ProvenDecision { decision: approximation.sharpened(decision), precision });
                 }
-                Some(decision) => return Some(Verdict { decision, precision }),
+                Some(decision) => return Some(ProvenDecision { decision, precision }),
                 None => {}
             }
         }
@@ -172,11 +172,14 @@ pub(crate) fn decide_while(
     }
     if problem.exact {
         let decision = decide_exactly(problem, pattern, proceed)?;
-        return Some(Verdict { decision, precision: Precision::Rational });
+        return Some(ProvenDecision { decision, precision: Precision::Rational });
     }
     let in_doubt = enclosure.as_ref().map_or_else(Vec::new, |found| found.in_doubt(pattern));
     let unknowns = enclosure.map(|found| found.unknowns);
-    Some(Verdict { decision: Decision::Undecided { unknowns, in_doubt }, precision: Precision::DoubleDouble })
+    Some(ProvenDecision {
+        decision: Decision::Undecided { unknowns, in_doubt },
+        precision: Precision::DoubleDouble,
+    })
 }
 
 /// A solution that gets better step by step.
@@ -277,7 +280,7 @@ fn decide_exactly(
     let contacts = pattern.len();
     let echelon = IntegerSystem::new(problem.centre, pattern).eliminate_while(proceed)?;
     if !echelon.is_regular() {
-        let set = ExactSet::new(&echelon, pattern, BASES, proceed);
+        let set = ExactSet::of_echelon(&echelon, pattern, BASES, proceed);
         return proceed().then_some(Decision::Singular { set });
     }
     let solution = ExactSolution::new(&echelon, contacts);

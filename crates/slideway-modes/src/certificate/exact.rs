@@ -51,7 +51,7 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], bases: u64
         let unknowns = echelon.solve_reduced(pattern.len());
         return ExactOutcome::Regular { determinant: echelon.determinant_sign(), unknowns };
     }
-    ExactOutcome::Singular(ExactSet::new(&echelon, pattern, bases, &mut || true))
+    ExactOutcome::Singular(ExactSet::of_echelon(&echelon, pattern, bases, &mut || true))
 }
 
 /// Solves the equations of one pattern for some contacts, with those of whatever acts on them and no others.

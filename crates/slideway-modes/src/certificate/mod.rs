@@ -8,7 +8,7 @@
 //!   `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` admits: a solution with its
 //!   enclosure, none, a solution on the boundary with the `y_k` that are exactly zero, or a singular
 //!   system and the exact set of its solutions (theory, section 3).
-//! - [`proves_empty`], [`propagate`] and [`proves_at_most_one`] verify the arguments by which a
+//! - [`proves_empty`] and [`proves_at_most_one`] verify the arguments by which a
 //!   search leaves out whole sets of patterns (theory, section 4).
 //!
 //! Each of them takes a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact (sums of two
@@ -36,7 +36,7 @@ pub use crate::interval::{Interval, Sign};
 pub use crate::interval_matrix::IntervalMatrix;
 pub use crate::problem::{IntervalInfluence, IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub(super) use decision::decide_while;
-pub use decision::{Decision, DecisionCounts, Precision, Verdict, decide};
+pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
 pub use enclosure::{LinearEnclosure, enclose_solution};
 pub(super) use exact::determinant_sign;
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};

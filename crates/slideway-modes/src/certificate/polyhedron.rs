@@ -11,58 +11,9 @@ use crate::problem::{ContactState, SolutionSet};
 
 /// All admissible solutions of a singular pattern's equations: `y_k >= 0`, and `0 <= lambda_k <= 1`
 /// for a contact in its gap. Points and directions have one entry per contact, `y_k` or `lambda_k`.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ExactSet {
-    /// No solution: locking of the mode.
-    Empty,
-    /// One solution.
-    Point(Vec<RBig>),
-    /// All solutions between two ends.
-    Segment {
-        /// One end.
-        from: Vec<RBig>,
-        /// The other end.
-        to: Vec<RBig>,
-    },
-    /// All `from + t direction`, `t >= 0`.
-    Ray {
-        /// The end of the ray.
-        from: Vec<RBig>,
-        /// The direction, its largest component being 1.
-        direction: Vec<RBig>,
-    },
-    /// Convex combinations of the vertices plus non-negative combinations of the directions.
-    Polytope {
-        /// The vertices.
-        vertices: Vec<Vec<RBig>>,
-        /// Extreme directions, the largest component of each being 1.
-        directions: Vec<Vec<RBig>>,
-    },
-    /// Describing the set takes more work than was allowed.
-    NotComputed,
-}
+pub type ExactSet = SolutionSet<Vec<RBig>>;
 
 impl ExactSet {
-    /// The vertices of the set, none if it is empty or was not computed.
-    pub fn vertices(&self) -> Vec<&[RBig]> {
-        match self {
-            Self::Empty | Self::NotComputed => Vec::new(),
-            Self::Point(point) => vec![point],
-            Self::Segment { from, to } => vec![from, to],
-            Self::Ray { from, .. } => vec![from],
-            Self::Polytope { vertices, .. } => vertices.iter().map(Vec::as_slice).collect(),
-        }
-    }
-
-    /// The extreme directions of the set, none if it is bounded or was not computed.
-    pub fn directions(&self) -> Vec<&[RBig]> {
-        match self {
-            Self::Ray { direction, .. } => vec![direction],
-            Self::Polytope { directions, .. } => directions.iter().map(Vec::as_slice).collect(),
-            Self::Empty | Self::NotComputed | Self::Point(_) | Self::Segment { .. } => Vec::new(),
-        }
-    }
-
     /// The signed normal forces `N_k = sigma_k y_k` of the set, rounded; shares are left out, so that
     /// points that differ only in them become one.
     ///
@@ -72,33 +23,18 @@ impl ExactSet {
         if *self == Self::NotComputed {
             return SolutionSet::NotComputed;
         }
-        let mut vertices = distinct(self.vertices().into_iter().map(|point| signed_forces(point, pattern)));
-        let mut directions = distinct(self.directions().into_iter().filter_map(|direction| {
+        let vertices = distinct(self.vertices().into_iter().map(|point| signed_forces(point, pattern)));
+        let directions = distinct(self.directions().into_iter().filter_map(|direction| {
             let forces = signed_forces(direction, pattern);
             scaled_to_one(forces)
         }));
-        let rounded = |point: Vec<RBig>| DVector::from_iterator(point.len(), point.iter().map(nearest));
-        match (vertices.len(), directions.len()) {
-            (0, _) => SolutionSet::Empty,
-            (1, 0) => SolutionSet::Point(rounded(vertices.swap_remove(0))),
-            (2, 0) => SolutionSet::Segment {
-                to: rounded(vertices.swap_remove(1)),
-                from: rounded(vertices.swap_remove(0)),
-            },
-            (1, 1) => SolutionSet::Ray {
-                from: rounded(vertices.swap_remove(0)),
-                direction: rounded(directions.swap_remove(0)),
-            },
-            _ => SolutionSet::Polytope {
-                vertices: vertices.into_iter().map(rounded).collect(),
-                directions: directions.into_iter().map(rounded).collect(),
-            },
-        }
+        SolutionSet::from_corners(vertices, directions)
+            .map(|point| DVector::from_iterator(point.len(), point.iter().map(nearest)))
     }
 
     /// Of the equations in echelon form. Not computed if that takes more than `bases` trials, or once
     /// `proceed` is false.
-    pub(super) fn new(
+    pub(super) fn of_echelon(
         echelon: &Echelon,
         pattern: &[ContactState],
         bases: u64,
@@ -109,16 +45,8 @@ impl ExactSet {
         }
         let limits = WorkLimits::new(echelon, pattern);
         // The set holds no line, so it is empty exactly if it has no vertex.
-        let Some(Corners { mut vertices, mut directions }) = limits.corners(bases, proceed) else {
-            return Self::NotComputed;
-        };
-        match (vertices.len(), directions.len()) {
-            (0, _) => Self::Empty,
-            (1, 0) => Self::Point(vertices.swap_remove(0)),
-            (2, 0) => Self::Segment { to: vertices.swap_remove(1), from: vertices.swap_remove(0) },
-            (1, 1) => Self::Ray { from: vertices.swap_remove(0), direction: directions.swap_remove(0) },
-            _ => Self::Polytope { vertices, directions },
-        }
+        let corners = limits.corners(bases, proceed);
+        corners.map_or(Self::NotComputed, |corners| Self::from_corners(corners.vertices, corners.directions))
     }
 }
 

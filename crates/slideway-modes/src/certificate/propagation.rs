@@ -13,6 +13,7 @@ const SWEEPS: usize = 8;
 const WORTHWHILE: f64 = 0.05;
 
 /// What [`propagate`] found.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Propagation {
     /// No pattern with the given states has a solution.
@@ -26,6 +27,9 @@ pub enum Propagation {
 }
 
 /// Bounds the normal forces of all solutions of the patterns with the given states, by proof.
+///
+/// The search has a faster one of its own; this one, slow and independent of it, is what tests and benchmarks
+/// compare it with, and so is not in the documentation.
 ///
 /// `partial` has one entry per contact: its state, or `None` for a contact that may be pressed on
 /// either side or rest in its gap. With the equations preconditioned to
@@ -55,6 +59,7 @@ pub enum Propagation {
 /// assert_eq!(bounds[1].sign(), Some(Sign::Negative));
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
+#[doc(hidden)]
 pub fn propagate<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Option<ContactState>]) -> Propagation {
     let problem = problem.into();
     assert_eq!(partial.len(), problem.contacts(), "one entry per contact");

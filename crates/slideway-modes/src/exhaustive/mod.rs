@@ -90,7 +90,7 @@ pub use run::Tally;
 
 use std::ops::ControlFlow;
 
-use crate::certificate::{Decision, Verdict, decide};
+use crate::certificate::{Decision, ProvenDecision, decide};
 use crate::problem::ProblemView;
 use crate::progress::Progress;
 use run::Run;
@@ -168,7 +168,7 @@ pub fn screen_with<'a>(
 /// assert_eq!(exhaustive::prove(&problem).len(), 8);
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
-pub fn prove<'a>(problem: impl Into<ProblemView<'a>>) -> Vec<(Pattern, Verdict)> {
+pub fn prove<'a>(problem: impl Into<ProblemView<'a>>) -> Vec<(Pattern, ProvenDecision)> {
     let mut proved = Vec::new();
     let visit = |pattern, verdict| {
         proved.push((pattern, verdict));
@@ -185,7 +185,7 @@ pub fn prove<'a>(problem: impl Into<ProblemView<'a>>) -> Vec<(Pattern, Verdict)>
 /// As [`screen`].
 pub fn prove_with<'a>(
     problem: impl Into<ProblemView<'a>>,
-    mut visit: impl FnMut(Pattern, Verdict) -> ControlFlow<()>,
+    mut visit: impl FnMut(Pattern, ProvenDecision) -> ControlFlow<()>,
     progress: impl Fn(&Progress) -> ControlFlow<()> + Sync,
 ) -> Tally {
     let problem = problem.into();

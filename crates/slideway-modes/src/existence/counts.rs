@@ -80,7 +80,8 @@ impl ModeProblemLine {
     /// Number of different solutions of some modes at a parameter where all of them exist.
     ///
     /// Two patterns have the same solution only if the normal forces of all contacts in which they differ
-    /// vanish in both, that is, within their own rounding errors, however small they are beside others.
+    /// vanish in both, that is, within their own rounding errors, however small they are beside others, and
+    /// if nothing else [tells their sides](Self::sides_differ).
     pub fn distinct(&self, modes: &[&ModeInterval], at: f64) -> usize {
         if modes.len() < 2 {
             return modes.len();
@@ -89,7 +90,8 @@ impl ModeProblemLine {
         for mode in modes {
             let Some(vanishes) = self.line(&mode.pattern).vanishes(at) else { continue };
             let same = |(pattern, other): &(&[ContactState], Vec<bool>)| {
-                (0..pattern.len()).all(|k| pattern[k] == mode.pattern[k] || other[k] && vanishes[k])
+                let is_same = |k: usize| other[k] && vanishes[k] && !self.sides_differ[k];
+                (0..pattern.len()).all(|k| pattern[k] == mode.pattern[k] || is_same(k))
             };
             if !known.iter().any(same) {
                 known.push((&mode.pattern, vanishes));

@@ -50,6 +50,9 @@ pub struct ModeProblemLine {
     pub bounds: Vec<OutputBound>,
     /// Whether the right-hand side jumps at a contact, so that it has preload-gap states.
     pub has_jump: Vec<bool>,
+    /// Whether both sides of a contact are different states even where `y_k = 0`, by what the problem leaves
+    /// out.
+    pub sides_differ: Vec<bool>,
 }
 
 /// `|output| <= factor * y_contact`: the couple of a guided slider with `factor` half its length.
@@ -174,6 +177,7 @@ impl ModeProblemLine {
             ],
             bounds: Vec::new(),
             has_jump: contacts.map(|contact| start.has_jump(contact) || end.has_jump(contact)).collect(),
+            sides_differ: vec![false; start.contacts()],
         }
     }
 

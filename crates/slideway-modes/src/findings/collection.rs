@@ -7,11 +7,11 @@ use nalgebra::DVector;
 use crate::findings::admitted::Admitted;
 use crate::findings::candidate::{Candidate, determinant, solve_pattern};
 use crate::findings::degenerate::{Examined, examine, same_point};
-use crate::findings::found::{Found, oriented, sides};
+use crate::findings::found::{Found, sides};
 use crate::problem::{ContactState, ScaledProblem};
 use crate::solutions::{
     Certificate, ClosestMode, ContactSet, GapState, Limits, ModeSolution, PatternCounts, SingularMode,
-    Solutions, Support, UndecidedPattern,
+    Solutions, Support, UndecidedPattern, oriented,
 };
 
 /// How many patterns close to locking are reported.

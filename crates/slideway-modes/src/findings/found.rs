@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::findings::candidate::Candidate;
 use crate::problem::{ContactState, Side};
-use crate::solutions::{Certificate, GapShare, GapState, ModeSolution, Support, UndecidedPattern};
+use crate::solutions::{Certificate, GapShare, GapState, ModeSolution, ModeState, Support, UndecidedPattern};
 
 /// A solution or gap state with the patterns that give it.
 pub(crate) struct Found {
@@ -87,19 +87,28 @@ impl Found {
     }
 
     pub(crate) fn into_mode_solution(self, has_jump: &[bool]) -> ModeSolution {
-        let (pattern, support) = (sides(self.pattern()), self.support(has_jump));
-        ModeSolution {
+        self.into_state(has_jump, sides)
+    }
+
+    pub(crate) fn into_gap_state(self, has_jump: &[bool]) -> GapState {
+        self.into_state(has_jump, <[ContactState]>::to_vec)
+    }
+
+    fn into_state<S>(self, has_jump: &[bool], states: fn(&[ContactState]) -> Vec<S>) -> ModeState<S> {
+        let in_gap = self.pattern().iter().enumerate().filter(|(_, state)| **state == ContactState::Gap);
+        let share = |(contact, _)| GapShare { contact, lambda: self.candidate.unknowns[contact] };
+        ModeState {
+            pattern: states(self.pattern()),
+            shares: in_gap.map(share).collect(),
             signs: self.signs(),
             y: self.normal_force.abs(),
             determinant: self.candidate.determinant,
-            oriented_determinant: oriented(self.candidate.determinant, &pattern),
-            pattern,
             on_boundary: self.candidate.zero.iter().collect(),
-            patterns: self.patterns.iter().map(|pattern| sides(pattern)).collect(),
+            patterns: self.patterns.iter().map(|pattern| states(pattern)).collect(),
             pattern_count: self.pattern_count,
             tolerance: self.candidate.tolerance,
             maximal: true,
-            support,
+            support: self.support(has_jump),
             certificate: self.certificate,
             normal_force: self.normal_force,
         }
@@ -114,33 +123,6 @@ impl Found {
         let pattern = self.patterns.first()?.clone();
         Some(UndecidedPattern { pattern, patterns: self.patterns, unknowns, in_doubt })
     }
-
-    pub(crate) fn into_gap_state(self, has_jump: &[bool]) -> GapState {
-        let support = self.support(has_jump);
-        let in_gap =
-            (0..self.pattern().len()).filter(|&contact| self.pattern()[contact] == ContactState::Gap);
-        let share = |contact| GapShare { contact, lambda: self.candidate.unknowns[contact] };
-        GapState {
-            pattern: self.pattern().to_vec(),
-            shares: in_gap.map(share).collect(),
-            signs: self.signs(),
-            y: self.normal_force.abs(),
-            determinant: self.candidate.determinant,
-            on_boundary: self.candidate.zero.iter().collect(),
-            patterns: self.patterns,
-            pattern_count: self.pattern_count,
-            tolerance: self.candidate.tolerance,
-            maximal: true,
-            support,
-            certificate: self.certificate,
-            normal_force: self.normal_force,
-        }
-    }
-}
-
-/// `p = D prod_k sigma_k` (theory, section 5).
-pub(crate) fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
-    pattern.iter().fold(determinant, |product, side| product * side.sign())
 }
 
 /// The sides of a pattern without gaps.

@@ -43,41 +43,43 @@ impl From<Side> for ContactState {
     }
 }
 
-/// The signed normal forces that a singular pattern admits.
+/// What a singular pattern admits: points and directions of signed normal forces, or, as an
+/// [`ExactSet`](crate::certificate::ExactSet), of exact unknowns.
 #[derive(Debug, Clone, PartialEq)]
-pub enum SolutionSet {
+pub enum SolutionSet<P = DVector<f64>> {
     /// No solution: locking of the mode.
     Empty,
     /// One solution.
-    Point(DVector<f64>),
-    /// All `N` between two ends.
+    Point(P),
+    /// All points between two ends.
     Segment {
         /// One end.
-        from: DVector<f64>,
+        from: P,
         /// The other end.
-        to: DVector<f64>,
+        to: P,
     },
     /// All `from + t direction`, `t >= 0`.
     Ray {
         /// The end of the ray.
-        from: DVector<f64>,
+        from: P,
         /// The direction, its largest component being 1 in size.
-        direction: DVector<f64>,
+        direction: P,
     },
     /// Convex combinations of the vertices plus non-negative combinations of the directions.
     Polytope {
         /// The vertices.
-        vertices: Vec<DVector<f64>>,
+        vertices: Vec<P>,
         /// Extreme directions, the largest component of each being 1 in size.
-        directions: Vec<DVector<f64>>,
+        directions: Vec<P>,
     },
-    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases) allows.
+    /// Describing the set takes more work than [`Limits::bases`](crate::Limits::bases), or whoever asked,
+    /// allows.
     NotComputed,
 }
 
-impl SolutionSet {
+impl<P> SolutionSet<P> {
     /// The set with the given vertices and extreme directions, which are all different.
-    pub(crate) fn from_corners(mut vertices: Vec<DVector<f64>>, mut directions: Vec<DVector<f64>>) -> Self {
+    pub(crate) fn from_corners(mut vertices: Vec<P>, mut directions: Vec<P>) -> Self {
         match (vertices.len(), directions.len()) {
             (0, _) => Self::Empty,
             (1, 0) => Self::Point(vertices.swap_remove(0)),
@@ -88,7 +90,7 @@ impl SolutionSet {
     }
 
     /// The vertices of the set, none if it is empty or was not computed.
-    pub fn vertices(&self) -> Vec<&DVector<f64>> {
+    pub fn vertices(&self) -> Vec<&P> {
         match self {
             Self::Empty | Self::NotComputed => Vec::new(),
             Self::Point(point) => vec![point],
@@ -99,7 +101,7 @@ impl SolutionSet {
     }
 
     /// The extreme directions of the set, none if it is bounded or was not computed.
-    pub fn directions(&self) -> Vec<&DVector<f64>> {
+    pub fn directions(&self) -> Vec<&P> {
         match self {
             Self::Ray { direction, .. } => vec![direction],
             Self::Polytope { directions, .. } => directions.iter().collect(),
@@ -110,5 +112,23 @@ impl SolutionSet {
     /// Whether the set holds more than one point.
     pub fn is_continuum(&self) -> bool {
         matches!(self, Self::Segment { .. } | Self::Ray { .. } | Self::Polytope { .. })
+    }
+
+    /// The set of the images of points and directions under a linear map that keeps vertices and extreme
+    /// directions apart.
+    pub(crate) fn map<Q>(self, image: impl Fn(P) -> Q) -> SolutionSet<Q> {
+        let all = |points: Vec<P>| points.into_iter().map(&image).collect();
+        match self {
+            Self::Empty => SolutionSet::Empty,
+            Self::NotComputed => SolutionSet::NotComputed,
+            Self::Point(point) => SolutionSet::Point(image(point)),
+            Self::Segment { from, to } => SolutionSet::Segment { from: image(from), to: image(to) },
+            Self::Ray { from, direction } => {
+                SolutionSet::Ray { from: image(from), direction: image(direction) }
+            }
+            Self::Polytope { vertices, directions } => {
+                SolutionSet::Polytope { vertices: all(vertices), directions: all(directions) }
+            }
+        }
     }
 }

@@ -75,6 +75,7 @@ pub fn solve_with(
             listed: listing.all_faces,
         },
         within_rounding: None,
+        every_right_hand_side: None,
         totals: [&listed.points, &listed.gaps, &listed.continua].map(ToString::to_string),
         solutions: Vec::new(),
         gap_states: Vec::new(),

@@ -48,6 +48,7 @@ mod npz;
 mod range;
 mod report;
 mod residual;
+mod right_hand_sides;
 #[cfg(any(feature = "json", feature = "npz"))]
 mod shape;
 #[cfg(feature = "npz")]
@@ -61,8 +62,9 @@ pub use kind::RawKind;
 pub use listing::Listing;
 pub use report::{
     BeyondRange, ContinuumPart, Faces, GapShare, RawContinuum, RawGroup, RawReport, RawShares, RawSolution,
-    SCHEMA, Unknowns, WithinRounding,
+    RawUnknown, SCHEMA, Unknowns, WithinRounding, WithinRoundingAnswer,
 };
+pub use right_hand_sides::{EveryAnswer, EveryRightHandSide};
 #[cfg(any(feature = "json", feature = "npz"))]
 pub use shape::Shape;
 #[cfg(feature = "npz")]

@@ -10,7 +10,7 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 
 use super::RawProblem;
-use super::report::{Unknowns, WithinRounding};
+use super::report::{Unknowns, WithinRounding, WithinRoundingAnswer};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, IntervalModeProblem, ModeProblem, Side};
 use crate::progress::{Callback, Progress};
@@ -52,9 +52,9 @@ pub(super) fn within_rounding(
     let found = tried.find(|point| bounds.admits(point));
     let nothing = result.product.states().next().is_none();
     let answer = match found {
-        Some(_) => "solution",
-        None if nothing && result.completeness == Completeness::Proven => "none",
-        None => "unknown",
+        Some(_) => WithinRoundingAnswer::Solution,
+        None if nothing && result.completeness == Completeness::Proven => WithinRoundingAnswer::None,
+        None => WithinRoundingAnswer::Unknown,
     };
     let unknowns = found.map(|point| Unknowns::new(raw.kind(), point.as_slice()));
     Some(WithinRounding { relative: TOLD, answer, unknowns })

@@ -4,6 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::kind::RawKind;
 use super::range::in_range;
+use super::right_hand_sides::EveryRightHandSide;
 use crate::status::{Proof, Status};
 
 /// Version of the layout of a [`RawReport`]; changes whenever a field is renamed or removed.
@@ -44,6 +45,10 @@ pub struct RawReport {
     /// themselves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub within_rounding: Option<WithinRounding>,
+    /// Whether there is exactly one solution for every right-hand side, where that was asked:
+    /// [`RawProblem::every_right_hand_side`](super::RawProblem::every_right_hand_side).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every_right_hand_side: Option<EveryRightHandSide>,
     /// The solutions, not more than was asked for.
     pub solutions: Vec<RawSolution>,
     /// States with an unknown in its preload gap, likewise (theory, section 3).
@@ -132,14 +137,14 @@ impl Unknowns {
 
     /// The names of the unknown that a signed value other than zero belongs to, with its sign under that
     /// name.
-    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(&'static str, f64)] {
+    pub(super) fn names(kind: RawKind, signed: f64) -> &'static [(RawUnknown, f64)] {
         match kind {
-            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[("z", 1.0)],
-            RawKind::Lcp | RawKind::Hlcp => &[("w", 1.0)],
-            RawKind::Ave if signed > 0.0 => &[("x", 1.0)],
-            RawKind::Ave => &[("x", -1.0)],
-            RawKind::Modes if signed > 0.0 => &[("normal_forces", 1.0), ("y", 1.0)],
-            RawKind::Modes => &[("normal_forces", -1.0), ("y", 1.0)],
+            RawKind::Lcp | RawKind::Hlcp if signed > 0.0 => &[(RawUnknown::Z, 1.0)],
+            RawKind::Lcp | RawKind::Hlcp => &[(RawUnknown::W, 1.0)],
+            RawKind::Ave if signed > 0.0 => &[(RawUnknown::X, 1.0)],
+            RawKind::Ave => &[(RawUnknown::X, -1.0)],
+            RawKind::Modes if signed > 0.0 => &[(RawUnknown::NormalForces, 1.0), (RawUnknown::Y, 1.0)],
+            RawKind::Modes => &[(RawUnknown::NormalForces, -1.0), (RawUnknown::Y, 1.0)],
         }
     }
 
@@ -159,12 +164,34 @@ impl Unknowns {
 pub struct WithinRounding {
     /// Every number may differ by this part of its size.
     pub relative: f64,
-    /// "solution": some such numbers have the solution that is told; "none": none have any, which is proven;
-    /// "unknown".
-    pub answer: &'static str,
+    /// Whether they have a solution.
+    pub answer: WithinRoundingAnswer,
     /// The solution.
     #[serde(flatten)]
     pub unknowns: Option<Unknowns>,
+}
+
+/// Whether numbers that differ from those given by rounding alone have a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WithinRoundingAnswer {
+    /// Some such numbers have the solution that is told.
+    Solution,
+    /// None have any, which is proven.
+    None,
+    /// Neither was found.
+    Unknown,
+}
+
+impl WithinRoundingAnswer {
+    /// "solution", "none" or "unknown"
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Solution => "solution",
+            Self::None => "none",
+            Self::Unknown => "unknown",
+        }
+    }
 }
 
 /// One solution, or one state with an unknown in its gap.
@@ -207,12 +234,44 @@ pub struct RawSolution {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct BeyondRange {
-    /// The name of the unknown: "z", "w", "x", "normal_forces", "y" or "lambda".
-    pub name: &'static str,
+    /// The name of the unknown.
+    pub name: RawUnknown,
     /// Which unknown, from 0.
     pub index: usize,
     /// The exact value rounded to 17 digits ("1.5e310"); in words where it was not computed.
     pub value: String,
+}
+
+/// The names of unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RawUnknown {
+    /// `z` of a complementarity problem.
+    Z,
+    /// `w` of a complementarity problem.
+    W,
+    /// `x` of an absolute value equation.
+    X,
+    /// The signed normal forces of a mode problem.
+    NormalForces,
+    /// `y`, the sizes of the normal forces.
+    Y,
+    /// The share lambda of an unknown in its gap.
+    Lambda,
+}
+
+impl RawUnknown {
+    /// "z", "w", "x", "`normal_forces`", "y" or "lambda"
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Z => "z",
+            Self::W => "w",
+            Self::X => "x",
+            Self::NormalForces => "normal_forces",
+            Self::Y => "y",
+            Self::Lambda => "lambda",
+        }
+    }
 }
 
 /// An unknown in its preload gap.

@@ -16,7 +16,8 @@ use super::{npy, npz};
 /// likewise with the prefix. `status`, `complete`, `partial`, `open`, `type`, `count`, `gap_state_count`,
 /// `continuum_count` and `schema` are those of [`RawReport`]; `face_solution_count`, `face_gap_state_count`
 /// and `face_continuum_count` those of its `faces`. If there is no solution, `within_rounding` tells whether
-/// there is one within rounding of the numbers, and `within_rounding_z`, ... have it as their row.
+/// there is one within rounding of the numbers, and `within_rounding_z`, ... have it as their row. Where it
+/// was asked, `every_right_hand_side` is the answer of [`RawReport::every_right_hand_side`].
 pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let mut archive = Archive { size: report.size, arrays: Vec::new() };
     let status = serde_json::to_value(report.status).ok();
@@ -40,8 +41,11 @@ pub fn to_npz(report: &RawReport) -> Vec<u8> {
     let open: Vec<&str> = report.open.iter().map(String::as_str).collect();
     archive.push("open", npy::write_texts(&[open.len()], &open));
     if let Some(within) = &report.within_rounding {
-        archive.push("within_rounding", npy::write_texts(&[], &[within.answer]));
+        archive.push("within_rounding", npy::write_texts(&[], &[within.answer.as_str()]));
         archive.unknowns(report, "within_rounding_", &within.unknowns.iter());
+    }
+    if let Some(every) = &report.every_right_hand_side {
+        archive.push("every_right_hand_side", npy::write_texts(&[], &[every.answer.word()]));
     }
     archive.solutions(report);
     archive.gap_states(&report.gap_states);
@@ -107,7 +111,7 @@ impl Archive {
         let rows: Vec<i64> = all.iter().map(|(row, _)| *row).collect();
         let index: Vec<i64> =
             all.iter().map(|(_, one)| i64::try_from(one.index).unwrap_or(i64::MAX)).collect();
-        let names: Vec<&str> = all.iter().map(|(_, one)| one.name).collect();
+        let names: Vec<&str> = all.iter().map(|(_, one)| one.name.as_str()).collect();
         let values: Vec<&str> = all.iter().map(|(_, one)| one.value.as_str()).collect();
         let size = [all.len()];
         self.push(&format!("{prefix}beyond_range_row"), npy::write_integers(&size, &rows));

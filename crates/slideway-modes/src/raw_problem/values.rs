@@ -4,7 +4,7 @@ use dashu_ratio::RBig;
 
 use super::RawKind;
 use super::range::{exact_unknown, in_range, nearest, told};
-use super::report::{BeyondRange, GapShare, Unknowns};
+use super::report::{BeyondRange, GapShare, RawUnknown, Unknowns};
 use super::residual::{Equations, exact};
 use crate::problem::{ContactState, ModeProblem};
 use crate::search::CombinedState;
@@ -55,7 +55,7 @@ impl Values {
                 continue;
             }
             let value = told(1.0, gap.lambda, exact.as_ref());
-            told_of.push(BeyondRange { name: "lambda", index: gap.index, value });
+            told_of.push(BeyondRange { name: RawUnknown::Lambda, index: gap.index, value });
             self.beyond.push((gap.index, exact));
             gap.lambda = f64::NAN;
         }

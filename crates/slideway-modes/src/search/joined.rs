@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::product::{CombinedState, GroupState};
 use crate::interval::Interval;
 use crate::problem::{ContactState, Side, SolutionSet};
-use crate::solutions::{Certificate, GapState, ModeSolution, SingularMode, UndecidedPattern};
+use crate::solutions::{Certificate, GapState, ModeSolution, ModeState, SingularMode, UndecidedPattern};
 
 /// The most vertices and directions of a set that is a product of several.
 const CORNERS: usize = 4096;
@@ -39,40 +39,25 @@ struct Joint<'a> {
 
 impl Joint<'_> {
     fn solution(&self) -> ModeSolution {
-        let pattern = sides(&self.state.pattern(self.contacts));
-        let normal_force = self.normal_force();
-        let determinant = self.determinant();
-        let (patterns, pattern_count) = self.patterns();
-        let orientation: f64 = pattern.iter().map(|side| side.sign()).product();
-        ModeSolution {
-            signs: self.signs(),
-            y: normal_force.abs(),
-            normal_force,
-            determinant,
-            oriented_determinant: determinant * orientation,
-            on_boundary: self.on_boundary(),
-            patterns: patterns.iter().map(|pattern| sides(pattern)).collect(),
-            pattern_count,
-            tolerance: self.tolerance(),
-            maximal: self.state.is_maximal(),
-            support: self.state.support(self.contacts),
-            certificate: self.certificate(),
-            pattern,
-        }
+        self.state(sides)
     }
 
     fn gap_state(&self) -> GapState {
+        self.state(<[ContactState]>::to_vec)
+    }
+
+    fn state<S>(&self, states: fn(&[ContactState]) -> Vec<S>) -> ModeState<S> {
         let normal_force = self.normal_force();
         let (patterns, pattern_count) = self.patterns();
-        GapState {
-            pattern: self.state.pattern(self.contacts),
+        ModeState {
+            pattern: states(&self.state.pattern(self.contacts)),
             shares: self.state.shares(),
             signs: self.signs(),
             y: normal_force.abs(),
             normal_force,
             determinant: self.determinant(),
             on_boundary: self.on_boundary(),
-            patterns,
+            patterns: patterns.iter().map(|pattern| states(pattern)).collect(),
             pattern_count,
             tolerance: self.tolerance(),
             maximal: self.state.is_maximal(),

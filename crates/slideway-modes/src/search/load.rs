@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::certificate::{Decision, ExactOutcome, ExactSet, decide_while, solve_exactly};
+use crate::certificate::{Decision, ExactOutcome, decide_while, solve_exactly};
 use crate::interval::{Interval, Sign};
 use crate::problem::{BySide, Column, ContactState, ModeProblem, ProblemView, Radii, Side};
 
@@ -191,27 +191,10 @@ fn without_first(decision: Decision, first: usize) -> Decision {
                 Decision::Boundary { unknowns, zero, full_share, determinant }
             }
         }
-        Decision::Singular { set } => Decision::Singular { set: set_without_first(set, first) },
+        Decision::Singular { set } => Decision::Singular { set: set.map(|point| point[first..].to_vec()) },
         Decision::Undecided { unknowns, in_doubt } => Decision::Undecided {
             unknowns: unknowns.map(|all: Vec<Interval>| all[first..].to_vec()),
             in_doubt: later(in_doubt),
-        },
-    }
-}
-
-fn set_without_first(set: ExactSet, first: usize) -> ExactSet {
-    match set {
-        ExactSet::Empty | ExactSet::NotComputed => set,
-        ExactSet::Point(point) => ExactSet::Point(point[first..].to_vec()),
-        ExactSet::Segment { from, to } => {
-            ExactSet::Segment { from: from[first..].to_vec(), to: to[first..].to_vec() }
-        }
-        ExactSet::Ray { from, direction } => {
-            ExactSet::Ray { from: from[first..].to_vec(), direction: direction[first..].to_vec() }
-        }
-        ExactSet::Polytope { vertices, directions } => ExactSet::Polytope {
-            vertices: vertices.into_iter().map(|point| point[first..].to_vec()).collect(),
-            directions: directions.into_iter().map(|direction| direction[first..].to_vec()).collect(),
         },
     }
 }

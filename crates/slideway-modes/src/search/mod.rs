@@ -86,6 +86,10 @@ use crate::progress::Callback;
 use composition::Composer;
 use monitor::Monitor;
 
+/// What underflow may take from bounds and sums of products, far above the least number and far below any
+/// that is let in; loads are of size 1.
+const UNDERFLOW: f64 = 1e-290;
+
 /// All solutions of a mode problem of any size, and how they were found.
 ///
 /// Finds every solution of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0` (Klepp (2002), eqs.

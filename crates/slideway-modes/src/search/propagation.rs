@@ -14,14 +14,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::UNDERFLOW;
 use super::states::StateSet;
 use crate::dense::{Lu, Pace, inverse, product};
 use crate::problem::{ContactState, ScaledProblem};
 
 /// Bounds are widened by this fraction of the sum of their terms' sizes, far above rounding.
 const MARGIN: f64 = 1e-10;
-/// What underflow may take from sums of products, far above the least number. Loads are of size 1.
-const UNDERFLOW: f64 = 1e-290;
 /// What was computed with positive terms only is verified up to this fraction.
 const VERIFIED: f64 = 1e-11;
 /// Sweeps go on while some bound shrinks by this fraction.

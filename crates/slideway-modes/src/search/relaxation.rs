@@ -11,6 +11,7 @@
 
 use nalgebra::DVector;
 
+use super::UNDERFLOW;
 use super::simplex::{Basis, Bounds, LinearOutcome, LinearProgram};
 use super::states::StateSet;
 use crate::problem::{ContactState, ScaledProblem};
@@ -20,8 +21,6 @@ use crate::problem::{ContactState, ScaledProblem};
 const MARGIN: f64 = 1e-11;
 /// Entries of a Farkas vector below this are zero, so that products with coefficients do not underflow.
 const SMALLEST_WEIGHT: f64 = f64::from_bits((1023 - 400) << 52);
-/// What underflow may take from products with loads; loads are of size 1, weights at most about 1.
-const UNDERFLOW: f64 = 1e-290;
 /// How often a Farkas vector is shifted to make its verification strict.
 const SHIFTS: usize = 2;
 /// Relative difference that [`ModeProblem`](crate::ModeProblem) does not take for a jump.

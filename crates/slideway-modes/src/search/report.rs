@@ -6,6 +6,9 @@ use super::states::StateSet;
 use crate::solutions::{ClosestMode, Limits, PatternCounts, SingularMode, Solutions};
 
 /// What a search may use, and how much.
+///
+/// Fields that are not in the documentation turn parts of the search off or keep what it did: tests,
+/// benchmarks and fuzz targets compare the rest with them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SearchOptions {
     /// Largest number of nodes, over all groups of contacts.
@@ -14,16 +17,19 @@ pub struct SearchOptions {
     /// apply to a search.
     pub limits: Limits,
     /// Which arguments the search may use; by default all of them.
+    #[doc(hidden)]
     pub arguments: Arguments,
     /// Whether the outcome of every pattern that is solved is also decided by proof, for the numbers
     /// as given. Without it nothing is [`Completeness::Proven`].
+    #[doc(hidden)]
     pub certify: bool,
     /// Whether every excluded node is kept with its proof, in [`GroupReport::exclusions`].
+    #[doc(hidden)]
     pub keep_exclusions: bool,
 }
 
 impl Default for SearchOptions {
-    /// 100 million nodes, all arguments, proofs, no list of exclusions.
+    /// 100 million nodes.
     fn default() -> Self {
         Self {
             nodes: 100_000_000,
@@ -36,6 +42,7 @@ impl Default for SearchOptions {
 }
 
 /// The arguments that a search may use besides the linear relaxation.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "five independent switches")]
 pub struct Arguments {
@@ -146,6 +153,7 @@ impl PatternShares {
 }
 
 /// An excluded node and why it holds no solution.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exclusion {
     /// The states that every contact of the group could still take.
@@ -155,6 +163,7 @@ pub struct Exclusion {
 }
 
 /// Why a node holds no solution.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum ExclusionArgument {
     /// Interval propagation leaves a contact without a state.
@@ -217,6 +226,7 @@ pub struct GroupReport {
     /// right-hand sides as given.
     pub proven: bool,
     /// Excluded nodes, if [`SearchOptions::keep_exclusions`] asks for them.
+    #[doc(hidden)]
     pub exclusions: Vec<Exclusion>,
 }
 

@@ -13,10 +13,9 @@
 //! [`screen`](crate::exhaustive::screen) is faster from five contacts on, but has one bound for all entries,
 //! and so excludes less where the data have wide bounds, as over a stretch of a parameter.
 
+use super::UNDERFLOW;
 use crate::problem::{Column, ContactState, ProblemView, Side};
 
-/// What underflow may take from a bound, far below any number that is let in.
-const UNDERFLOW: f64 = 1e-290;
 /// Numbers of the data other than zero have to be of a size between this and its reciprocal.
 const SMALLEST: f64 = 1e-100;
 /// The largest row sum of `|I - R A|`.

@@ -105,26 +105,33 @@ impl UndecidedPattern {
 }
 
 /// A solution with every contact pressed on a side or just about to change it.
+pub type ModeSolution = ModeState<Side>;
+
+/// A state with at least one contact between its faces (theory, section 3, "Preload gap").
+pub type GapState = ModeState<ContactState>;
+
+/// A state of all contacts that solves the equations of some patterns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ModeSolution {
-    /// The first pattern, in the order of enumeration, that gives the solution.
-    pub pattern: Vec<Side>,
-    /// Sign of every normal force, 0 for a contact on the boundary.
+pub struct ModeState<S> {
+    /// The first pattern, in the order of enumeration, that gives the state.
+    pub pattern: Vec<S>,
+    /// The contacts in their gap and the share `lambda` of `d_k^+` in their preload friction
+    /// `lambda d_k^+ + (1 - lambda) d_k^-`, `0 <= lambda <= 1`; none in a solution.
+    pub shares: Vec<GapShare>,
+    /// Sign of every normal force, 0 in the gap and on the boundary.
     pub signs: Vec<i8>,
-    /// `y_k = |N_k|`, exactly 0 on the boundary. Of an exact problem it is infinite where `y_k` is too large
-    /// for `f64`, and no less than the least positive number where it is too small.
+    /// `y_k = |N_k|`, exactly 0 in the gap and on the boundary. Of an exact problem it is infinite where `y_k`
+    /// is too large for `f64`, and no less than the least positive number where it is too small.
     pub y: DVector<f64>,
     /// Signed normal forces `N_k = sigma_k y_k`.
     pub normal_force: DVector<f64>,
-    /// `D = det [c_k^{sigma_k}]` of `pattern`.
+    /// `D = det [c_k^{sigma_k}]` of `pattern`, with `-(d_k^+ - d_k^-)` as the column of a contact in its gap.
     pub determinant: f64,
-    /// `p = D prod_k sigma_k` of `pattern` (theory, section 5).
-    pub oriented_determinant: f64,
-    /// Contacts with `y_k = 0` within `tolerance`.
+    /// Pressed contacts with `y_k = 0` within `tolerance`.
     pub on_boundary: Vec<usize>,
-    /// The patterns that give this same solution, at most [`Limits::listed`](crate::Limits::listed).
-    pub patterns: Vec<Vec<Side>>,
-    /// How many patterns give this same solution.
+    /// The patterns that give this same state, at most [`Limits::listed`](crate::Limits::listed).
+    pub patterns: Vec<Vec<S>>,
+    /// How many patterns give this same state.
     pub pattern_count: u64,
     /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
     pub tolerance: f64,
@@ -136,37 +143,16 @@ pub struct ModeSolution {
     pub certificate: Certificate,
 }
 
-/// A state with at least one contact between its faces (theory, section 3, "Preload gap").
-#[derive(Debug, Clone, PartialEq)]
-pub struct GapState {
-    /// The first pattern, in the order of enumeration, that gives the state.
-    pub pattern: Vec<ContactState>,
-    /// The contacts in their gap and the share `lambda` of `d_k^+` in their preload friction
-    /// `lambda d_k^+ + (1 - lambda) d_k^-`, `0 <= lambda <= 1`.
-    pub shares: Vec<GapShare>,
-    /// Sign of every normal force, 0 in the gap and on the boundary.
-    pub signs: Vec<i8>,
-    /// `y_k = |N_k|`, exactly 0 in the gap and on the boundary.
-    pub y: DVector<f64>,
-    /// Signed normal forces.
-    pub normal_force: DVector<f64>,
-    /// Determinant of the pattern's matrix, which has `-(d_k^+ - d_k^-)` as the column of a
-    /// contact in its gap.
-    pub determinant: f64,
-    /// Pressed contacts with `y_k = 0` within `tolerance`.
-    pub on_boundary: Vec<usize>,
-    /// The patterns that give this same state, at most [`Limits::listed`](crate::Limits::listed).
-    pub patterns: Vec<Vec<ContactState>>,
-    /// How many patterns give this same state.
-    pub pattern_count: u64,
-    /// The largest error bound among the `y_k`, below which a `y_k` counts as zero.
-    pub tolerance: f64,
-    /// Whether it is not part of a continuum that was found, too: exactly, if the data are exact, else within
-    /// tolerances.
-    pub maximal: bool,
-    pub(crate) support: Support,
-    /// What is proven of it.
-    pub certificate: Certificate,
+impl ModeSolution {
+    /// `p = D prod_k sigma_k` of `pattern` (theory, section 5).
+    pub fn oriented_determinant(&self) -> f64 {
+        oriented(self.determinant, &self.pattern)
+    }
+}
+
+/// `p = D prod_k sigma_k` (theory, section 5).
+pub(crate) fn oriented(determinant: f64, pattern: &[Side]) -> f64 {
+    pattern.iter().fold(determinant, |product, side| product * side.sign())
 }
 
 /// How the preload friction of a contact in its gap is shared between the faces.

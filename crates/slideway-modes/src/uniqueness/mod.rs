@@ -2,12 +2,15 @@
 
 mod proofs;
 
+use std::ops::ControlFlow;
+
 use nalgebra::DMatrix;
 
 use self::proofs::Family;
 use crate::certificate::determinant_sign;
 use crate::interval::Sign;
 use crate::problem::{ContactState, ModeProblem, ScaledProblem, Side};
+use crate::progress::{Callback, Progress};
 
 /// Undecided contacts from which on the proofs are tried on a part of the tree.
 const PROOF_SIZE: usize = 7;
@@ -21,12 +24,14 @@ pub struct UniquenessLimits {
     pub nodes: u64,
     /// Largest number of determinants computed exactly.
     pub exact: u64,
+    /// Most contacts: one path through the tree keeps 16/3 `r^3` bytes.
+    pub contacts: usize,
 }
 
 impl Default for UniquenessLimits {
-    /// 50 million nodes, 1000 exact determinants.
+    /// 50 million nodes, 1000 exact determinants, 400 contacts (340 MB).
     fn default() -> Self {
-        Self { nodes: 50_000_000, exact: 1000 }
+        Self { nodes: 50_000_000, exact: 1000, contacts: 400 }
     }
 }
 
@@ -55,16 +60,24 @@ pub enum Uniqueness {
         /// The first pattern whose sign could not be decided.
         pattern: Vec<Side>,
     },
-    /// More work than the limit.
-    NotComputed {
-        /// [`UniquenessLimits::nodes`].
-        limit: u64,
-    },
+    /// More work than a limit allows, or ended on request.
+    NotComputed(Unfinished),
     /// The right-hand side jumps, and nothing follows from the determinants.
     JumpsPresent {
         /// The first contact with a jump.
         contact: usize,
     },
+}
+
+/// Why uniqueness was not decided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unfinished {
+    /// More nodes than [`UniquenessLimits::nodes`].
+    Nodes(u64),
+    /// More contacts than [`UniquenessLimits::contacts`].
+    Contacts(usize),
+    /// The callback ended it.
+    Cancelled,
 }
 
 /// Whether the problem has exactly one solution for every right-hand side `N(0)`.
@@ -96,15 +109,27 @@ pub enum Uniqueness {
 /// # Ok::<(), slideway_modes::ModeProblemError>(())
 /// ```
 pub fn uniqueness(problem: &ModeProblem, limits: &UniquenessLimits) -> Uniqueness {
+    uniqueness_with(problem, limits, &mut |_| ControlFlow::Continue(()))
+}
+
+/// [`uniqueness`], with a callback at every node of the tree, which ends the work when it breaks.
+pub fn uniqueness_with(
+    problem: &ModeProblem,
+    limits: &UniquenessLimits,
+    progress: &mut Callback<'_>,
+) -> Uniqueness {
     let contacts = problem.contacts();
     if let Some(contact) = (0..contacts).find(|&contact| problem.has_jump(contact)) {
         return Uniqueness::JumpsPresent { contact };
     }
-    let mut tree = SignTree::new(problem, limits);
+    if contacts > limits.contacts {
+        return Uniqueness::NotComputed(Unfinished::Contacts(limits.contacts));
+    }
+    let mut tree = SignTree::new(problem, limits, progress);
     match tree.descend(0, 1, false) {
         Err(Ended::Opposite) | Ok(()) => tree.conclusion(),
         Err(Ended::Singular) => Uniqueness::Singular { pattern: tree.pattern },
-        Err(Ended::Limit) => Uniqueness::NotComputed { limit: limits.nodes },
+        Err(Ended::Unfinished(why)) => Uniqueness::NotComputed(why),
     }
 }
 
@@ -112,7 +137,7 @@ pub fn uniqueness(problem: &ModeProblem, limits: &UniquenessLimits) -> Uniquenes
 enum Ended {
     Opposite,
     Singular,
-    Limit,
+    Unfinished(Unfinished),
 }
 
 /// The rows and columns that remain at one level, row by row; two columns for each undecided
@@ -123,8 +148,10 @@ struct Level {
     errors: Vec<f64>,
 }
 
-struct SignTree<'p> {
+struct SignTree<'p, 'c> {
     problem: &'p ModeProblem,
+    progress: &'p mut Callback<'c>,
+    limit: u64,
     contacts: usize,
     levels: Vec<Level>,
     pattern: Vec<Side>,
@@ -135,8 +162,8 @@ struct SignTree<'p> {
     exact: u64,
 }
 
-impl<'p> SignTree<'p> {
-    fn new(problem: &'p ModeProblem, limits: &UniquenessLimits) -> Self {
+impl<'p, 'c> SignTree<'p, 'c> {
+    fn new(problem: &'p ModeProblem, limits: &UniquenessLimits, progress: &'p mut Callback<'c>) -> Self {
         let contacts = problem.contacts();
         let scaled = ScaledProblem::within(problem.into());
         let mut levels: Vec<Level> = (0..contacts)
@@ -157,12 +184,14 @@ impl<'p> SignTree<'p> {
         }
         Self {
             problem,
+            progress,
+            limit: limits.nodes,
             contacts,
             levels,
             pattern: vec![Side::Positive; contacts],
             found: [None, None],
             in_doubt: None,
-            nodes: limits.nodes,
+            nodes: 0,
             exact: limits.exact,
         }
     }
@@ -178,7 +207,7 @@ impl<'p> SignTree<'p> {
         let one_sign = one_sign || (try_proof && self.family(level).has_one_sign());
         let sides = if one_sign { &Side::BOTH[..1] } else { &Side::BOTH[..] };
         for (index, &side) in sides.iter().enumerate() {
-            self.nodes = self.nodes.checked_sub(1).ok_or(Ended::Limit)?;
+            self.visit()?;
             self.pattern[level] = side;
             match self.eliminate(level, index) {
                 Some(pivot_sign) => self.descend(level + 1, sign * pivot_sign, one_sign)?,
@@ -186,6 +215,19 @@ impl<'p> SignTree<'p> {
             }
         }
         Ok(())
+    }
+
+    /// Counts a node, and asks whether to go on.
+    fn visit(&mut self) -> Result<(), Ended> {
+        if self.nodes == self.limit {
+            return Err(Ended::Unfinished(Unfinished::Nodes(self.limit)));
+        }
+        self.nodes += 1;
+        let progress = Progress { counted: "nodes", done: self.nodes, fraction: None, found: None };
+        match (self.progress)(&progress) {
+            ControlFlow::Break(()) => Err(Ended::Unfinished(Unfinished::Cancelled)),
+            ControlFlow::Continue(()) => Ok(()),
+        }
     }
 
     fn file(&mut self, sign: i8) -> Result<(), Ended> {
@@ -276,7 +318,7 @@ impl<'p> SignTree<'p> {
         if first < self.contacts {
             let sides = if one_sign { &Side::BOTH[..1] } else { &Side::BOTH[..] };
             for &side in sides {
-                self.nodes = self.nodes.checked_sub(1).ok_or(Ended::Limit)?;
+                self.visit()?;
                 self.pattern[first] = side;
                 self.examine_all_below(first + 1, one_sign)?;
             }

@@ -62,7 +62,7 @@ fn check_set(problem: &ModeProblem, pattern: &[ContactState], set: &ExactSet) {
     let expected = oracle::vertices(problem, pattern);
     let found = set.vertices();
     assert_eq!(found.len(), expected.len(), "{set:?}");
-    assert!(expected.iter().all(|point| found.contains(&point.as_slice())));
+    assert!(expected.iter().all(|point| found.contains(&point)));
     let zero_load = ModeProblem::new(
         problem.columns(Side::Positive).clone(),
         problem.columns(Side::Negative).clone(),

@@ -30,7 +30,7 @@ fn solutions(problem: &ModeProblem) -> Vec<Vec<RBig>> {
             Decision::NoSolution { .. } => continue,
             Decision::Singular { set } => {
                 assert!(matches!(set, ExactSet::Empty | ExactSet::Point(_)));
-                set.vertices().into_iter().map(<[RBig]>::to_vec).collect()
+                set.vertices().into_iter().cloned().collect()
             }
             Decision::Solution { .. } | Decision::Boundary { .. } => {
                 let ExactOutcome::Regular { unknowns, .. } = solve_exactly(problem, &pattern, 0) else {

@@ -24,7 +24,7 @@ mod spectrum;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::modes::{ModeProblem, Side};
-use crate::report::{Attainability, Fate, FlutterDamping, Verdict};
+use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 use fate::{End, FastMotion, Rest};
 use inertia::Inertia;
 use nalgebra::{DMatrix, DVector};
@@ -164,7 +164,11 @@ impl<'p> ElasticGuides<'p> {
             reason: (verdict == Verdict::Undecided).then(|| ROUNDING.to_owned()),
             // Adding zero turns -0 into 0.
             eigenvalues: spectrum.finite.iter().map(|lambda| [lambda.re, lambda.im + 0.0]).collect(),
-            eigenvalue_unit: if self.given { "1/s^2" } else { "1/kg" },
+            eigenvalue_unit: if self.given {
+                EigenvalueUnit::PerSecondSquared
+            } else {
+                EigenvalueUnit::PerKilogram
+            },
             flutter_damping: damping,
             ..Attainability::without_eigenvalues(verdict, "")
         }

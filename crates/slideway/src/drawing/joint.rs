@@ -167,40 +167,61 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
         self
     }
 
-    /// Coefficient of kinetic friction. Required for every contact.
-    pub fn mu(self, mu: impl Into<Quantity>) -> Self {
-        self.set("mu", mu.into())
-    }
-
-    /// The same for positive and for negative normal force.
-    pub fn mu_by_side(self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Self {
-        self.set("mu", by_side(plus, minus))
-    }
-
-    /// Coefficient of static friction. Default: that of kinetic friction.
-    pub fn mu_static(self, mu: impl Into<Quantity>) -> Self {
-        self.set("mu_static", mu.into())
-    }
-
-    /// Friction at zero normal force (N). Default: 0.
-    pub fn preload(self, force: impl Into<Quantity>) -> Self {
-        self.set("preload", force.into())
-    }
-
-    /// The same for positive and for negative normal force.
-    pub fn preload_by_side(self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> Self {
-        self.set("preload", by_side(plus, minus))
-    }
-
-    /// Stiffness of the guide at each contact (N/m), for attainability.
-    pub fn stiffness(self, stiffness: impl Into<Quantity>) -> Self {
-        self.set("stiffness", stiffness.into())
-    }
-
     /// The handle.
     pub fn id(self) -> S {
         S::of(self.id, self.first)
     }
+}
+
+/// What a sliding joint has at all of its contacts, and one end of a block for itself.
+macro_rules! contact_properties {
+    ($self:ident: $receiver:ty) => {
+        /// Coefficient of kinetic friction. Required for every contact.
+        pub fn mu($self: $receiver, mu: impl Into<Quantity>) -> $receiver {
+            $self.set("mu", mu.into())
+        }
+
+        /// The same for positive and for negative normal force.
+        pub fn mu_by_side(
+            $self: $receiver,
+            plus: impl Into<Quantity>,
+            minus: impl Into<Quantity>,
+        ) -> $receiver {
+            $self.set("mu", by_side(plus, minus))
+        }
+
+        /// Coefficient of static friction. Default: that of kinetic friction.
+        pub fn mu_static($self: $receiver, mu: impl Into<Quantity>) -> $receiver {
+            $self.set("mu_static", mu.into())
+        }
+
+        /// Friction at zero normal force (N). Default: 0.
+        pub fn preload($self: $receiver, force: impl Into<Quantity>) -> $receiver {
+            $self.set("preload", force.into())
+        }
+
+        /// The same for positive and for negative normal force.
+        pub fn preload_by_side(
+            $self: $receiver,
+            plus: impl Into<Quantity>,
+            minus: impl Into<Quantity>,
+        ) -> $receiver {
+            $self.set("preload", by_side(plus, minus))
+        }
+
+        /// Stiffness of the guide at a contact (N/m), for attainability.
+        pub fn stiffness($self: $receiver, stiffness: impl Into<Quantity>) -> $receiver {
+            $self.set("stiffness", stiffness.into())
+        }
+    };
+}
+
+impl<S: SliderHandle> SliderBuilder<'_, S> {
+    contact_properties!(self: Self);
+}
+
+impl ContactBuilder<'_> {
+    contact_properties!(self: &mut Self);
 }
 
 /// What a block and a guided slider have and a pin has not.
@@ -262,39 +283,9 @@ impl ContactBuilder<'_> {
         self.set("carried_by", quantity::text("guide"))
     }
 
-    /// Coefficient of kinetic friction.
-    pub fn mu(&mut self, mu: impl Into<Quantity>) -> &mut Self {
-        self.set("mu", mu.into())
-    }
-
-    /// The same for positive and for negative normal force.
-    pub fn mu_by_side(&mut self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> &mut Self {
-        self.set("mu", by_side(plus, minus))
-    }
-
-    /// Coefficient of static friction.
-    pub fn mu_static(&mut self, mu: impl Into<Quantity>) -> &mut Self {
-        self.set("mu_static", mu.into())
-    }
-
-    /// Friction at zero normal force (N).
-    pub fn preload(&mut self, force: impl Into<Quantity>) -> &mut Self {
-        self.set("preload", force.into())
-    }
-
-    /// The same for positive and for negative normal force.
-    pub fn preload_by_side(&mut self, plus: impl Into<Quantity>, minus: impl Into<Quantity>) -> &mut Self {
-        self.set("preload", by_side(plus, minus))
-    }
-
     /// The preload's friction acts on the centre line. Default: at the pressed face.
     pub fn centred_preload(&mut self) -> &mut Self {
         self.set("preload_line", quantity::text("centre"))
-    }
-
-    /// Stiffness of the guide at this contact (N/m).
-    pub fn stiffness(&mut self, stiffness: impl Into<Quantity>) -> &mut Self {
-        self.set("stiffness", stiffness.into())
     }
 }
 

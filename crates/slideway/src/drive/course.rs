@@ -1,6 +1,6 @@
 //! The efforts over a parameter, a coordinate or friction.
 
-use super::efforts::Efforts;
+use super::efforts::{Efforts, GROWTH};
 use super::report::{Approach, BlowUp, CourseDirection, CourseRow, Sense};
 use super::state::growing_ends;
 use crate::fault::Faults;
@@ -17,8 +17,6 @@ const ROUNDING: f64 = 1e-12;
 const STEPS: usize = 500;
 /// Halvings between two values: down to neighbouring numbers.
 const HALVINGS: usize = 100;
-/// Growth towards a change of sign beyond which it leads through infinity.
-const GROWTH: f64 = 30.0;
 
 /// The efforts in one direction of motion, and what can be missed.
 ///
@@ -164,7 +162,7 @@ impl Tabulated<'_> {
         };
         let pressed =
             present.filter_map(|mode| Some(row(pattern(&mode.pattern), efforts.of(&mode.pattern)?)));
-        let between_faces = self.varied.states_between_faces((value, 1.0), None, self.work);
+        let between_faces = self.varied.states_between_faces(value, 1.0, None, self.work);
         let between_faces = between_faces
             .into_iter()
             .map(|state| row(state.pattern, state.drives.iter().map(|drive| drive.effort + 0.0).collect()));

@@ -13,8 +13,9 @@ use crate::solve::Stages;
 const NO_POWER: f64 = 1e-12;
 /// How near to an end growth is judged, as a fraction of the interval.
 const NEAR: [f64; 2] = [1e-5, 1e-7];
-/// Growth between these two places beyond which an unknown grows without bound.
-const GROWTH: f64 = 30.0;
+/// Growth between these two places beyond which an unknown grows without bound; towards a change of sign it
+/// then leads through infinity.
+pub(super) const GROWTH: f64 = 30.0;
 
 /// Everything that is known at one value.
 pub(super) struct Efforts {

@@ -40,18 +40,19 @@ pub(super) struct Singular {
 impl Factorization {
     /// Factors a square matrix.
     pub(super) fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
-        let scales = equilibration(&matrix);
-        Self::scaled(matrix, scales)
+        let (row_scale, column_scale) = equilibration(&matrix);
+        Self::scaled(matrix, row_scale, column_scale)
     }
 
     /// Factors a matrix that differs little from this one: its rows and columns have the same scales.
     pub(super) fn near(&self, matrix: DMatrix<f64>) -> Result<Self, Singular> {
-        Self::scaled(matrix, (self.row_scale.clone(), self.column_scale.clone()))
+        Self::scaled(matrix, self.row_scale.clone(), self.column_scale.clone())
     }
 
     fn scaled(
         matrix: DMatrix<f64>,
-        (row_scale, column_scale): (DVector<f64>, DVector<f64>),
+        row_scale: DVector<f64>,
+        column_scale: DVector<f64>,
     ) -> Result<Self, Singular> {
         if !matrix.iter().all(|entry| entry.is_finite()) {
             let nothing = DVector::zeros(matrix.ncols());
@@ -123,7 +124,7 @@ impl Factorization {
 
     /// Solutions for all right-hand sides, which stand side by side in each row.
     fn solve_once(&self, sides: &[f64], count: usize) -> Vec<f64> {
-        let mut solution = self.factors.solve((sides, self.row_scale.as_slice()), count);
+        let mut solution = self.factors.solve(sides, self.row_scale.as_slice(), count);
         for (row, scale) in solution.chunks_exact_mut(count.max(1)).zip(self.column_scale.as_slice()) {
             row.iter_mut().for_each(|value| *value *= scale);
         }
@@ -185,7 +186,7 @@ impl Factors {
 
     /// Solutions for several right-hand sides, which stand side by side in each row and are multiplied by its
     /// scale.
-    fn solve(&self, (sides, scales): (&[f64], &[f64]), count: usize) -> Vec<f64> {
+    fn solve(&self, sides: &[f64], scales: &[f64], count: usize) -> Vec<f64> {
         let size = self.rows.len();
         let mut work = Vec::with_capacity(size * count);
         for row in &self.rows {

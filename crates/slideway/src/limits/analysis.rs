@@ -48,7 +48,7 @@ impl Analysis {
 
     pub(super) fn report(&self, naming: &Naming) -> LimitsReport {
         let reversed = self.reversed.as_ref().map(|(_, found)| found);
-        answer::report(naming, &self.varied, self.range, (&self.found, reversed))
+        answer::report(naming, &self.varied, self.range, &self.found, reversed)
     }
 }
 

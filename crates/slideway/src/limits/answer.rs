@@ -147,7 +147,8 @@ pub(super) fn report(
     naming: &Naming,
     varied: &Varied,
     range: [f64; 2],
-    (found, reversed): (&ModesFound, Option<&ModesFound>),
+    found: &ModesFound,
+    reversed: Option<&ModesFound>,
 ) -> LimitsReport {
     let forwards = naming.direction(found);
     let reversed = reversed.map(|found| naming.direction(found));

@@ -43,7 +43,7 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound
     for (interval, known) in found.counts.iter().zip(&found.known) {
         let whole = [interval.from, interval.to];
         let parts = open(whole, known);
-        let states = |at: f64| varied.states_between_faces((at, 1.0), greatest, work).len();
+        let states = |at: f64| varied.states_between_faces(at, 1.0, greatest, work).len();
         let stretches: Vec<Stretch> =
             parts.iter().flat_map(|&part| stretches(part, candidates, &states)).collect();
         if parts.is_empty() {
@@ -74,7 +74,7 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound
     found.counts = counts;
     found.known = all_known;
     if is_open {
-        found.between_faces = single_values(varied, (greatest, zeros), found, work);
+        found.between_faces = single_values(varied, greatest, zeros, found, work);
     }
 }
 
@@ -82,7 +82,8 @@ pub(super) fn add(varied: &Varied, greatest: Option<f64>, found: &mut ModesFound
 /// forces, if these are known.
 fn single_values(
     varied: &Varied,
-    (greatest, zeros): (Option<f64>, Option<Vec<f64>>),
+    greatest: Option<f64>,
+    zeros: Option<Vec<f64>>,
     found: &ModesFound,
     work: Work<'_>,
 ) -> SingleValues {
@@ -90,7 +91,7 @@ fn single_values(
     let has_states = |at: f64| {
         let mut around = found.counts.iter().filter(|count| (count.from..=count.to).contains(&at));
         around.all(|count| count.gap_states == 0)
-            && !varied.states_between_faces((at, 1.0), greatest, work).is_empty()
+            && !varied.states_between_faces(at, 1.0, greatest, work).is_empty()
     };
     values.retain(|&at| has_states(at));
     SingleValues::At(values)

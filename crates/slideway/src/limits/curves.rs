@@ -10,7 +10,7 @@ use crate::attainability::ElasticGuides;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::DriveId;
-use crate::influence::{ContactFriction, Influence};
+use crate::influence::ContactFriction;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{Effort, Mechanism};
 use crate::model::Model;
@@ -18,7 +18,7 @@ use crate::modes::existence::{EndCause, ModeInterval};
 use crate::modes::{ContactState, Side};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
-use crate::solve::{Parts, friction, mode_problem, velocity_signs};
+use crate::solve::{Parts, ProblemData, Stages, friction, rougher};
 use nalgebra::DVector;
 
 /// Even steps in the interval of a mode.
@@ -208,10 +208,8 @@ fn places(mode: &ModeInterval) -> Vec<f64> {
 
 /// The stages at one value of what is varied.
 struct StateAt {
-    mechanism: Mechanism,
+    stages: Stages,
     equations: KineticEquations,
-    influence: Influence,
-    velocity_signs: DVector<f64>,
     parts: Parts,
 }
 
@@ -220,17 +218,12 @@ impl StateAt {
     /// Whatever `solve` refuses there.
     fn new(varied: &Varied, at: f64) -> Result<Self, Faults> {
         let (model, factor) = varied.model_at(at)?;
-        let mut mechanism = Mechanism::new(&model)?;
+        let mechanism = Mechanism::new(&model)?;
         let configuration = Configuration::new(&mechanism)?;
-        configuration.put_friction(&mut mechanism)?;
-        for contact in &mut mechanism.contacts {
-            contact.mu = contact.mu.map(|mu| mu * factor);
-        }
-        let equations = KineticEquations::new(&mechanism, &configuration)?;
-        let influence = Influence::new(&equations);
-        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        let parts = Parts::scaled(&mechanism, &influence, &velocity_signs, &|_| 1.0)?;
-        Ok(Self { mechanism, equations, influence, velocity_signs, parts })
+        let (mut stages, equations) = Stages::with_equations(mechanism, configuration)?;
+        stages.mechanism = rougher(&stages.mechanism, &|_| factor);
+        let parts = stages.parts(1.0)?;
+        Ok(Self { stages, equations, parts })
     }
 
     /// The values of a quantity in a mode; none where its equations are singular.
@@ -240,8 +233,9 @@ impl StateAt {
         let normal_force = DVector::from_iterator(pattern.len(), states().map(|(state, y)| state.sign() * y));
         let shares: Vec<Option<f64>> =
             states().map(|(state, share)| (*state == ContactState::Gap).then_some(*share)).collect();
-        let friction = friction(&self.mechanism, &self.velocity_signs, pattern, &normal_force, &shares);
-        let all = || self.influence.unknowns(&friction);
+        let ProblemData { mechanism, influence, velocity_signs } = self.stages.data();
+        let friction = friction(mechanism, velocity_signs, pattern, &normal_force, &shares);
+        let all = || influence.unknowns(&friction);
         Some(match quantity {
             Quantity::NormalForce => normal_force.iter().copied().collect(),
             Quantity::Friction => {
@@ -250,18 +244,17 @@ impl StateAt {
             Quantity::Acceleration => self.equations.coordinate_accelerations(&all()),
             Quantity::Effort => {
                 let unknowns = all();
-                let drives = (0..self.mechanism.drives.len()).map(DriveId);
-                drives.map(|drive| unknowns[self.influence.layout().effort(drive)]).collect()
+                let drives = (0..mechanism.drives.len()).map(DriveId);
+                drives.map(|drive| unknowns[influence.layout().effort(drive)]).collect()
             }
         })
     }
 
     fn verdict(&self, pattern: &[ContactState]) -> Verdict {
         let sides: Option<Vec<Side>> = pattern.iter().map(|state| state.side()).collect();
-        let problem = mode_problem(&self.mechanism, &self.influence, &self.velocity_signs);
-        match (sides, problem) {
+        match (sides, self.stages.data().problem()) {
             (Some(sides), Ok(problem)) => {
-                ElasticGuides::new(&self.mechanism, &self.equations, &problem).verdict_on(&sides)
+                ElasticGuides::new(&self.stages.mechanism, &self.equations, &problem).verdict_on(&sides)
             }
             _ => Verdict::NotComputed,
         }

@@ -182,7 +182,8 @@ impl Varied {
     /// end. States with a normal force above `greatest` do not count.
     pub(crate) fn states_between_faces(
         &self,
-        (value, rougher): (f64, f64),
+        value: f64,
+        rougher: f64,
         greatest: Option<f64>,
         work: Work<'_>,
     ) -> Vec<Solution> {
@@ -194,7 +195,7 @@ impl Varied {
             let mut goes_on = |_: &Progress| {
                 if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            states_between_faces(model, (stages, friction), greatest, &options, &mut goes_on)
+            states_between_faces(model, stages.rougher(friction), greatest, &options, &mut goes_on)
         };
         let model = self.model_at(value);
         let found = model

@@ -126,23 +126,23 @@ fn states(point: &Point) -> Option<States> {
     let parts = &point.parts;
     let problem = parts.problem().ok()?;
     let found: Solutions = enumerate(&problem, &Limits::default()).ok()?;
-    let stands = |sides: &[ContactState], force: &DVector<f64>, shares: &[Option<f64>]| {
-        !parts.tips(sides, force, shares)
+    // Those of a state without tipping, by the faces at which preloads rub.
+    let standing = |sides: &[ContactState], zero: &[usize], force: &DVector<f64>, shares: &[Option<f64>]| {
+        let mut faces = parts.faces(sides, zero);
+        faces.retain(|sides| !parts.tips(sides, force, shares));
+        faces.into_iter().map(|sides| pattern(&sides))
     };
     let none = vec![None; problem.contacts()];
     let mut states = States { gaps: point.between_faces.clone(), ..States::default() };
     for solution in &found.solutions {
         let sides: Vec<ContactState> = solution.pattern.iter().map(|&side| side.into()).collect();
-        if stands(&sides, &solution.normal_force, &none) {
-            states.solutions.push(pattern(&sides));
-        }
+        let zero = &solution.on_boundary;
+        states.solutions.extend(standing(&sides, zero, &solution.normal_force, &none));
     }
     for gap in &found.gaps {
         let mut shares = none.clone();
         gap.shares.iter().for_each(|share| shares[share.contact] = Some(share.lambda));
-        if stands(&gap.pattern, &gap.normal_force, &shares) {
-            states.gaps.push(pattern(&gap.pattern));
-        }
+        states.gaps.extend(standing(&gap.pattern, &gap.on_boundary, &gap.normal_force, &shares));
     }
     states.continuum = found.singular.iter().any(|mode| mode.set.is_continuum());
     Some(states)

@@ -119,7 +119,7 @@ impl Source {
         let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
         let mut goes_on =
             |_: &Progress| if work.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        let (at, options) = ((&stages, friction), SolveOptions::default());
+        let (at, options) = (stages.rougher(friction), SolveOptions::default());
         let states = states_between_faces(&model, at, None, &options, &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();
         Ok(Point { parts, between_faces })

@@ -1,8 +1,8 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, Event, Joint, JointKind, Load,
-    LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
+    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Joint, JointKind,
+    Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -263,8 +263,8 @@ impl<T: Real> Evaluation<'_, T> {
         }
     }
 
-    fn event(&self, event: &model::Event) -> Event<T> {
-        Event {
+    fn event(&self, event: &model::EventDefinition) -> EventDefinition<T> {
+        EventDefinition {
             name: event.name.clone(),
             place: event.place.clone(),
             zero_of: self.quantity(event.zero_of),

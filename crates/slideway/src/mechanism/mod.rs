@@ -43,7 +43,7 @@ pub struct Mechanism<T = f64> {
     /// The chosen coordinates.
     pub coordinates: Vec<Coordinate<T>>,
     /// What a motion is watched for.
-    pub events: Vec<Event<T>>,
+    pub events: Vec<EventDefinition<T>>,
     /// The diagonal of the rectangle around its points (m), as a unit of length; 1 if they all coincide.
     pub size: f64,
     parameters: Vec<T>,
@@ -308,7 +308,7 @@ pub enum Effort<T = f64> {
 
 /// Something that happens in a motion when a quantity passes through zero.
 #[derive(Debug, Clone)]
-pub struct Event<T = f64> {
+pub struct EventDefinition<T = f64> {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the model file.

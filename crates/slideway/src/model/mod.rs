@@ -91,7 +91,7 @@ pub struct Model {
     /// The chosen coordinates, in the order of the file.
     pub coordinates: Vec<Coordinate>,
     /// What a motion is watched for, in the order of the file.
-    pub events: Vec<Event>,
+    pub events: Vec<EventDefinition>,
     /// Every formula of the model.
     pub formulas: Arc<Vec<Formula>>,
     /// The parameters in an order in which each uses only those before it.
@@ -426,7 +426,7 @@ pub enum CoordinateKind {
 
 /// Something that happens in a motion when a quantity passes through zero.
 #[derive(Debug, Clone)]
-pub struct Event {
+pub struct EventDefinition {
     /// Its name.
     pub name: Arc<str>,
     /// Its entry in the file.

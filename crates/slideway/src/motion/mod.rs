@@ -42,7 +42,9 @@ mod told;
 mod tests;
 
 pub use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
-pub use decision::rules::{Continuation, Continuations, Decisions, HaltingImpulse, Hold, Instant};
+pub use decision::rules::{
+    Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
+};
 pub use decision::thorough::Thorough;
 pub use following::{simulate, simulate_with};
 pub use moving::cause::{Cause, CauseKind};

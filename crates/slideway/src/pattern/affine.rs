@@ -12,14 +12,14 @@ const NO_COEFFICIENT: f64 = 1e-12;
 
 /// An affine expression of the unknowns of equations.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Expression {
+pub(crate) struct AffineExpression {
     /// Unknowns and their coefficients; those of one unknown are added.
     pub(crate) terms: Vec<(usize, f64)>,
     /// The constant.
     pub(crate) constant: f64,
 }
 
-impl Expression {
+impl AffineExpression {
     /// So many times an unknown.
     pub(crate) fn unknown(index: usize, factor: f64) -> Self {
         Self { terms: vec![(index, factor)], constant: 0.0 }
@@ -119,7 +119,7 @@ impl AffineSet {
     }
 
     /// An expression of the unknowns as a function of what the equations leave open.
-    pub(crate) fn function(&self, expression: &Expression) -> Affine {
+    pub(crate) fn function(&self, expression: &AffineExpression) -> Affine {
         let mut coefficients = vec![0.0; self.dimension()];
         let mut constant = expression.constant;
         for &(column, factor) in &expression.terms {

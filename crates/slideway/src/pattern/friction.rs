@@ -1,7 +1,7 @@
 //! Friction of one contact: Coulomb's law at rest and while sliding, with preloads (theory, sections 1, 3 and
 //! 8).
 
-use super::{ContactPhase, Expression, JointPhase};
+use super::{AffineExpression, ContactPhase, JointPhase};
 use crate::ids::ContactId;
 use crate::mechanism::{Contact, Mechanism};
 use crate::model::PreloadLine;
@@ -28,9 +28,9 @@ pub(crate) struct Friction {
     law: Law,
     contact: ContactPhase,
     /// At the faces of positive and of negative normal force.
-    pub(crate) faces: [Expression; 2],
+    pub(crate) faces: [AffineExpression; 2],
     /// |N|; zero in a preload gap.
-    pub(crate) pressure: Expression,
+    pub(crate) pressure: AffineExpression,
     /// Unknown frictions of a contact that sticks: at the faces, and in the middle between them.
     held: [Option<usize>; 3],
     /// Share of the positive face in a preload gap that slips.
@@ -99,7 +99,7 @@ impl Friction {
     pub(crate) fn new(
         law: Law,
         (joint, contact): (JointPhase, ContactPhase),
-        pressure: Expression,
+        pressure: AffineExpression,
         mut unknown: impl FnMut() -> usize,
     ) -> Self {
         let mut friction =
@@ -113,7 +113,7 @@ impl Friction {
             (JointPhase::Sliding(sign), ContactPhase::PreloadGap) => {
                 let share = unknown();
                 friction.share = Some(share);
-                let share = Expression::unknown(share, 1.0);
+                let share = AffineExpression::unknown(share, 1.0);
                 let faces = friction.law.in_gap(sign);
                 friction.faces = faces.map(|[factor, constant]| affine(factor, &share).shifted(constant));
             }
@@ -152,30 +152,30 @@ impl Friction {
     }
 
     /// N, with its sign.
-    pub(crate) fn normal_force(&self) -> Expression {
+    pub(crate) fn normal_force(&self) -> AffineExpression {
         match self.contact {
             ContactPhase::Pressed(side) => self.pressure.times(side.sign()),
-            ContactPhase::PreloadGap => Expression::default(),
+            ContactPhase::PreloadGap => AffineExpression::default(),
         }
     }
 
     /// Every inequality `slack >= 0` of the contact, with these static friction coefficients. The friction of
     /// a joint that is to stick only at the end of an impulse opposes this sign of the sliding velocity.
-    pub(crate) fn bounds(&self, mu_static: [f64; 2], opposes: Option<f64>) -> Vec<(Bound, Expression)> {
+    pub(crate) fn bounds(&self, mu_static: [f64; 2], opposes: Option<f64>) -> Vec<(Bound, AffineExpression)> {
         let mut all = Vec::new();
         if self.contact != ContactPhase::PreloadGap {
             all.push((Bound::Pressure, self.pressure.clone()));
         }
         if let Some(share) = self.share {
-            all.push((Bound::Share, Expression::unknown(share, 1.0)));
-            all.push((Bound::Share, Expression::unknown(share, -1.0).shifted(1.0)));
+            all.push((Bound::Share, AffineExpression::unknown(share, 1.0)));
+            all.push((Bound::Share, AffineExpression::unknown(share, -1.0).shifted(1.0)));
         }
         all.extend(self.cone(mu_static, opposes).into_iter().map(|slack| (Bound::Friction, slack)));
         all
     }
 
     /// |F| <= mu_static |N| + F_0 of a contact that sticks.
-    fn cone(&self, mu_static: [f64; 2], opposes: Option<f64>) -> Vec<Expression> {
+    fn cone(&self, mu_static: [f64; 2], opposes: Option<f64>) -> Vec<AffineExpression> {
         let preload = self.law.preload;
         let limits = match (self.contact, self.held) {
             (ContactPhase::PreloadGap, [Some(plus), Some(minus), _]) => {
@@ -183,19 +183,19 @@ impl Friction {
             }
             // In the middle between the faces share F_0^+ + (1 - share) F_0^- is at most the greater of both.
             (ContactPhase::PreloadGap, _) => {
-                [preload[0], preload[1], preload[0].max(preload[1])].map(Expression::constant)
+                [preload[0], preload[1], preload[0].max(preload[1])].map(AffineExpression::constant)
             }
             (ContactPhase::Pressed(side), _) => {
                 let centred = self.law.line == PreloadLine::Centre;
                 let preload = preload[face(side)];
                 let by_pressure = affine(mu_static[face(side)], &self.pressure);
                 let at_face = by_pressure.shifted(if centred { 0.0 } else { preload });
-                [at_face.clone(), at_face, Expression::constant(preload)]
+                [at_face.clone(), at_face, AffineExpression::constant(preload)]
             }
         };
         let held = self.held.into_iter().zip(limits).filter_map(|(unknown, limit)| Some((unknown?, limit)));
         held.flat_map(|(unknown, limit)| {
-            let friction = |sign: f64| Expression::unknown(unknown, sign);
+            let friction = |sign: f64| AffineExpression::unknown(unknown, sign);
             match opposes {
                 None => [1.0, -1.0].map(|sign| limit.clone().plus(1.0, &friction(sign))),
                 Some(sign) => [friction(sign), limit.plus(1.0, &friction(-sign))],
@@ -206,29 +206,38 @@ impl Friction {
 }
 
 /// F^+/F_0^+ + F^-/F_0^- <= 1 for all signs, in units of the lesser preload.
-fn between_faces([plus, minus]: [usize; 2], preload: [f64; 2]) -> Vec<Expression> {
+fn between_faces([plus, minus]: [usize; 2], preload: [f64; 2]) -> Vec<AffineExpression> {
     let least = preload[0].min(preload[1]);
     let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
     let corner = |(first, second): (f64, f64)| {
-        Expression::unknown(plus, first * least / preload[0])
-            .plus(second * least / preload[1], &Expression::unknown(minus, 1.0))
+        AffineExpression::unknown(plus, first * least / preload[0])
+            .plus(second * least / preload[1], &AffineExpression::unknown(minus, 1.0))
             .shifted(least)
     };
     signs.into_iter().map(corner).collect()
 }
 
+/// The couple of a guided slider.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GuidedCouple {
+    /// Its place among the unknowns.
+    pub(crate) unknown: usize,
+    /// Half the length of the pressed face (m).
+    pub(crate) half_length: f64,
+}
+
 /// |C| <= |N| L/2 of a guided slider: the slacks of both signs of the couple.
 pub(crate) fn without_tipping(
-    pressure: &Expression,
-    couple: &Expression,
+    pressure: &AffineExpression,
+    couple: &AffineExpression,
     half_length: f64,
-) -> [Expression; 2] {
+) -> [AffineExpression; 2] {
     [1.0, -1.0].map(|sign| pressure.times(half_length).plus(sign, couple))
 }
 
 /// So many times an expression, without terms that are zero.
-fn affine(factor: f64, expression: &Expression) -> Expression {
-    if factor == 0.0 { Expression::default() } else { expression.times(factor) }
+fn affine(factor: f64, expression: &AffineExpression) -> AffineExpression {
+    if factor == 0.0 { AffineExpression::default() } else { expression.times(factor) }
 }
 
 /// Which of two versions belongs to a side.

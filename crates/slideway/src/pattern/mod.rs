@@ -23,7 +23,7 @@ pub(crate) mod phase;
 mod program;
 mod simplex;
 
-pub(crate) use affine::{Affine, AffineSet, Expression};
-pub(crate) use friction::{Bound, Friction, Law, face, without_tipping};
+pub(crate) use affine::{Affine, AffineExpression, AffineSet};
+pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipping};
 pub(crate) use phase::{ContactPhase, JointPhase, Phase};
 pub(crate) use program::{Region, Unsolved};

@@ -1,7 +1,8 @@
 //! The report of a raw problem as text for people.
 
 use super::{
-    BeyondRange, ContinuumPart, RawKind, RawReport, RawShares, RawSolution, Unknowns, WithinRounding,
+    BeyondRange, ContinuumPart, EveryAnswer, EveryRightHandSide, RawKind, RawReport, RawShares, RawSolution,
+    Unknowns, WithinRounding, WithinRoundingAnswer,
 };
 use crate::report::number::number;
 use crate::report::page::Page;
@@ -22,6 +23,7 @@ impl Report for RawReport {
         text.heading();
         text.verdict();
         text.within_rounding();
+        text.every_right_hand_side();
         text.solutions("Solution", &self.totals[0], &self.solutions);
         text.solutions("Preload gap", &self.totals[1], &self.gap_states);
         text.continua();
@@ -85,7 +87,7 @@ impl Text<'_> {
         };
         let rounding = format!("rounding of the numbers (relative {relative:e})");
         let Some(unknowns) = unknowns else {
-            self.line(&if *answer == "none" {
+            self.line(&if *answer == WithinRoundingAnswer::None {
                 format!("Within {rounding} there is none, either: proven.")
             } else {
                 format!("Whether there is one within {rounding} is undecided.")
@@ -95,6 +97,35 @@ impl Text<'_> {
         self.line(&format!("Hint: within {rounding} there is one:"));
         self.line("");
         self.lines(&rows(self.report.kind, unknowns, &[]));
+    }
+
+    /// What is known of all right-hand sides.
+    fn every_right_hand_side(&mut self) {
+        let Some(EveryRightHandSide { answer, patterns, reason, .. }) = &self.report.every_right_hand_side
+        else {
+            return;
+        };
+        let kind = self.report.kind;
+        let vector = kind.required().last().copied().unwrap_or_default();
+        let shown = patterns.join(" and ");
+        let (is, is_not) = match kind {
+            RawKind::Lcp => (" (M is a P-matrix)", " (M is not a P-matrix)"),
+            _ => ("", ""),
+        };
+        self.line(&match answer {
+            EveryAnswer::One => format!("For every {vector} there is exactly one solution{is}: proven."),
+            EveryAnswer::NotOne => format!(
+                "For some {vector} there are several solutions or none{is_not}: the oriented determinants of the \
+                 patterns {shown} have opposite signs."
+            ),
+            EveryAnswer::Singular => format!(
+                "For some {vector} there is no solution or infinitely many{is_not}: the matrix of the pattern \
+                 {shown} is singular."
+            ),
+            EveryAnswer::InDoubt | EveryAnswer::NotComputed | EveryAnswer::Jumps => {
+                format!("Whether there is exactly one solution for every {vector} is not decided: {reason}.")
+            }
+        });
     }
 
     /// What there is besides continua, and what is part of them.
@@ -278,7 +309,7 @@ fn rows(kind: RawKind, unknowns: &Unknowns, beyond_range: &[BeyondRange]) -> Str
 
 /// A value as text; of an unknown, by name and number, that has none as it is told beside.
 fn value(value: f64, (name, index): (&str, usize), beyond_range: &[BeyondRange]) -> String {
-    let is_it = |one: &&BeyondRange| one.name == name && one.index == index;
+    let is_it = |one: &&BeyondRange| one.name.as_str() == name && one.index == index;
     match beyond_range.iter().find(is_it) {
         Some(one) => one.value.clone(),
         None if value.is_nan() => "beyond the range of numbers".to_owned(),

@@ -18,6 +18,17 @@ pub enum Verdict {
     NotComputed,
 }
 
+/// The unit of the eigenvalues of the fast motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum EigenvalueUnit {
+    /// The model gives the stiffness of every contact.
+    #[serde(rename = "1/s^2")]
+    PerSecondSquared,
+    /// For a stiffness of 1 N/m at every contact.
+    #[serde(rename = "1/kg")]
+    PerKilogram,
+}
+
 /// Attainability of a solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -31,8 +42,8 @@ pub struct Attainability {
     /// ascending. Those of `n` rigid motions (`n - d` with drives), which are zero, and of motions without
     /// mass are left out.
     pub eigenvalues: Vec<[f64; 2]>,
-    /// "1/s^2" if the model gives the stiffness of every contact; else "1/kg", for 1 N/m at every contact.
-    pub eigenvalue_unit: &'static str,
+    /// Their unit.
+    pub eigenvalue_unit: EigenvalueUnit,
     /// Number of motions without mass that elastic guides allow; their masses tend to zero from above.
     pub massless_motions: usize,
     /// Whether the verdict changes when the stiffness of contacts varies by a factor of 10 up or down; absent
@@ -80,7 +91,7 @@ impl Attainability {
             verdict,
             reason: Some(reason.to_owned()),
             eigenvalues: Vec::new(),
-            eigenvalue_unit: "1/kg",
+            eigenvalue_unit: EigenvalueUnit::PerKilogram,
             massless_motions: 0,
             depends_on_stiffness: None,
             depends_on_mass_ratios: None,

@@ -13,7 +13,7 @@ pub(crate) mod page;
 pub(crate) mod table;
 mod text;
 
-pub use attainability::{Attainability, Fate, FlutterDamping, Verdict};
+pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::indented;

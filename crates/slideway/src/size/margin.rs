@@ -108,7 +108,7 @@ impl MarginQuestion<'_> {
 /// there is no answer.
 fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin, Faults> {
     let margin = locking_margin(&varied.growing_friction(value)?, work)?;
-    let is_between = |rougher: f64| !varied.states_between_faces((value, rougher), None, work).is_empty();
+    let is_between = |rougher: f64| !varied.states_between_faces(value, rougher, None, work).is_empty();
     // Where it is locked, from the friction to which it would have to fall.
     let from = margin.factor().unwrap_or(1.0).min(1.0);
     let tried = if from < 1.0 { TRIED } else { 0 };

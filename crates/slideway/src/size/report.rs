@@ -1,7 +1,7 @@
 //! What is told of a design: plain data, which are the JSON output.
 
 use super::margin::{Margin, MarginQuestion};
-use super::search::{Cause, End, SizesFound, Tried};
+use super::search::{End, MetCause, SizesFound, Tried};
 use super::words::{self, Words};
 use super::{Against, SizeOptions};
 use crate::limits::VariedQuantity;
@@ -170,7 +170,7 @@ pub(super) fn report(model: &Model, options: &SizeOptions, sought: &Sought<'_>) 
 
 fn interval([from, to]: &[End; 2]) -> MetInterval {
     let jumps_to = |end: &End| match end.cause {
-        Cause::Jump(margin) => margin.factor(),
+        MetCause::Jump(margin) => margin.factor(),
         _ => None,
     };
     MetInterval {
@@ -185,14 +185,14 @@ fn interval([from, to]: &[End; 2]) -> MetInterval {
 
 fn cause(end: &End) -> MetEnd {
     match end.cause {
-        Cause::Range => MetEnd::Range,
-        Cause::Margin => MetEnd::Margin,
-        Cause::Jump(_) => MetEnd::Jump,
-        Cause::NoPosition => MetEnd::NoPosition,
+        MetCause::Range => MetEnd::Range,
+        MetCause::Margin => MetEnd::Margin,
+        MetCause::Jump(_) => MetEnd::Jump,
+        MetCause::NoPosition => MetEnd::NoPosition,
     }
 }
 
-fn gap(gap: &super::search::Gap) -> RangeWithoutPosition {
+fn gap(gap: &super::search::SizeGap) -> RangeWithoutPosition {
     let reason = gap.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.to_string());
     RangeWithoutPosition { from: gap.from, to: gap.to, reason }
 }
@@ -216,7 +216,7 @@ fn samples(found: &SizesFound, steps: usize, wanted: f64) -> Vec<Sample> {
         (index - row).abs() < 1e-6
     };
     let mut samples: Vec<Sample> = found.places.iter().filter(is_row).map(sample).collect();
-    let exact = found.met.iter().flatten().filter(|end| end.cause == Cause::Margin);
+    let exact = found.met.iter().flatten().filter(|end| end.cause == MetCause::Margin);
     samples.extend(exact.map(|end| Sample { at: end.at, is: SampleKind::Finite, margin: Some(wanted) }));
     samples.sort_by(|one, other| one.at.total_cmp(&other.at));
     samples.dedup_by(|next, kept| next.at == kept.at);

@@ -23,7 +23,7 @@ pub(super) struct Tried {
 
 /// Why an interval ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Cause {
+pub(super) enum MetCause {
     /// The range ends.
     Range,
     /// The margin is just met.
@@ -38,11 +38,11 @@ pub(super) enum Cause {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct End {
     pub(super) at: f64,
-    pub(super) cause: Cause,
+    pub(super) cause: MetCause,
 }
 
 /// A range without a position, and why.
-pub(super) struct Gap {
+pub(super) struct SizeGap {
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) faults: Faults,
@@ -54,7 +54,7 @@ pub(super) struct SizesFound {
     pub(super) places: Vec<Tried>,
     /// Where the margin is met.
     pub(super) met: Vec<[End; 2]>,
-    pub(super) gaps: Vec<Gap>,
+    pub(super) gaps: Vec<SizeGap>,
 }
 
 /// A search over a range.
@@ -147,7 +147,7 @@ impl MarginSearch<'_> {
             match (self.is_met(place), start) {
                 (true, None) => {
                     start = Some(match index.checked_sub(1) {
-                        None => End { at: place.at, cause: Cause::Range },
+                        None => End { at: place.at, cause: MetCause::Range },
                         Some(before) => self.end(place.at, places[before].at),
                     });
                 }
@@ -159,7 +159,7 @@ impl MarginSearch<'_> {
             }
         }
         if let (Some(from), Some(last)) = (start, places.last()) {
-            intervals.push([from, End { at: last.at, cause: Cause::Range }]);
+            intervals.push([from, End { at: last.at, cause: MetCause::Range }]);
         }
         intervals
     }
@@ -170,16 +170,16 @@ impl MarginSearch<'_> {
         let cause = match (self.place(near).margin, self.place(beyond).margin) {
             (Some(one), Some(other)) => {
                 let change = (one.demand(self.wanted) - other.demand(self.wanted)).abs();
-                if change > JUMP { Cause::Jump(other) } else { Cause::Margin }
+                if change > JUMP { MetCause::Jump(other) } else { MetCause::Margin }
             }
-            _ => Cause::NoPosition,
+            _ => MetCause::NoPosition,
         };
         End { at: near, cause }
     }
 
     /// The ranges in which the mechanism cannot be assembled or solved.
-    fn gaps(&self, places: &[Tried]) -> Vec<Gap> {
-        let mut gaps: Vec<Gap> = Vec::new();
+    fn gaps(&self, places: &[Tried]) -> Vec<SizeGap> {
+        let mut gaps: Vec<SizeGap> = Vec::new();
         let has_position = |at: f64| self.refined(at).is_ok();
         for (index, place) in places.iter().enumerate().filter(|(_, place)| place.margin.is_none()) {
             let edge = |neighbour: Option<&Tried>| match neighbour {
@@ -194,7 +194,7 @@ impl MarginSearch<'_> {
                 Some(last) if before.is_some_and(|before| before.margin.is_none()) => last.to = to,
                 _ => {
                     let faults = self.refined(place.at).err().unwrap_or_default();
-                    gaps.push(Gap { from: edge(before), to, faults });
+                    gaps.push(SizeGap { from: edge(before), to, faults });
                 }
             }
         }

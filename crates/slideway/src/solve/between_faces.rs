@@ -1,6 +1,6 @@
 //! States in which a guided slider is between its faces and no sign pattern tells it ([`super::faces`]).
 
-use super::parts::Stages;
+use super::stages::RougherStages;
 use super::{SolveOptions, solve_with_friction};
 use crate::fault::Faults;
 use crate::model::Model;
@@ -8,23 +8,22 @@ use crate::progress::Callback;
 use crate::report::Solution;
 
 /// The states with `N = 0` and `C = 0` at a guided slider, whose preload then rubs on both faces, in a model
-/// and its stages with all coefficients of friction multiplied by a factor. Those with a normal force above
-/// `greatest` (N) do not count.
+/// and its stages with more or less friction. Those with a normal force above `greatest` (N) do not count.
 ///
 /// # Errors
 /// Whatever `solve` refuses.
 pub(crate) fn states_between_faces(
     model: &Model,
-    (stages, friction): (&Stages, f64),
+    rougher: RougherStages<'_>,
     greatest: Option<f64>,
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<Vec<Solution>, Faults> {
-    let free = stages.parts(friction)?.with_free_faces();
+    let free = rougher.stages.parts(rougher.factor)?.with_free_faces();
     if free.is_empty() {
         return Ok(Vec::new());
     }
-    let mut report = solve_with_friction(model, (stages, friction), options, progress)?;
+    let mut report = solve_with_friction(model, rougher, options, progress)?;
     let greatest = greatest.unwrap_or(f64::INFINITY);
     report.preload_gap_states.retain(|state| {
         free.iter().any(|&contact| state.contacts[contact].preload_share.is_some())

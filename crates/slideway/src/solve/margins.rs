@@ -1,16 +1,13 @@
 //! How far friction may grow before the answer changes.
 
-use super::mode_problem::has_free_face;
-use super::parts::Parts;
+use super::stages::ProblemData;
 use super::state::pattern;
 use crate::fault::Faults;
-use crate::influence::Influence;
 use crate::mechanism::Mechanism;
 use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeInterval, ModeProblemLine, counts,
 };
 use crate::report::{self, CriticalContact, Margins, SolveReport};
-use nalgebra::DVector;
 
 /// The most patterns for which margins are computed.
 const PATTERNS: u64 = 256;
@@ -20,17 +17,12 @@ pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
 pub(crate) const AT_ONCE: f64 = 1e-9;
 
 /// Adds the margins to a report, if there are few enough modes, and each can be followed.
-pub(super) fn add(
-    report: &mut SolveReport,
-    mechanism: &Mechanism,
-    influence: &Influence,
-    velocity_signs: &DVector<f64>,
-) {
-    let friction = Friction { mechanism, influence, velocity_signs };
-    let Some(all) = friction.along(&|_| true) else { return };
+pub(super) fn add(report: &mut SolveReport, data: ProblemData<'_>) {
+    let Some(all) = Growth::along(data, &|_| true) else { return };
+    let mechanism = data.mechanism;
     // A guided slider between its faces, or just at one of them, hangs on a normal force that is zero: no
     // mode that could be followed.
-    let is_free = |k: usize| has_free_face(mechanism, &all.line.has_jump, k);
+    let is_free = |k: usize| data.free_face(&all.line.has_jump, k).is_some();
     let hangs =
         |state: &report::Solution| state.signs.iter().enumerate().any(|(k, sign)| *sign == 0 && is_free(k));
     if report.solutions.iter().chain(&report.preload_gap_states).any(hangs) {
@@ -44,15 +36,8 @@ pub(super) fn add(
         no_solution: all.no_solution(),
         solutions_again: all.solutions_again(),
         uniqueness: all.uniqueness(),
-        critical_contact: friction.critical_contact(),
+        critical_contact: critical_contact(data),
     });
-}
-
-/// A mechanism whose friction grows.
-struct Friction<'a> {
-    mechanism: &'a Mechanism,
-    influence: &'a Influence,
-    velocity_signs: &'a DVector<f64>,
 }
 
 /// The modes as friction grows by a factor.
@@ -62,37 +47,33 @@ struct Growth {
     counts: Vec<CountInterval>,
 }
 
-impl Friction<'_> {
-    fn line(&self, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
-        let at = |factor: f64| {
-            let factor = |k: usize| if grows(k) { factor } else { 1.0 };
-            Parts::scaled(self.mechanism, self.influence, self.velocity_signs, &factor)
-        };
-        Ok(at(0.0)?.line_to(&at(1.0)?))
-    }
+/// The contact whose friction alone changes the number of solutions at the smallest factor.
+fn critical_contact(data: ProblemData<'_>) -> Option<CriticalContact> {
+    let contacts = data.mechanism.contacts.iter().enumerate();
+    let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2]);
+    let factor = |(k, contact): (usize, &crate::mechanism::Contact)| {
+        let factor = Growth::along(data, &|other| other == k)?.another_count()?;
+        Some(CriticalContact { contact: contact.name.to_string(), factor })
+    };
+    rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
+}
 
-    /// The modes while the friction of some contacts grows; none past the limit of work.
-    fn along(&self, grows: &dyn Fn(usize) -> bool) -> Option<Growth> {
-        let line = self.line(grows).ok()?;
-        let options = ExistenceOptions { range: GROWING, greatest_normal_force: None, patterns: PATTERNS };
-        let existence = line.existence(&options).ok()?;
-        let counts = counts(&line, &existence, GROWING);
-        Some(Growth { line, existence, counts })
-    }
-
-    /// The contact whose friction alone changes the number of solutions at the smallest factor.
-    fn critical_contact(&self) -> Option<CriticalContact> {
-        let contacts = self.mechanism.contacts.iter().enumerate();
-        let rough = contacts.filter(|(_, contact)| contact.mu != [0.0; 2]);
-        let factor = |(k, contact): (usize, &crate::mechanism::Contact)| {
-            let factor = self.along(&|other| other == k)?.another_count()?;
-            Some(CriticalContact { contact: contact.name.to_string(), factor })
-        };
-        rough.filter_map(factor).min_by(|one, other| one.factor.total_cmp(&other.factor))
-    }
+/// From no friction of some contacts (`t = 0`) to their present friction (`t = 1`).
+fn line(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Result<ModeProblemLine, Faults> {
+    let at = |factor: f64| data.scaled(&|k: usize| if grows(k) { factor } else { 1.0 });
+    Ok(at(0.0)?.line_to(&at(1.0)?))
 }
 
 impl Growth {
+    /// The modes while the friction of some contacts grows; none past the limit of work.
+    fn along(data: ProblemData<'_>, grows: &dyn Fn(usize) -> bool) -> Option<Self> {
+        let line = line(data, grows).ok()?;
+        let options = ExistenceOptions { range: GROWING, greatest_normal_force: None, patterns: PATTERNS };
+        let existence = line.existence(&options).ok()?;
+        let counts = counts(&line, &existence, GROWING);
+        Some(Self { line, existence, counts })
+    }
+
     /// The factor up to which every load has exactly one solution; none if there is no such factor, or with
     /// jumps.
     fn uniqueness(&self) -> Option<f64> {

@@ -29,6 +29,7 @@ mod friction;
 mod margins;
 mod mode_problem;
 mod parts;
+mod stages;
 mod state;
 mod trail;
 mod uncertainty;
@@ -42,7 +43,8 @@ pub(crate) use mode_problem::{
     NO_INFLUENCE, SAME_COLUMN, check_size, influence_coefficients, preload_columns, sides, sliding_signs,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
-pub(crate) use parts::{Parts, Stages};
+pub(crate) use parts::Parts;
+pub(crate) use stages::{ProblemData, Stages, rougher};
 pub(crate) use state::{pattern, signs};
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
@@ -52,15 +54,12 @@ pub use words::mode_in_words;
 use crate::configuration::Configuration;
 use crate::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};
 use crate::fault::Faults;
-use crate::influence::Influence;
 use crate::interval::Interval;
-use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::Callback;
 use crate::report::{SolveReport, finite};
-use nalgebra::DVector;
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -128,23 +127,20 @@ pub fn solve_with(
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
-    let mut mechanism = Mechanism::new(model)?;
+    let mechanism = Mechanism::new(model)?;
     check_size(&mechanism)?;
     let configuration = Configuration::new(&mechanism)?;
-    configuration.put_friction(&mut mechanism)?;
-    let equations = KineticEquations::new(&mechanism, &configuration)?;
-    let influence = Influence::new(&equations);
-    let velocity_signs = velocity_signs(&mechanism, &configuration)?;
+    let (stages, equations) = Stages::with_equations(mechanism, configuration)?;
     let ranges = model.ranges()?;
-    let enclosed = enclosure(model, &middle(&ranges), &mechanism, &configuration);
-    let stated = (&mechanism, &influence, &velocity_signs);
-    let (result, jumps) = searched(&enclosed, stated, &options.search, progress)?;
+    let Stages { mechanism, configuration, influence, velocity_signs, .. } = &stages;
+    let enclosed = enclosure(model, &middle(&ranges), mechanism, configuration);
+    let (result, jumps) = searched(&enclosed, stages.data(), &options.search, progress)?;
     let answer = answer::Answer {
-        mechanism: &mechanism,
-        configuration: &configuration,
+        mechanism,
+        configuration,
         equations: &equations,
-        influence: &influence,
-        velocity_signs: &velocity_signs,
+        influence,
+        velocity_signs,
         jumps,
         enclosed: enclosed.as_ref().ok(),
     };
@@ -154,7 +150,7 @@ pub fn solve_with(
         most: options.most,
     })?;
     if options.margins {
-        margins::add(&mut report, &mechanism, &influence, &velocity_signs);
+        margins::add(&mut report, stages.data());
     }
     report.uncertainty = answer.uncertainty(model, &ranges, options, progress);
     finite(report)
@@ -167,7 +163,7 @@ pub fn solve_with(
 /// Numbers beyond the range of floating point.
 fn searched(
     enclosed: &Result<EnclosedModeProblem, NotEnclosed>,
-    (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
+    data: ProblemData<'_>,
     options: &SearchOptions,
     progress: &mut Callback<'_>,
 ) -> Result<(SearchResult, Vec<bool>), Faults> {
@@ -175,7 +171,7 @@ fn searched(
         let jumps = enclosed.problem.centre().jumps_of_contacts();
         return Ok((search(&enclosed.problem, options, progress), jumps));
     }
-    let problem = mode_problem(mechanism, influence, velocity_signs)?;
+    let problem = data.problem()?;
     Ok((search(&problem, options, progress), problem.jumps_of_contacts()))
 }
 

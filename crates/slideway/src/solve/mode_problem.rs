@@ -134,9 +134,3 @@ pub(crate) fn check_size(mechanism: &Mechanism) -> Result<(), Faults> {
     }
     Ok(())
 }
-
-/// Whether the preload of a contact rubs on a face that the mode problem does not tell: its friction jumps
-/// with the side of the contact, but no normal force with it, as `has_jump` says of each contact.
-pub(super) fn has_free_face(mechanism: &Mechanism, has_jump: &[bool], contact: usize) -> bool {
-    mechanism.preload_jumps(ContactId(contact)) && !has_jump[contact]
-}

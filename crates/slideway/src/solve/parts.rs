@@ -1,14 +1,12 @@
 //! The mode problem of a model in numbers, with the couples of its guided sliders.
 
-use super::mode_problem::{check_size, mode_problem, velocity_signs};
-use super::trail::Trail;
-use crate::configuration::{Configuration, Follower};
-use crate::fault::Faults;
-use crate::ids::{DriveId, JointId};
+use super::faces::{FreeFace, with_either_side};
+use super::stages::ProblemData;
+use crate::ids::JointId;
 use crate::influence::Influence;
-use crate::kinetics::{Accuracy, Influences, KineticEquations, Reaction};
+use crate::kinetics::{Accuracy, Reaction};
 use crate::mechanism::{COUPLE_TOLERANCE, JointKind, Mechanism};
-use crate::model::{Model, PreloadLine, SliderKind};
+use crate::model::{PreloadLine, SliderKind};
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::screen::{MOST_CONTACTS, Screen, SmallProblem};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, Side};
@@ -26,111 +24,13 @@ pub(crate) struct Parts {
     right_hand_side: DVector<f64>,
     bounds: Vec<OutputBound>,
     has_jump: Vec<bool>,
-}
-
-/// A model in its state, ready for its mode problem.
-pub(crate) struct Stages {
-    pub(crate) mechanism: Mechanism,
-    pub(crate) configuration: Configuration,
-    pub(crate) influence: Influence,
-    pub(crate) velocity_signs: DVector<f64>,
-    pub(crate) accuracy: Accuracy,
-}
-
-impl Stages {
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
-        Self::following(&mut Follower::default(), Mechanism::new(model)?)
-    }
-
-    /// Those of a mechanism, its positions from those of the last ones if these are near.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn following(follower: &mut Follower, mut mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
-        let configuration = follower.configuration(&mechanism)?;
-        configuration.put_friction(&mut mechanism)?;
-        let equations = KineticEquations::new(&mechanism, &configuration)?;
-        Self::of(mechanism, configuration, equations.influences())
-    }
-
-    /// The same with the equations, too, from the states of the last ones if these are near.
-    ///
-    /// # Errors
-    /// Whatever `solve` refuses.
-    pub(crate) fn along(trail: &mut Trail, mut mechanism: Mechanism) -> Result<Self, Faults> {
-        check_size(&mechanism)?;
-        let (configuration, influences) = trail.state(&mechanism)?;
-        configuration.put_friction(&mut mechanism)?;
-        Self::of(mechanism, configuration, influences)
-    }
-
-    fn of(
-        mechanism: Mechanism,
-        configuration: Configuration,
-        influences: Influences,
-    ) -> Result<Self, Faults> {
-        let accuracy = influences.accuracy();
-        let influence = Influence::of(influences);
-        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
-        Ok(Self { mechanism, configuration, influence, velocity_signs, accuracy })
-    }
-
-    /// The mode problem with every coefficient of friction multiplied by a factor.
-    ///
-    /// # Errors
-    /// A fault if a number is beyond the range of floating point.
-    pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
-        Parts::scaled(&self.mechanism, &self.influence, &self.velocity_signs, &|_| friction)
-    }
-
-    /// The same with the efforts of the drives as further outputs, behind the couples.
-    ///
-    /// # Errors
-    /// As [`Stages::parts`].
-    pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
-        let mechanism = rougher(&self.mechanism, &|_| friction);
-        let problem = mode_problem(&mechanism, &self.influence, &self.velocity_signs)?;
-        let drives = 0..mechanism.drives.len();
-        let efforts: Vec<usize> =
-            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
-        Ok(Parts::new((&mechanism, &self.influence, &self.velocity_signs), &problem, &efforts))
-    }
-}
-
-/// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
-pub(super) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
-    let mut mechanism = mechanism.clone();
-    for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
-        contact.mu = contact.mu.map(|mu| mu * factor(k));
-    }
-    mechanism
+    free_faces: Vec<Option<FreeFace>>,
 }
 
 impl Parts {
-    /// The mode problem with the coefficients of friction of each contact multiplied by a factor of its own.
-    ///
-    /// # Errors
-    /// A fault if a number is beyond the range of floating point.
-    pub(crate) fn scaled(
-        mechanism: &Mechanism,
-        influence: &Influence,
-        velocity_signs: &DVector<f64>,
-        factor: &dyn Fn(usize) -> f64,
-    ) -> Result<Self, Faults> {
-        let mechanism = rougher(mechanism, factor);
-        let problem = mode_problem(&mechanism, influence, velocity_signs)?;
-        Ok(Self::new((&mechanism, influence, velocity_signs), &problem, &[]))
-    }
-
     /// The numbers of a mode problem, with the couples and then these unknowns as outputs.
-    fn new(
-        (mechanism, influence, velocity_signs): (&Mechanism, &Influence, &DVector<f64>),
-        problem: &ModeProblem,
-        others: &[usize],
-    ) -> Self {
+    pub(super) fn new(data: ProblemData<'_>, problem: &ModeProblem, others: &[usize]) -> Self {
+        let ProblemData { mechanism, influence, velocity_signs } = data;
         let contacts = problem.contacts();
         let couples = couples(mechanism, influence);
         let outputs: Vec<usize> = couples.iter().map(|(_, row)| *row).chain(others.iter().copied()).collect();
@@ -167,12 +67,14 @@ impl Parts {
                 influence.frictionless[outputs[row - contacts]]
             }
         });
+        let has_jump = problem.jumps_of_contacts();
         Self {
             columns: BySide { positive: cp, negative: cn },
             jumps: BySide { positive: dp, negative: dn },
             right_hand_side,
             bounds: couples.into_iter().map(|(bound, _)| bound).collect(),
-            has_jump: (0..contacts).map(|contact| problem.has_jump(contact)).collect(),
+            free_faces: (0..contacts).map(|contact| data.free_face(&has_jump, contact)).collect(),
+            has_jump,
         }
     }
 
@@ -193,7 +95,19 @@ impl Parts {
             right_hand_side: [self.right_hand_side.clone(), slope],
             bounds: self.bounds.clone(),
             has_jump: self.has_jump.iter().zip(&end.has_jump).map(|(one, other)| *one || *other).collect(),
+            sides_differ: (0..self.free_faces.len())
+                .map(|k| free_face([self, end].into_iter(), k) == Some(FreeFace::Nothing))
+                .collect(),
         }
+    }
+
+    /// The patterns of a state by the faces at which preloads rub, where nothing tells it; `zero` has its
+    /// contacts without normal force.
+    pub(crate) fn faces(&self, pattern: &[ContactState], zero: &[usize]) -> Vec<Vec<ContactState>> {
+        let is_free =
+            |&k: &usize| pattern[k] != ContactState::Gap && self.free_faces[k] == Some(FreeFace::Nothing);
+        let free: Vec<usize> = zero.iter().copied().filter(is_free).collect();
+        with_either_side(pattern, &free)
     }
 
     /// The sum of others with these weights, of which there is at least one; none if they are not of one
@@ -216,6 +130,11 @@ impl Parts {
         each(|parts| &mut parts.columns.negative, |parts| &parts.columns.negative, &mut sum);
         each(|parts| &mut parts.jumps.positive, |parts| &parts.jumps.positive, &mut sum);
         each(|parts| &mut parts.jumps.negative, |parts| &parts.jumps.negative, &mut sum);
+        let all = || weighted.iter().map(|(_, parts)| *parts);
+        for k in 0..sum.has_jump.len() {
+            sum.has_jump[k] = all().any(|parts| parts.has_jump[k]);
+            sum.free_faces[k] = free_face(all(), k);
+        }
         sum.right_hand_side *= *weight;
         others
             .iter()
@@ -299,17 +218,11 @@ impl Parts {
         Screen::new(contacts).states(&problem, accuracy.part).is_ok()
     }
 
-    /// The contacts of guided sliders with a free face
-    /// ([`has_free_face`](super::mode_problem::has_free_face)) at which their preload changes the couple:
-    /// only with one of these may there be a state between its faces that no sign pattern tells.
+    /// The contacts of guided sliders whose couple alone tells at which face their preload rubs: only with
+    /// one of these may there be a state between its faces that no sign pattern tells.
     pub(crate) fn with_free_faces(&self) -> Vec<usize> {
-        let contacts = self.columns.positive.ncols();
-        let BySide { positive, negative } = &self.jumps;
-        let is_free = |bound: &&OutputBound| {
-            let jumps = |row: usize| positive[(row, bound.contact)] != negative[(row, bound.contact)];
-            jumps(contacts + bound.output) && !(0..contacts).any(jumps)
-        };
-        self.bounds.iter().filter(is_free).map(|bound| bound.contact).collect()
+        let is_free = |contact: &usize| self.free_faces[*contact] == Some(FreeFace::Couple);
+        self.bounds.iter().map(|bound| bound.contact).filter(is_free).collect()
     }
 
     /// How far a line from these numbers to others leads before they are changed by as much as they are: the
@@ -335,6 +248,12 @@ impl Parts {
             .max((&end.right_hand_side - &self.right_hand_side).amax());
         columns.chain(share(right(self), change)).reduce(f64::min)
     }
+}
+
+/// What tells the face of a contact between several problems: what one of them has, they have.
+fn free_face<'p>(all: impl Iterator<Item = &'p Parts> + Clone, k: usize) -> Option<FreeFace> {
+    let is_told = all.clone().any(|parts| parts.has_jump[k]);
+    all.map(|parts| parts.free_faces[k]).max().flatten().filter(|_| !is_told)
 }
 
 /// The bound of each guided slider's couple, and its row among the unknowns.

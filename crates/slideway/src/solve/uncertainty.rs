@@ -114,7 +114,7 @@ impl Answer<'_> {
         mut bounds: Vec<Interval>,
     ) -> Option<(Vec<ContactState>, Vec<Interval>)> {
         for k in enclosed.couples.iter().map(|couple| couple.contact) {
-            if mode[k] != ContactState::Gap && bounds[k].contains(0.0) && self.has_free_face(k) {
+            if mode[k] != ContactState::Gap && bounds[k].contains(0.0) && self.free_face(k).is_some() {
                 mode[k] = ContactState::Gap;
                 bounds[k] = Interval::ZERO.hull(Interval::ONE);
             }

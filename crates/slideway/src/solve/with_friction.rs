@@ -2,7 +2,7 @@
 
 use super::answer::Answer;
 use super::found::SearchFound;
-use super::parts::{Stages, rougher};
+use super::stages::{ProblemData, RougherStages, Stages, rougher};
 use super::{SolveOptions, searched};
 use crate::enclosure::{UncertainParameters, enclosure};
 use crate::fault::Faults;
@@ -12,24 +12,24 @@ use crate::model::Model;
 use crate::progress::Callback;
 use crate::report::{SolveReport, finite};
 
-/// The answer of [`super::solve`] for a model and its stages with all coefficients of friction multiplied by
-/// a factor, without margins and uncertainty.
+/// The answer of [`super::solve`] for a model and its stages with more or less friction,
+/// without margins and uncertainty.
 ///
 /// # Errors
 /// Whatever `solve` refuses.
 pub(crate) fn solve_with_friction(
     model: &Model,
-    (stages, friction): (&Stages, f64),
+    RougherStages { stages, factor }: RougherStages<'_>,
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
     let Stages { configuration, influence, velocity_signs, .. } = stages;
-    let mechanism = rougher(&stages.mechanism, &|_| friction);
+    let mechanism = rougher(&stages.mechanism, &|_| factor);
     let equations = KineticEquations::new(&mechanism, configuration)?;
-    let uncertain = UncertainParameters::default().with_friction(Interval::point(friction));
+    let uncertain = UncertainParameters::default().with_friction(Interval::point(factor));
     let enclosed = enclosure(model, &uncertain, &stages.mechanism, configuration);
-    let (result, jumps) =
-        searched(&enclosed, (&mechanism, influence, velocity_signs), &options.search, progress)?;
+    let data = ProblemData { mechanism: &mechanism, ..stages.data() };
+    let (result, jumps) = searched(&enclosed, data, &options.search, progress)?;
     let answer = Answer {
         mechanism: &mechanism,
         configuration,

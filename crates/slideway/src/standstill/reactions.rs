@@ -6,13 +6,13 @@ use super::state::State;
 use crate::ids::{DriveId, JointId};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Effort, Joint, JointKind};
-use crate::pattern::{Expression, Region, Unsolved};
+use crate::pattern::{AffineExpression, GuidedCouple, Region, Unsolved};
 
 /// The range of an expression in a region of a state, in this unit.
 pub(super) fn range(
     state: &State<'_>,
     region: &Region,
-    expression: &Expression,
+    expression: &AffineExpression,
     unit: f64,
 ) -> Result<Range, Unsolved> {
     let [least, greatest] = region.extent(&state.function(expression))?;
@@ -36,7 +36,9 @@ fn contact(setup: &Setup, state: &State<'_>, region: &Region, k: usize) -> Resul
     let unit = setup.units.force;
     let slider = setup.sliders.iter().find(|slider| slider.contacts.contains(&k));
     let couple = match slider.and_then(|slider| slider.couple) {
-        Some((place, _)) => Some(range(state, region, &state.reaction(place), state.force_unit(place))?),
+        Some(GuidedCouple { unknown, .. }) => {
+            Some(range(state, region, &state.reaction(unknown), state.force_unit(unknown))?)
+        }
         None => None,
     };
     Ok(ContactRange {

@@ -8,7 +8,7 @@ use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
 use crate::mechanism::{Effort, JointKind, Mechanism, Quantity};
 use crate::model::{Model, SliderKind};
-use crate::pattern::Law;
+use crate::pattern::{GuidedCouple, Law};
 use nalgebra::{DVector, Vector2};
 
 /// Units of the linear programs.
@@ -29,9 +29,8 @@ pub(super) struct SlidingJoint {
     pub(super) joint: JointId,
     /// Its contacts.
     pub(super) contacts: Vec<usize>,
-    /// Place of its couple among the unknowns, and half the length of the pressed face, if it is a guided
-    /// slider.
-    pub(super) couple: Option<(usize, f64)>,
+    /// The couple of a guided slider.
+    pub(super) couple: Option<GuidedCouple>,
 }
 
 /// The load that is varied.
@@ -167,7 +166,7 @@ fn sliders(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Vec<SlidingJoin
         Some(SlidingJoint {
             joint,
             contacts: slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect(),
-            couple: couple.map(|place| (place, slider.greatest_couple(1.0))),
+            couple: couple.map(|unknown| GuidedCouple { unknown, half_length: slider.greatest_couple(1.0) }),
         })
     };
     mechanism.joints.iter().enumerate().filter_map(one).collect()

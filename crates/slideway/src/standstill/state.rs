@@ -6,7 +6,7 @@ use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
 use crate::mechanism::Effort;
 use crate::pattern::{
-    Affine, AffineSet, ContactPhase, Expression, Friction, JointPhase, Phase, Region, without_tipping,
+    Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, Phase, Region, without_tipping,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -49,7 +49,7 @@ impl<'s> State<'s> {
     }
 
     /// An expression as a function of what the equations leave open.
-    pub(super) fn function(&self, expression: &Expression) -> Affine {
+    pub(super) fn function(&self, expression: &AffineExpression) -> Affine {
         self.solutions.function(expression)
     }
 
@@ -59,7 +59,7 @@ impl<'s> State<'s> {
         let contact = self.pattern.contacts[k];
         let pressure = match contact {
             ContactPhase::Pressed(side) => self.normal_force(k).times(side.sign()),
-            ContactPhase::PreloadGap => Expression::default(),
+            ContactPhase::PreloadGap => AffineExpression::default(),
         };
         Friction::new(self.setup.law(k), (joint, contact), pressure, || {
             self.columns += 1;
@@ -163,7 +163,7 @@ impl<'s> State<'s> {
         found
     }
 
-    fn dense(&self, expression: &Expression) -> DVector<f64> {
+    fn dense(&self, expression: &AffineExpression) -> DVector<f64> {
         let mut row = DVector::zeros(self.columns);
         for &(column, factor) in &expression.terms {
             row[column] += factor;
@@ -211,38 +211,40 @@ impl<'s> State<'s> {
 /// Quantities of a state, in the units of the programs.
 impl State<'_> {
     /// The load factor.
-    pub(super) fn factor(&self) -> Expression {
+    pub(super) fn factor(&self) -> AffineExpression {
         match self.question.factor {
-            Some(factor) => Expression::constant(factor / self.factor_unit()),
-            None => Expression::unknown(self.columns - 1, 1.0),
+            Some(factor) => AffineExpression::constant(factor / self.factor_unit()),
+            None => AffineExpression::unknown(self.columns - 1, 1.0),
         }
     }
 
     /// The normal force of a contact.
-    pub(super) fn normal_force(&self, k: usize) -> Expression {
-        Expression::unknown(self.normal_column(k), 1.0)
+    pub(super) fn normal_force(&self, k: usize) -> AffineExpression {
+        AffineExpression::unknown(self.normal_column(k), 1.0)
     }
 
     /// A reaction or an effort by its place in the layout of the kinetic equations.
-    pub(super) fn reaction(&self, place: usize) -> Expression {
-        Expression::unknown(self.force(place), 1.0)
+    pub(super) fn reaction(&self, place: usize) -> AffineExpression {
+        AffineExpression::unknown(self.force(place), 1.0)
     }
 
     /// Effort of a drive.
-    pub(super) fn effort(&self, drive: DriveId) -> Expression {
+    pub(super) fn effort(&self, drive: DriveId) -> AffineExpression {
         self.reaction(self.setup.assembled.layout.effort(drive))
     }
 
     /// The friction force of a contact, at both faces together.
-    pub(super) fn friction_force(&self, k: usize) -> Expression {
+    pub(super) fn friction_force(&self, k: usize) -> AffineExpression {
         let [positive, negative] = &self.friction[k].faces;
         positive.clone().plus(1.0, negative)
     }
 
     /// Acceleration of sliding of the block of a joint against its guide: along u in the middle between the
     /// faces, which is -(W^+ + W^-)/2 . a.
-    pub(super) fn sliding_acceleration(&self, slider: usize) -> Expression {
-        let Some(&k) = self.setup.sliders[slider].contacts.first() else { return Expression::default() };
+    pub(super) fn sliding_acceleration(&self, slider: usize) -> AffineExpression {
+        let Some(&k) = self.setup.sliders[slider].contacts.first() else {
+            return AffineExpression::default();
+        };
         let [positive, negative] = &self.setup.assembled.friction[k];
         let along = (0..self.setup.equations_of_motion())
             .map(|column| (column, -f64::midpoint(positive[column], negative[column])));
@@ -254,8 +256,8 @@ impl State<'_> {
         &self,
         entries: impl IntoIterator<Item = (usize, f64)>,
         unit: f64,
-    ) -> Expression {
-        let mut expression = Expression::default();
+    ) -> AffineExpression {
+        let mut expression = AffineExpression::default();
         if self.question.moving {
             let entries = entries.into_iter().filter(|(_, value)| *value != 0.0);
             let scaled =
@@ -276,11 +278,15 @@ impl State<'_> {
             slacks.extend(friction.bounds(*mu_static, None).into_iter().map(|(_, slack)| slack));
         }
         for slider in &self.setup.sliders {
-            if let SlidingJoint { couple: Some((place, half)), contacts, .. } = slider
+            if let SlidingJoint { couple: Some(couple), contacts, .. } = slider
                 && let [k] = contacts[..]
             {
-                let half = half / self.setup.units.length;
-                slacks.extend(without_tipping(&self.friction[k].pressure, &self.reaction(*place), half));
+                let half = couple.half_length / self.setup.units.length;
+                slacks.extend(without_tipping(
+                    &self.friction[k].pressure,
+                    &self.reaction(couple.unknown),
+                    half,
+                ));
             }
         }
         for (index, joint) in self.pattern.joints.iter().enumerate() {

@@ -25,6 +25,15 @@ pub(super) enum Output {
     Unknown(usize, f64),
 }
 
+/// The couple of a guided slider among the numbers of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct CoupleColumn {
+    pub(super) joint: JointId,
+    pub(super) contact: usize,
+    /// Its place among the outputs.
+    pub(super) output: usize,
+}
+
 /// The numbers of a row, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Columns {
@@ -32,8 +41,8 @@ pub(super) struct Columns {
     pub(super) contacts: usize,
     /// Contacts that have a column for the share of their preload.
     pub(super) shares: Vec<usize>,
-    /// Guided sliders: their joint, contact, and the place of the couple among the outputs.
-    pub(super) couples: Vec<(JointId, usize, usize)>,
+    /// Those of guided sliders.
+    pub(super) couples: Vec<CoupleColumn>,
     pub(super) outputs: Vec<Output>,
     pub(super) list: Vec<Column>,
     /// Whether bodies and hinges have columns.
@@ -98,7 +107,7 @@ impl Columns {
     /// Whether the preload of a guided slider is another one on its other side: the slider may be between its
     /// faces.
     pub(super) fn may_be_between_faces(&self, mechanism: &Mechanism) -> bool {
-        self.couples.iter().any(|(_, contact, _)| mechanism.preload_jumps(ContactId(*contact)))
+        self.couples.iter().any(|couple| mechanism.preload_jumps(ContactId(couple.contact)))
     }
 
     fn add_outputs(&mut self, mechanism: &Mechanism, all: bool) {
@@ -109,7 +118,8 @@ impl Columns {
             if let (SliderKind::Guided, Some(place), Some(contact)) =
                 (slider.kind, layout.reaction(Reaction::Couple(id)), slider.contacts.first())
             {
-                self.couples.push((id, contact.index(), self.outputs.len()));
+                let (contact, output) = (contact.index(), self.outputs.len());
+                self.couples.push(CoupleColumn { joint: id, contact, output });
                 self.output(Output::Unknown(place, 1.0), format!("couple.{}", joint.name), "N m");
             }
         }

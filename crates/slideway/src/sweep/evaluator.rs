@@ -4,7 +4,7 @@ use super::CHUNKS;
 use super::columns::Columns;
 use super::friction::{Friction, FrictionFormulas};
 use super::quantity::Kind;
-use super::rows::{Breakpoint, PointStatus, Rows};
+use super::rows::{Breakpoint, PointStatus, Refusal, Rows};
 use super::stages::Stages;
 use super::together::{PointsFound, Together};
 use super::told;
@@ -86,10 +86,18 @@ impl Plan {
     }
 }
 
+/// A point without its values.
+#[derive(Debug, Clone, Copy)]
+struct PointHead {
+    number: u64,
+    breakpoint: Breakpoint,
+    inserted: bool,
+}
+
 /// Points that are asked for, one after another.
 #[derive(Debug, Clone)]
 pub(super) struct Points {
-    heads: Vec<(u64, Breakpoint, bool)>,
+    heads: Vec<PointHead>,
     varied: usize,
     values: Vec<f64>,
 }
@@ -105,7 +113,7 @@ impl Points {
         let first = self.values.len();
         self.values.resize(first + self.varied, 0.0);
         let (breakpoint, inserted) = set(&mut self.values[first..]);
-        self.heads.push((number, breakpoint, inserted));
+        self.heads.push(PointHead { number, breakpoint, inserted });
     }
 
     pub(super) fn len(&self) -> usize {
@@ -113,7 +121,7 @@ impl Points {
     }
 
     pub(super) fn get(&self, index: usize) -> Point<'_> {
-        let (number, breakpoint, inserted) = self.heads[index];
+        let PointHead { number, breakpoint, inserted } = self.heads[index];
         let values = &self.values[index * self.varied..][..self.varied];
         Point { number, breakpoint, inserted, values }
     }
@@ -207,7 +215,7 @@ impl<'p> Evaluator<'p> {
             rows.truncate(first);
             let status = refusal(&faults);
             rows.push_empty(head(point, status), point.values);
-            rows.refusals.push((point.number, status, faults.to_string()));
+            rows.refusals.push(Refusal { point: point.number, status, reason: faults.to_string() });
         }
         flow
     }
@@ -303,7 +311,8 @@ impl<'p> Evaluator<'p> {
         let model = self.plan.model.with(&settings)?;
         let options = SolveOptions { margins: false, ..SolveOptions::default() };
         let report = if self.plan.varied.contains(&Kind::Friction) {
-            solve_with_friction(&model, (&solve::Stages::new(&model)?, friction), &options, look)?
+            let stages = solve::Stages::new(&model)?;
+            solve_with_friction(&model, stages.rougher(friction), &options, look)?
         } else {
             solve_with(&model, &options, look)?
         };

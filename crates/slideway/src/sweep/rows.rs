@@ -176,6 +176,17 @@ pub struct RowHead {
     pub(super) negative_determinant: Option<bool>,
 }
 
+/// A point that is not solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// Its number.
+    pub point: u64,
+    /// What stands in the way, by its kind ...
+    pub status: PointStatus,
+    /// ... and in words.
+    pub reason: String,
+}
+
 /// Rows of neighbouring points, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rows {
@@ -191,8 +202,8 @@ pub struct Rows {
     pub numbers: Vec<f64>,
     /// One character of each row for each contact: "+", "-", "0" in a gap; blank where there is no state.
     pub patterns: Vec<u8>,
-    /// Numbers of points that are not solved, and why.
-    pub refusals: Vec<(u64, PointStatus, String)>,
+    /// Points that are not solved.
+    pub refusals: Vec<Refusal>,
     /// How many points there are.
     pub points: u64,
 }

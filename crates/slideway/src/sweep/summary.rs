@@ -1,6 +1,6 @@
 //! What a sweep comes to.
 
-use super::rows::{PointStatus, RowKind, Rows};
+use super::rows::{PointStatus, Refusal, RowKind, Rows};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -62,7 +62,7 @@ impl Tally {
             count += 1;
         }
         self.count(alike, count);
-        for (point, status, reason) in &rows.refusals {
+        for Refusal { point, status, reason } in &rows.refusals {
             self.refusals.entry(*status).or_insert_with(|| (*point, reason.clone()));
         }
     }

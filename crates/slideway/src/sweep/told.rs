@@ -59,7 +59,7 @@ impl Telling<'_> {
         numbers.extend(state.contacts.iter().map(|contact| contact.friction_force));
         let share = |&k: &usize| state.contacts[k].preload_share.unwrap_or(f64::NAN);
         numbers.extend(columns.shares.iter().map(share));
-        let couples = columns.couples.iter().filter_map(|(_, contact, _)| state.contacts[*contact].couple);
+        let couples = columns.couples.iter().filter_map(|couple| state.contacts[couple.contact].couple);
         numbers.extend(couples);
         numbers.extend(state.coordinates.iter().map(|coordinate| coordinate.acceleration));
         numbers.extend(state.drives.iter().map(|drive| drive.effort));

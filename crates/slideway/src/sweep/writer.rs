@@ -1,5 +1,6 @@
 //! Writes the states of a point that elimination has found.
 
+use super::columns::CoupleColumn;
 use super::evaluator::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, RowVerdict, Rows};
 use super::stages::Stages;
@@ -147,7 +148,7 @@ impl Writer<'_> {
         let forces = (0..columns.contacts).map(|k| state.normal_force(k).abs());
         let greatest = forces.fold(self.stages.greatest_load, f64::max);
         let mut keeps = true;
-        for &(joint, contact, output) in &columns.couples {
+        for &CoupleColumn { joint, contact, output } in &columns.couples {
             let JointKind::Slider(slider) = &self.mechanism.joints[joint.index()].kind else { continue };
             let limit = slider.greatest_couple(state.normal_force(contact));
             let excess = outputs[output].abs() - limit;

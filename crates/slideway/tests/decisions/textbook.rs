@@ -3,7 +3,7 @@
 use crate::set_up::{MINUS, PLUS, State, assert_close, joints, phase};
 use slideway::ids::JointId;
 use slideway::motion::JointPhase::{Sliding, Sticking};
-use slideway::motion::decision::{Limit, Standing, sticking, sticking_margin};
+use slideway::motion::decision::{PhaseBound, Standing, sticking, sticking_margin};
 
 /// A block of 2 kg on an incline.
 fn incline(degrees: f64, mu: f64, mu_static: f64, rate: f64) -> State {
@@ -78,8 +78,8 @@ fn at_the_angle_of_friction_rounding_would_decide() {
     let found = state.successors(&[true], Some(&stuck));
     assert_eq!(joints(&found), ["o", "-"]);
     assert!(found.list[0].is_present);
-    assert_eq!(found.list[0].standing, Standing::Undecided(vec![Limit::Sticking]));
-    assert_eq!(found.list[1].standing, Standing::Undecided(vec![Limit::Slip(JointId(0))]));
+    assert_eq!(found.list[0].standing, Standing::Undecided(vec![PhaseBound::Sticking]));
+    assert_eq!(found.list[1].standing, Standing::Undecided(vec![PhaseBound::Slip(JointId(0))]));
 }
 
 #[test]
@@ -184,11 +184,11 @@ fn at_the_end_of_sticking_the_motion_of_the_belt_decides() {
     // The belt comes back: it can go on to stick, or slip where kinetic friction is less.
     let back = belt(at, -0.4, -0.4, 0.3, 0.5).successors(&[false, true], Some(&stuck));
     assert_eq!(joints(&back), ["-o", "--"]);
-    assert_eq!(back.list[0].standing, Standing::Leaves(vec![Limit::Sticking]));
+    assert_eq!(back.list[0].standing, Standing::Leaves(vec![PhaseBound::Sticking]));
     // With equal coefficients it begins to slip without acceleration: the next derivative decides.
     let onwards = belt(at, 0.4, 0.4, 0.5, 0.5).successors(&[false, true], Some(&stuck));
     assert_eq!(joints(&onwards), ["+-"]);
-    assert_eq!(onwards.list[0].standing, Standing::Leaves(vec![Limit::Slip(JointId(1))]));
+    assert_eq!(onwards.list[0].standing, Standing::Leaves(vec![PhaseBound::Slip(JointId(1))]));
     assert!(onwards.list[0].continues);
     let back = belt(at, -0.4, -0.4, 0.5, 0.5).successors(&[false, true], Some(&stuck));
     assert_eq!(joints(&back), ["-o"]);

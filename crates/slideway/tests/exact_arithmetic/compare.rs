@@ -131,7 +131,8 @@ fn fits(solution: &RawSolution, (name, at): (&str, usize), told: f64, value: &RB
     let size = |value: &RBig| if *value < RBig::ZERO { -value } else { value.clone() };
     let (least, most) = (exact(f64::MIN_POSITIVE), exact(f64::MAX));
     if told.is_nan() {
-        let Some(one) = solution.beyond_range.iter().find(|one| one.name == name && one.index == at) else {
+        let Some(one) = solution.beyond_range.iter().find(|one| one.name.as_str() == name && one.index == at)
+        else {
             return false;
         };
         let off = size(&(decimal(&one.value) - value));

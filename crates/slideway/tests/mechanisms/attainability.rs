@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use rstest::rstest;
 use slideway::gallery;
 use slideway::model::Model;
-use slideway::report::{Fate, Solution, SolveReport, Verdict};
+use slideway::report::{EigenvalueUnit, Fate, Solution, SolveReport, Verdict};
 
 const WEIGHT: f64 = 9.81;
 
@@ -142,8 +142,8 @@ fn eigenvalues_grow_with_the_stiffness() {
     let stiff = klepp_with_stiffness([2e7; 3]);
     let uneven = klepp_with_stiffness([1e7, 2e7, 3e7]);
     for ((unit, stiff), uneven) in unit.solutions.iter().zip(&stiff.solutions).zip(&uneven.solutions) {
-        assert_eq!(unit.attainability.eigenvalue_unit, "1/kg");
-        assert_eq!(stiff.attainability.eigenvalue_unit, "1/s^2");
+        assert_eq!(unit.attainability.eigenvalue_unit, EigenvalueUnit::PerKilogram);
+        assert_eq!(stiff.attainability.eigenvalue_unit, EigenvalueUnit::PerSecondSquared);
         assert_eq!(unit.attainability.separates, stiff.attainability.separates);
         assert_eq!(unit.attainability.verdict, uneven.attainability.verdict);
         for (unit, stiff) in eigenvalues(unit).iter().zip(eigenvalues(stiff)) {

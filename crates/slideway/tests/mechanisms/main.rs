@@ -14,6 +14,7 @@ mod configuration;
 mod design;
 mod enclosure;
 mod exact_chains;
+mod free_pins;
 mod friction_laws;
 mod gallery;
 mod gallery_frictionless;

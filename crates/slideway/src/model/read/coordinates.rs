@@ -3,7 +3,7 @@
 use super::super::file::{CoordinateTable, DriveTable, Entry, EventTable, ForceFrame};
 use super::super::quantity::Span;
 use super::super::settings::dimension_of;
-use super::super::{Coordinate, CoordinateKind, Drive, Effort, Event};
+use super::super::{Coordinate, CoordinateKind, Drive, Effort, EventDefinition};
 use super::{Allowed, Reader, Varies, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace, nearest};
@@ -100,14 +100,14 @@ impl Reader<'_> {
     }
 
     /// What a motion is watched for; an event without a formula that can be read is left out.
-    pub(super) fn read_events(&mut self, entries: Vec<Entry<EventTable>>) -> Vec<Event> {
+    pub(super) fn read_events(&mut self, entries: Vec<Entry<EventTable>>) -> Vec<EventDefinition> {
         let mut events = Vec::new();
         for entry in entries {
             self.valid_name("event", &entry.name, &entry.span);
             let Some(table) = entry.contents else { continue };
             let what = format!("the quantity of the event {}", entry.name);
             let zero_of = self.any_formula(&table.zero_of, what, None, Allowed::Any, Varies::WithMotion);
-            events.push(Event {
+            events.push(EventDefinition {
                 name: Arc::from(entry.name),
                 place: FaultPlace::model(entry.span),
                 zero_of,

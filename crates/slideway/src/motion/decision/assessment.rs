@@ -1,6 +1,7 @@
 //! How far a phase is from what bounds it: the slack of each of its inequalities, and what it does to the
 //! mechanism.
 
+use super::BOUNDARY;
 use super::instant::Instant;
 use super::outputs::Group;
 use super::system::{Forces, Inequality, Question, Subject, System};
@@ -93,8 +94,8 @@ impl Assessment {
         self.slacks.iter().map(|slack| slack.value).fold(f64::INFINITY, f64::min)
     }
 
-    fn is_better_than(&self, other: &Self, tolerance: f64) -> bool {
-        let [this, that] = [self, other].map(|one| one.least() >= -tolerance);
+    fn is_better_than(&self, other: &Self) -> bool {
+        let [this, that] = [self, other].map(|one| one.least() >= -BOUNDARY);
         match (this, that) {
             (true, true) => self.margin > other.margin,
             (false, false) => self.least() > other.least(),
@@ -119,11 +120,11 @@ pub(super) fn assess(
     instant: &Instant<'_>,
     question: &Question<'_>,
     phase: &Phase,
-    (tolerance, enough): (f64, f64),
+    enough: f64,
 ) -> Result<Option<Assessment>, Unsolved> {
     let mut whole = Assessment::nothing(phase);
     for group in &instant.groups {
-        let Some(part) = assess_group(instant, question, (phase, group), (tolerance, enough))? else {
+        let Some(part) = assess_group(instant, question, (phase, group), enough)? else {
             return Ok(None);
         };
         whole = whole.with(group, &part);
@@ -139,7 +140,7 @@ pub(super) fn assess_group(
     instant: &Instant<'_>,
     question: &Question<'_>,
     (phase, group): (&Phase, &Group),
-    (tolerance, enough): (f64, f64),
+    enough: f64,
 ) -> Result<Option<Assessment>, Unsolved> {
     let mut best: Option<Assessment> = None;
     let sticking = sticking_sides(question, phase, (instant, group));
@@ -149,8 +150,8 @@ pub(super) fn assess_group(
         }
         let Some(phase) = with_sides(phase, &sticking, number) else { break };
         let Some(found) = assess_sides(instant, question, (phase, group))? else { continue };
-        if best.as_ref().is_none_or(|best| found.is_better_than(best, tolerance)) {
-            let done = found.margin >= enough && found.least() >= -tolerance;
+        if best.as_ref().is_none_or(|best| found.is_better_than(best)) {
+            let done = found.margin >= enough && found.least() >= -BOUNDARY;
             best = Some(found);
             if done {
                 break;

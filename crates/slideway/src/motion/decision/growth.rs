@@ -4,7 +4,7 @@ use super::assessment::{Assessment, Decisive, Slack, assess};
 use super::instant::Instant;
 use super::state::state;
 use super::system::{Question, Subject};
-use super::{BOUNDARY, Limit, Standing};
+use super::{BOUNDARY, PhaseBound, Standing};
 use crate::configuration::{Configuration, Pose, Velocity};
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
@@ -47,7 +47,7 @@ pub(super) fn standing(
     if bounds.is_empty() && !assessment.redundant {
         return Ok(Standing::Inside);
     }
-    let limits = |indices: &[usize]| -> Vec<Limit> {
+    let limits = |indices: &[usize]| -> Vec<PhaseBound> {
         indices.iter().map(|&index| limit(instant, assessment.slacks[index].subject)).collect()
     };
     let flow = Flow { instant, phase: &assessment.phase, stopped: question.stopped };
@@ -133,14 +133,14 @@ impl Bounds<'_> {
     }
 }
 
-fn limit(instant: &Instant<'_>, subject: Decisive) -> Limit {
+fn limit(instant: &Instant<'_>, subject: Decisive) -> PhaseBound {
     match subject {
-        Decisive::One(Subject::Pressure(k)) => Limit::NormalForce(ContactId(k)),
-        Decisive::One(Subject::Share(k)) => Limit::PreloadShare(ContactId(k)),
-        Decisive::One(Subject::Couple(k)) => Limit::Couple(ContactId(k)),
-        Decisive::One(Subject::Friction(_)) | Decisive::Open(_) => Limit::Sticking,
+        Decisive::One(Subject::Pressure(k)) => PhaseBound::NormalForce(ContactId(k)),
+        Decisive::One(Subject::Share(k)) => PhaseBound::PreloadShare(ContactId(k)),
+        Decisive::One(Subject::Couple(k)) => PhaseBound::Couple(ContactId(k)),
+        Decisive::One(Subject::Friction(_)) | Decisive::Open(_) => PhaseBound::Sticking,
         Decisive::One(Subject::Slip(joint)) => {
-            Limit::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
+            PhaseBound::Slip(instant.joints.get(joint).map_or(JointId(joint), |joint| joint.id))
         }
     }
 }
@@ -239,7 +239,7 @@ impl Flow<'_> {
     fn at(&self, configuration: &Configuration) -> Result<Later<(Accelerations, Vec<Slack>)>, Faults> {
         let instant = self.instant.later(configuration)?;
         let question = instant.question(self.stopped, Some(self.phase));
-        let assessment = match assess(&instant, &question, self.phase, (BOUNDARY, f64::INFINITY)) {
+        let assessment = match assess(&instant, &question, self.phase, f64::INFINITY) {
             Ok(Some(assessment)) => assessment,
             Ok(None) => return Ok(Later::Ends),
             Err(_) => return Ok(Later::Unsolved),

@@ -4,8 +4,8 @@ use super::BOUNDARY;
 use super::assessment::{Assessment, assess_group};
 use super::instant::Instant;
 use super::outputs::Group;
-use super::plan::{Fall, Plan, System};
-use super::rules::Outlook;
+use super::plan::{Fall, GroupPattern, Plan};
+use super::rules::{Outlook, Resting};
 use super::sticking::{ENOUGH, NONE};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -39,7 +39,7 @@ impl<'m> Holding<'m> {
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        (phase, rests): (&Phase, &[bool]),
+        Resting { phase, bodies: rests }: Resting<'_>,
     ) -> Result<Self, Faults> {
         let instant = Instant::looking_ahead(mechanism, configuration)?;
         instant.check(phase)?;
@@ -157,7 +157,7 @@ impl<'m> Holding<'m> {
     fn plan(&mut self, group: &Group, time: f64) -> Result<Option<Plan>, Faults> {
         let amounts = self.amounts.at(time)?;
         Ok(self.assess(group, &amounts).and_then(|found| {
-            let system = System { phase: &found.phase, group, stopped: &self.stopped };
+            let system = GroupPattern { phase: &found.phase, group, stopped: &self.stopped };
             Plan::new(&mut self.instant, &system, (&amounts, &self.responses))
         }))
     }
@@ -169,7 +169,7 @@ impl<'m> Holding<'m> {
             self.instant.outputs.base.axpy(amount - first, response, 1.0);
         }
         let question = self.instant.question(&self.stopped, Some(&self.phase));
-        let found = assess_group(&self.instant, &question, (&self.phase, group), (BOUNDARY, ENOUGH));
+        let found = assess_group(&self.instant, &question, (&self.phase, group), ENOUGH);
         let found = found.ok().flatten()?;
         for &k in &group.contacts {
             self.phase.contacts[k] = found.phase.contacts[k];

@@ -75,7 +75,7 @@ pub fn impact(
         if hits.is_empty() {
             continue;
         }
-        let Outcome { jumps, impulses, .. } = outcome(&instant, group, &hits)?;
+        let AfterImpact { jumps, impulses, .. } = outcome(&instant, group, &hits)?;
         let after = Impulses::new(&instant).moved(&found.after, &jumps);
         let stops = hits.iter().map(|hit| instant.joints[hit.joint].id).zip(impulses).collect();
         let energy_lost = kinetic(mechanism, &found.after) - kinetic(mechanism, &after);
@@ -94,7 +94,7 @@ struct Hit {
 
 /// How far an impact has gone.
 #[derive(Debug, Clone)]
-struct Outcome {
+struct AfterImpact {
     /// The sliding velocities (m/s), exactly zero where a joint has stopped.
     velocities: Vec<f64>,
     /// The jumps of all velocities.
@@ -107,7 +107,7 @@ struct Outcome {
 ///
 /// # Errors
 /// None, or several.
-fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<Outcome, Faults> {
+fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<AfterImpact, Faults> {
     let joints = || {
         hits.iter().map(|hit| instant.mechanism.joints[instant.joints[hit.joint].id.index()].name.to_string())
     };
@@ -116,7 +116,7 @@ fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<Outcome
         let kind = FaultKind::TooManyStates { states: choices, limit: MOST_STATES };
         return Err(Fault::general(kind).into());
     }
-    let mut found: Option<Outcome> = None;
+    let mut found: Option<AfterImpact> = None;
     let mut unsolved = 0;
     // All of them first.
     for choice in (1..choices).rev() {
@@ -125,7 +125,7 @@ fn outcome(instant: &Instant<'_>, group: &Group, hits: &[Hit]) -> Result<Outcome
         let impulses = Impulses::new(&instant);
         let process = Process { impulses: &impulses, group, hits, pushes: &pushes };
         let Some(other) = process.outcome(&mut unsolved)? else { continue };
-        let differs = |found: &Outcome| {
+        let differs = |found: &AfterImpact| {
             let velocities = found.velocities.iter().zip(&other.velocities);
             velocities.into_iter().any(|(one, other)| impulses.without_rounding(one - other) != 0.0)
         };
@@ -161,9 +161,9 @@ struct Process<'s> {
 
 impl Process<'_> {
     /// What the impact comes to; nothing if these stops cannot push and the others not.
-    fn outcome(&self, unsolved: &mut usize) -> Result<Option<Outcome>, Faults> {
+    fn outcome(&self, unsolved: &mut usize) -> Result<Option<AfterImpact>, Faults> {
         let instant = self.impulses.instant;
-        let mut course = Outcome {
+        let mut course = AfterImpact {
             velocities: self.impulses.velocities(),
             jumps: DVector::zeros(instant.influence.frictionless.len()),
             impulses: vec![0.0; self.hits.len()],
@@ -185,7 +185,7 @@ impl Process<'_> {
     /// there. Every part but the last brings another joint to rest.
     fn follow(
         &self,
-        course: &mut Outcome,
+        course: &mut AfterImpact,
         targets: &[(usize, f64)],
         unsolved: &mut usize,
     ) -> Result<bool, Faults> {

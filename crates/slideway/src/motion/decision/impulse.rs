@@ -91,7 +91,7 @@ impl<'s> Impulses<'s> {
     ) -> Result<Admissible, Faults> {
         let mut found = Admissible::default();
         for phase in self.states(options, group)? {
-            match assess_group(self.instant, question, (&phase, group), (BOUNDARY, f64::INFINITY)) {
+            match assess_group(self.instant, question, (&phase, group), f64::INFINITY) {
                 Err(_) => found.unsolved += 1,
                 Ok(Some(state)) if state.least() >= -BOUNDARY => found.list.push(state),
                 Ok(_) => {}

@@ -154,8 +154,7 @@ impl<'m> Instant<'m> {
         let normals = normals.iter().enumerate().map(|(k, normal)| normal / self.units_of(k).force);
         let slides = self.joints.iter().map(|joint| joint.row.change(unknowns) / joint.units.acceleration);
         let couples = self.joints.iter().filter_map(|joint| {
-            let (_, place) = joint.couple?;
-            Some(unknowns[place] / (joint.units.force * joint.units.length))
+            Some(unknowns[joint.couple?.unknown] / (joint.units.force * joint.units.length))
         });
         DVector::from_vec(normals.chain(slides).chain(couples).collect())
     }

@@ -84,8 +84,8 @@ pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, 
     if moving.is_empty() {
         return Ok(Jam::AtRest);
     }
-    let search = Search { configuration, impulses: &impulses, velocities: &velocities };
-    let mut found = Found::default();
+    let search = ImpulseSearch { configuration, impulses: &impulses, velocities: &velocities };
+    let mut found = ImpulsesFound::default();
     for &joint in &moving {
         search.stop(joint, &mut found)?;
     }
@@ -97,21 +97,21 @@ pub fn jam(mechanism: &Mechanism, configuration: &Configuration) -> Result<Jam, 
 }
 
 #[derive(Default)]
-struct Found {
+struct ImpulsesFound {
     impulses: Vec<Impulse>,
     unsolved: usize,
 }
 
-struct Search<'s> {
+struct ImpulseSearch<'s> {
     configuration: &'s Configuration,
     impulses: &'s Impulses<'s>,
     /// The sliding velocities (m/s), exactly zero where they are rounding.
     velocities: &'s [f64],
 }
 
-impl Search<'_> {
+impl ImpulseSearch<'_> {
     /// Looks for impulses in which this joint wedges.
-    fn stop(&self, joint: usize, found: &mut Found) -> Result<(), Faults> {
+    fn stop(&self, joint: usize, found: &mut ImpulsesFound) -> Result<(), Faults> {
         let groups = &self.impulses.instant.groups;
         let Some(group) = groups.iter().find(|group| group.joints.contains(&joint)) else {
             return Ok(());

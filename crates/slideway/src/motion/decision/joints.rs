@@ -9,6 +9,7 @@ use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::Stop;
 use crate::motion::moving::connected::connected;
+use crate::pattern::GuidedCouple;
 
 /// A joint nearer to its end stop than this, in sizes of the mechanism, touches it: rounding of places.
 pub(in crate::motion) const TOUCHES: f64 = 1e-11;
@@ -19,9 +20,8 @@ pub(super) struct SlidingJoint {
     pub(super) id: JointId,
     /// Its contacts.
     pub(super) contacts: Vec<usize>,
-    /// Half the length of the pressed face of a guided slider, and the place of its couple among the
-    /// unknowns.
-    pub(super) couple: Option<(f64, usize)>,
+    /// The couple of a guided slider.
+    pub(super) couple: Option<GuidedCouple>,
     /// Its acceleration of sliding.
     pub(super) row: SlidingRow,
     /// Its sliding velocity (m/s).
@@ -55,7 +55,7 @@ pub(super) fn sliding_joints(
         Some(SlidingJoint {
             id,
             contacts,
-            couple: place.map(|place| (slider.greatest_couple(1.0), place)),
+            couple: place.map(|unknown| GuidedCouple { unknown, half_length: slider.greatest_couple(1.0) }),
             row: SlidingRow::new(mechanism, configuration, slider),
             velocity: first.unwrap_or(0.0),
             has_friction: has_friction || stop != 0.0,

@@ -89,7 +89,7 @@ pub use rules::Outlook;
 pub use state::PhaseState;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
 pub(super) use successors::continuations;
-pub use successors::{Successor, Successors, Tipping, successors};
+pub use successors::{Successor, Successors, TippingPhase, successors};
 pub(super) use units::scale_of_forces;
 
 use crate::ids::{ContactId, JointId};
@@ -105,14 +105,14 @@ pub enum Standing {
     /// Nothing is at a boundary.
     Inside,
     /// It starts at a boundary and moves away from it.
-    Leaves(Vec<Limit>),
+    Leaves(Vec<PhaseBound>),
     /// It stays at a boundary to second order, so that rounding would decide whether it lasts.
-    Undecided(Vec<Limit>),
+    Undecided(Vec<PhaseBound>),
 }
 
 /// What bounds a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limit {
+pub enum PhaseBound {
     /// A normal force that is zero.
     NormalForce(ContactId),
     /// A share of the preload that is 0 or 1.

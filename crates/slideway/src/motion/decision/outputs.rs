@@ -64,7 +64,9 @@ pub(super) fn outputs(mechanism: &Mechanism, influence: &Influence, joints: &[Sl
     let contacts = mechanism.contacts.len();
     let couples: Vec<(usize, f64)> = joints
         .iter()
-        .filter_map(|joint| joint.couple.map(|(_, place)| (place, joint.units.force * joint.units.length)))
+        .filter_map(|joint| {
+            joint.couple.map(|couple| (couple.unknown, joint.units.force * joint.units.length))
+        })
         .collect();
     let mut force = vec![1.0; contacts];
     for joint in joints {

@@ -5,10 +5,10 @@ use super::elastic::verdict;
 use super::instant::Instant;
 use super::outputs::Group;
 use super::rules;
-use super::sieve::Sieve;
+use super::sieve::SlidingSieve;
 use super::state::{PhaseState, is_same_phase, state};
 use super::sticking::ENOUGH;
-use super::successors::{Successors, Tipping};
+use super::successors::{Successors, TippingPhase};
 use super::system::{Question, Subject};
 use super::{BOUNDARY, MOST_STATES};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -36,7 +36,7 @@ pub(super) enum Detail {
 
 /// What a group of joints can do.
 #[derive(Debug, Clone)]
-pub(super) struct Part {
+pub(super) struct GroupPhase {
     /// Forces of this group.
     pub(super) assessment: Assessment,
     /// Whether it is what the group did before.
@@ -49,19 +49,19 @@ pub(super) struct Part {
 }
 
 /// The search for what groups of joints can do.
-pub(super) struct Search<'s> {
+pub(super) struct PhaseSearch<'s> {
     pub(super) instant: &'s Instant<'s>,
-    pub(super) event: &'s rules::Instant<'s>,
+    pub(super) event: &'s rules::EventInstant<'s>,
     pub(super) question: &'s Question<'s>,
     pub(super) detail: Detail,
 }
 
-impl Search<'_> {
+impl PhaseSearch<'_> {
     /// For each group of joints what it can do, not yet in order.
     ///
     /// # Errors
     /// More states than are tried.
-    pub(super) fn parts(&self, found: &mut Successors) -> Result<Vec<Vec<Part>>, Faults> {
+    pub(super) fn parts(&self, found: &mut Successors) -> Result<Vec<Vec<GroupPhase>>, Faults> {
         let before: Vec<Option<Assessment>> =
             self.instant.groups.iter().map(|group| self.before(group)).collect();
         let undisturbed: Vec<bool> = self
@@ -107,7 +107,7 @@ impl Search<'_> {
 
     fn assess(&self, phase: &Phase, group: &Group) -> Result<Option<Assessment>, Unsolved> {
         let enough = if self.detail == Detail::Order { ENOUGH } else { f64::INFINITY };
-        assess_group(self.instant, self.question, (phase, group), (BOUNDARY, enough))
+        assess_group(self.instant, self.question, (phase, group), enough)
     }
 
     /// Whether nothing happens in a group: no joint of it has just stopped or turned, and what it did is at
@@ -126,7 +126,7 @@ impl Search<'_> {
     fn admissible(&self, group: &Group, found: &mut Successors) -> Result<Vec<Assessment>, Faults> {
         let mut list: Vec<Assessment> = Vec::new();
         let mut sieve =
-            (self.detail == Detail::Order).then(|| Sieve::new(self.question, self.instant, group));
+            (self.detail == Detail::Order).then(|| SlidingSieve::new(self.question, self.instant, group));
         let stuck = |phase: &Phase| {
             group.joints.iter().filter(|joint| phase.joints[**joint] == JointPhase::Sticking).count()
         };
@@ -216,7 +216,11 @@ impl Search<'_> {
     }
 
     /// The guided sliders that would tip in a phase that violates nothing but these inequalities.
-    pub(super) fn tipping(&self, phase: &Phase, violated: impl Iterator<Item = Decisive>) -> Option<Tipping> {
+    pub(super) fn tipping(
+        &self,
+        phase: &Phase,
+        violated: impl Iterator<Item = Decisive>,
+    ) -> Option<TippingPhase> {
         let mut joints = Vec::new();
         for subject in violated {
             let Decisive::One(Subject::Couple(k)) = subject else { return None };
@@ -225,7 +229,7 @@ impl Search<'_> {
                 joints.push(joint);
             }
         }
-        (!joints.is_empty()).then(|| Tipping { phase: phase.clone(), joints })
+        (!joints.is_empty()).then(|| TippingPhase { phase: phase.clone(), joints })
     }
 
     /// What a group can do beside what it did before; what is continued is left out where a single phase can
@@ -235,7 +239,7 @@ impl Search<'_> {
         group: &Group,
         list: Vec<Assessment>,
         (before, alone): (Option<&Assessment>, bool),
-    ) -> Vec<Part> {
+    ) -> Vec<GroupPhase> {
         let state_before = before.filter(|_| !alone).map(|before| state(self.instant, before));
         let part = |assessment: Assessment| {
             let same =
@@ -243,24 +247,24 @@ impl Search<'_> {
             let is_present = before.is_some_and(same);
             let continued = |before: &PhaseState| self.is_continued(group, before, &assessment);
             let continues = is_present || state_before.as_ref().is_some_and(continued);
-            Part { assessment, is_present, continues, verdict: Verdict::NotComputed }
+            GroupPhase { assessment, is_present, continues, verdict: Verdict::NotComputed }
         };
         list.into_iter().map(part).collect()
     }
 
     /// Passes verdicts on what each group can do; for each group the places of its parts in the order of
     /// preference.
-    pub(super) fn order(&self, parts: &mut [Vec<Part>]) -> Vec<Vec<usize>> {
+    pub(super) fn order(&self, parts: &mut [Vec<GroupPhase>]) -> Vec<Vec<usize>> {
         let groups = self.instant.groups.iter().zip(parts);
         groups.map(|(group, parts)| self.order_of(group, parts)).collect()
     }
 
-    fn order_of(&self, group: &Group, parts: &mut [Part]) -> Vec<usize> {
+    fn order_of(&self, group: &Group, parts: &mut [GroupPhase]) -> Vec<usize> {
         for part in &mut *parts {
             part.verdict = self.verdict(group, &part.assessment.phase);
         }
         let continues_unattainable =
-            |part: &Part| part.continues && !part.is_present && part.verdict == Verdict::Unattainable;
+            |part: &GroupPhase| part.continues && !part.is_present && part.verdict == Verdict::Unattainable;
         let follows_unattainable = parts.iter().any(continues_unattainable)
             && self
                 .event
@@ -311,7 +315,12 @@ impl Search<'_> {
     }
 
     /// Place in the order of preference.
-    fn rank(&self, group: &Group, part: &Part, follows_unattainable: bool) -> (Reverse<[usize; 2]>, [u8; 2]) {
+    fn rank(
+        &self,
+        group: &Group,
+        part: &GroupPhase,
+        follows_unattainable: bool,
+    ) -> (Reverse<[usize; 2]>, [u8; 2]) {
         let sticks = |phase: &Phase, joint: usize| phase.joints[joint] == JointPhase::Sticking;
         let stuck = || group.joints.iter().filter(|joint| sticks(&part.assessment.phase, **joint));
         let before = |joint: &&usize| self.event.previous.is_some_and(|previous| sticks(previous, **joint));
@@ -323,8 +332,8 @@ impl Search<'_> {
             Verdict::Unattainable => 4,
         };
         let class = match part {
-            Part { is_present: true, .. } => 0,
-            Part { continues: true, .. } if verdict < 4 || follows_unattainable => 1,
+            GroupPhase { is_present: true, .. } => 0,
+            GroupPhase { continues: true, .. } if verdict < 4 || follows_unattainable => 1,
             _ if verdict == 4 => 3,
             _ => 2,
         };

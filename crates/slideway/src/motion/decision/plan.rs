@@ -12,7 +12,7 @@ use super::BOUNDARY;
 use super::assessment::concerns_sticking;
 use super::instant::Instant;
 use super::outputs::Group;
-use super::system::{Inequality, Question, System as Equations};
+use super::system::{Inequality, Question, System};
 use crate::fault::Fault;
 use crate::interval::{Interval, Sloped};
 use crate::motion::moving::amounts::Amounts;
@@ -29,7 +29,7 @@ const EQUAL: f64 = 1e-9;
 const MOST_CELLS: usize = 1000;
 
 /// A pattern of a group of joints.
-pub(super) struct System<'s> {
+pub(super) struct GroupPattern<'s> {
     /// With the sides of the contacts.
     pub(super) phase: &'s Phase,
     /// The joints.
@@ -40,7 +40,7 @@ pub(super) struct System<'s> {
 
 /// An affine function of the amounts of the loads.
 #[derive(Debug, Clone)]
-struct Line {
+struct AffineInAmounts {
     /// Its value where the plan was made.
     value: f64,
     slopes: Vec<f64>,
@@ -52,9 +52,9 @@ pub(super) struct Plan {
     /// The amounts where it was made.
     at: Vec<f64>,
     /// The slacks of what concerns the joints that stick.
-    slacks: Vec<Line>,
+    slacks: Vec<AffineInAmounts>,
     /// The greatest least of them.
-    margin: Line,
+    margin: AffineInAmounts,
 }
 
 /// Where the least slack of a plan falls below zero.
@@ -73,7 +73,7 @@ impl Plan {
     /// nothing where its equations contradict each other, or a linear program was not solved.
     pub(super) fn new(
         instant: &mut Instant<'_>,
-        system: &System<'_>,
+        system: &GroupPattern<'_>,
         (amounts, responses): (&[f64], &[DVector<f64>]),
     ) -> Option<Self> {
         let now = slacks(instant, system)?;
@@ -113,17 +113,17 @@ impl Plan {
                 let opens = coefficients.iter().zip(moves[amount].iter()).map(|(a, z)| a * z);
                 slopes[index][amount] + opens.sum::<f64>()
             };
-            Line { value: now[index].at(&z), slopes: (0..at.len()).map(with_open).collect() }
+            AffineInAmounts { value: now[index].at(&z), slopes: (0..at.len()).map(with_open).collect() }
         };
-        let slacks: Vec<Line> = (0..now.len()).map(line).collect();
+        let slacks: Vec<AffineInAmounts> = (0..now.len()).map(line).collect();
         let lowest = slacks.iter().min_by(|one, other| one.value.total_cmp(&other.value));
-        let nothing = Line { value: f64::INFINITY, slopes: vec![0.0; at.len()] };
+        let nothing = AffineInAmounts { value: f64::INFINITY, slopes: vec![0.0; at.len()] };
         let margin = match lowest {
             Some(lowest) if lowest.value < best - EQUAL || least.is_empty() => lowest.clone(),
             Some(lowest) => {
                 // The equal ones stay equal: each has their common slope, which is the last of the unknowns.
                 let slopes = moves.iter().map(|moves| moves[dimension]).collect();
-                Line { value: lowest.value, slopes }
+                AffineInAmounts { value: lowest.value, slopes }
             }
             None => nothing,
         };
@@ -216,12 +216,12 @@ impl Plan {
         Ok(end)
     }
 
-    fn value(&self, line: &Line, amounts: &[f64]) -> f64 {
+    fn value(&self, line: &AffineInAmounts, amounts: &[f64]) -> f64 {
         let changes = amounts.iter().zip(&self.at).zip(&line.slopes);
         line.value + changes.map(|((amount, at), slope)| slope * (amount - at)).sum::<f64>()
     }
 
-    fn over(&self, line: &Line, amounts: &[Sloped]) -> Sloped {
+    fn over(&self, line: &AffineInAmounts, amounts: &[Sloped]) -> Sloped {
         let changes = amounts.iter().zip(&self.at).zip(&line.slopes).filter(|(_, slope)| **slope != 0.0);
         let point = |value: f64| Sloped::constant(Interval::point(value));
         changes.fold(point(line.value), |sum, ((amount, at), slope)| {
@@ -232,7 +232,7 @@ impl Plan {
 
 /// The slacks of what concerns the joints that stick in a pattern, and of all that hangs together with them;
 /// nothing where the equations contradict each other.
-fn slacks(instant: &Instant<'_>, system: &System<'_>) -> Option<Vec<Affine>> {
+fn slacks(instant: &Instant<'_>, system: &GroupPattern<'_>) -> Option<Vec<Affine>> {
     let question = Question {
         outputs: &instant.outputs,
         wanted: vec![0.0; instant.joints.len()],
@@ -242,7 +242,7 @@ fn slacks(instant: &Instant<'_>, system: &System<'_>) -> Option<Vec<Affine>> {
         opposes: None,
         pushed: Vec::new(),
     };
-    let equations = Equations::new(instant, &question, system.phase, system.group)?;
+    let equations = System::new(instant, &question, system.phase, system.group)?;
     let counts = |inequality: &Inequality| {
         inequality.slack.coefficients.iter().any(|a| *a != 0.0)
             || concerns_sticking((instant, system.phase), inequality.subject)

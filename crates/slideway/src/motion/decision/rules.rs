@@ -9,7 +9,7 @@ use crate::report::Verdict;
 
 /// A mechanism at the instant of an event.
 #[derive(Debug, Clone, Copy)]
-pub struct Instant<'a> {
+pub struct EventInstant<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// Its state.
@@ -59,13 +59,13 @@ pub trait Decisions {
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Continuations, Faults>;
+    fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults>;
 
     /// Where nothing can follow, the guided sliders that would tip.
     ///
     /// # Errors
     /// Whatever keeps the forces at the instant from being computed.
-    fn tipping(&mut self, _instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+    fn tipping(&mut self, _instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
         Ok(Vec::new())
     }
 
@@ -73,7 +73,7 @@ pub trait Decisions {
     ///
     /// # Errors
     /// Whatever keeps the impulse from being computed.
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults>;
+    fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults>;
 
     /// At least zero while the joints that stick in the phase can stick.
     ///
@@ -109,10 +109,19 @@ pub trait Decisions {
         &mut self,
         _mechanism: &'m Mechanism,
         _configuration: &Configuration,
-        _resting: (&Phase, &[bool]),
+        _resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         Ok(None)
     }
+}
+
+/// What stands still.
+#[derive(Debug, Clone, Copy)]
+pub struct Resting<'a> {
+    /// What all joints and contacts do.
+    pub phase: &'a Phase,
+    /// For each body whether it stands still and stays as long as joints stick.
+    pub bodies: &'a [bool],
 }
 
 /// What is known of the time ahead of what stands still.

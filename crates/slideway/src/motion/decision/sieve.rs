@@ -12,7 +12,7 @@ const REGULAR: f64 = 1e-6;
 
 /// The equations `sigma_j p_j - sum_k eta_jk mu_k s_k p_k = N_j(0) + sum_k eta_jk F_k0 s_k` of a pattern
 /// without preload gaps, with `p_k = |N_k|`, solved by elimination in memory that is kept.
-pub(super) struct Sieve<'s> {
+pub(super) struct SlidingSieve<'s> {
     question: &'s Question<'s>,
     instant: &'s Instant<'s>,
     group: &'s Group,
@@ -23,7 +23,7 @@ pub(super) struct Sieve<'s> {
     pressure: Vec<f64>,
 }
 
-impl<'s> Sieve<'s> {
+impl<'s> SlidingSieve<'s> {
     /// A sieve for a question about accelerations of a group of joints.
     pub(super) fn new(question: &'s Question<'s>, instant: &'s Instant<'s>, group: &'s Group) -> Self {
         let contacts = group.contacts.len();

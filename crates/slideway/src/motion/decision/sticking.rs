@@ -1,6 +1,5 @@
 //! How much friction is left to joints that stick.
 
-use super::BOUNDARY;
 use super::assessment::assess;
 use super::instant::Instant;
 use super::state::{PhaseState, state};
@@ -54,7 +53,7 @@ pub fn sticking_margin(
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
-    let found = assess(&instant, &instant.question(&stopped, Some(phase)), phase, (BOUNDARY, ENOUGH));
+    let found = assess(&instant, &instant.question(&stopped, Some(phase)), phase, ENOUGH);
     Ok(found.ok().flatten().map_or(NONE, |assessment| assessment.margin))
 }
 
@@ -72,7 +71,7 @@ pub fn sticking(
     instant.check(phase)?;
     let stopped = vec![false; instant.joints.len()];
     let question = instant.question(&stopped, Some(phase));
-    let Ok(Some(assessment)) = assess(&instant, &question, phase, (BOUNDARY, f64::INFINITY)) else {
+    let Ok(Some(assessment)) = assess(&instant, &question, phase, f64::INFINITY) else {
         return Ok(None);
     };
     let state = state(&instant, &assessment);

@@ -4,11 +4,11 @@ use super::assessment::{Assessment, Decisive};
 use super::elastic::attainability;
 use super::growth::standing;
 use super::instant::Instant;
-use super::parts::{Detail, Part, Search};
+use super::parts::{Detail, GroupPhase, PhaseSearch};
 use super::rules;
 use super::state::{PhaseState, state};
 use super::vanishing::vanish;
-use super::{Limit, Standing};
+use super::{PhaseBound, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
@@ -27,7 +27,7 @@ pub struct Successors {
     pub list: Vec<Successor>,
     /// Phases that would be admissible but that a guided slider would tip: it has no state of its own for
     /// that, a block slider has.
-    pub tipping: Vec<Tipping>,
+    pub tipping: Vec<TippingPhase>,
     /// Phases of which a linear program was not solved.
     pub unsolved: Vec<Phase>,
     /// Whether these are all; else there are so many states that some in which fewer joints stick were left
@@ -55,7 +55,7 @@ pub struct Successor {
 
 /// A phase that is none because a guided slider would tip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tipping {
+pub struct TippingPhase {
     /// The phase.
     pub phase: Phase,
     /// The sliders.
@@ -120,7 +120,7 @@ pub fn successors(
     };
     let signs: Vec<f64> = instant.joints.iter().zip(stopped).map(sign).collect();
     let event =
-        rules::Instant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous };
+        rules::EventInstant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous };
     at(instant, &event, Detail::Everything)
 }
 
@@ -131,13 +131,17 @@ pub fn successors(
 ///
 /// # Errors
 /// As [`successors`].
-pub(crate) fn continuations(event: &rules::Instant<'_>) -> Result<Successors, Faults> {
+pub(crate) fn continuations(event: &rules::EventInstant<'_>) -> Result<Successors, Faults> {
     let instant = Instant::looking_ahead(event.mechanism, event.configuration)?;
     let instant = instant.in_units_of_at_least(event.rounding, event.configuration)?;
     at(instant, event, Detail::Order)
 }
 
-fn at(mut instant: Instant<'_>, event: &rules::Instant<'_>, detail: Detail) -> Result<Successors, Faults> {
+fn at(
+    mut instant: Instant<'_>,
+    event: &rules::EventInstant<'_>,
+    detail: Detail,
+) -> Result<Successors, Faults> {
     instant.check_joints(event.signs.len())?;
     if let Some(previous) = event.previous {
         instant.check(previous)?;
@@ -149,17 +153,17 @@ fn at(mut instant: Instant<'_>, event: &rules::Instant<'_>, detail: Detail) -> R
         sign => sign,
     };
     let signs: Vec<f64> = event.signs.iter().enumerate().map(sign).collect();
-    let event = &rules::Instant { signs: &signs, ..*event };
+    let event = &rules::EventInstant { signs: &signs, ..*event };
     let stopped: Vec<bool> = event.signs.iter().map(|sign| *sign == 0.0).collect();
     let question = instant.question(&stopped, None);
-    let search = Search { instant, event, question: &question, detail };
+    let search = PhaseSearch { instant, event, question: &question, detail };
     let mut found = Successors { complete: true, ..Successors::default() };
     let mut parts = search.parts(&mut found)?;
     let is_few =
         parts.iter().fold(1_usize, |product, parts| product.saturating_mul(parts.len())) <= MOST_COMBINATIONS;
     found.complete &= is_few;
     let order = if is_few { None } else { Some(search.order(&mut parts)) };
-    let mut outcomes: Vec<Outcome> = choices(&parts, order.as_deref())
+    let mut outcomes: Vec<CombinedPhase> = choices(&parts, order.as_deref())
         .into_iter()
         .map(|chosen| outcome(&search, &parts, chosen))
         .collect();
@@ -167,13 +171,13 @@ fn at(mut instant: Instant<'_>, event: &rules::Instant<'_>, detail: Detail) -> R
     let following = outcomes.iter().filter(|outcome| outcome.standing.is_ok()).count();
     if is_few && outcomes.len() > 1 && following != 1 {
         let order = search.order(&mut parts);
-        let place = |outcome: &Outcome| -> Vec<usize> {
+        let place = |outcome: &CombinedPhase| -> Vec<usize> {
             order.iter().zip(&outcome.chosen).map(|(places, part)| places[*part]).collect()
         };
         outcomes.sort_by_cached_key(place);
     }
-    for Outcome { chosen, whole, standing } in outcomes {
-        let parts: Vec<&Part> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
+    for CombinedPhase { chosen, whole, standing } in outcomes {
+        let parts: Vec<&GroupPhase> = parts.iter().zip(chosen).map(|(parts, part)| &parts[part]).collect();
         match standing {
             Ok(standing) => found.list.push(successor(&search, &whole, (&parts, standing))),
             Err(violated) => found.tipping.extend(search.tipping(&whole.phase, violated.into_iter())),
@@ -181,7 +185,7 @@ fn at(mut instant: Instant<'_>, event: &rules::Instant<'_>, detail: Detail) -> R
     }
     // What has fallen to zero goes on to fall where nothing else is seen.
     found.list.sort_by_key(|successor| {
-        let ends = |limit: &Limit| matches!(limit, Limit::NormalForce(k) | Limit::PreloadShare(k) if event.zero.contains(k));
+        let ends = |limit: &PhaseBound| matches!(limit, PhaseBound::NormalForce(k) | PhaseBound::PreloadShare(k) if event.zero.contains(k));
         let undecided = matches!(&successor.standing, Standing::Undecided(limits) if limits.iter().any(ends));
         successor.is_present && undecided
     });
@@ -198,25 +202,25 @@ fn at(mut instant: Instant<'_>, event: &rules::Instant<'_>, detail: Detail) -> R
 }
 
 /// What becomes of a choice of one part for each group.
-struct Outcome {
+struct CombinedPhase {
     chosen: Vec<usize>,
     whole: Assessment,
     standing: Result<Standing, Vec<Decisive>>,
 }
 
-fn outcome(search: &Search<'_>, parts: &[Vec<Part>], chosen: Vec<usize>) -> Outcome {
-    let Search { instant, event, question, .. } = *search;
+fn outcome(search: &PhaseSearch<'_>, parts: &[Vec<GroupPhase>], chosen: Vec<usize>) -> CombinedPhase {
+    let PhaseSearch { instant, event, question, .. } = *search;
     let mut whole = Assessment::nothing(&search.any_phase());
     for (group, (parts, &part)) in instant.groups.iter().zip(parts.iter().zip(&chosen)) {
         whole = whole.with(group, &parts[part].assessment);
     }
     let standing = standing(event.configuration, (instant, question, &whole));
-    Outcome { chosen, whole, standing }
+    CombinedPhase { chosen, whole, standing }
 }
 
 /// Every way to choose one part for each group; if there are so many that their places in the order of
 /// preference are given, those in which all groups but one take the preferred one.
-fn choices(parts: &[Vec<Part>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
+fn choices(parts: &[Vec<GroupPhase>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>> {
     let Some(order) = order else {
         let numbers: Vec<Vec<usize>> = parts.iter().map(|parts| (0..parts.len()).collect()).collect();
         return combinations(&numbers);
@@ -235,9 +239,9 @@ fn choices(parts: &[Vec<Part>], order: Option<&[Vec<usize>]>) -> Vec<Vec<usize>>
 }
 
 fn successor(
-    search: &Search<'_>,
+    search: &PhaseSearch<'_>,
     assessment: &Assessment,
-    (parts, standing): (&[&Part], Standing),
+    (parts, standing): (&[&GroupPhase], Standing),
 ) -> Successor {
     let (instant, event) = (search.instant, search.event);
     let state = state(instant, assessment);
@@ -274,18 +278,18 @@ fn severity(verdict: Verdict) -> u8 {
 /// Leaves one of several phases that differ only in the sides of contacts at which no force acts, now and as
 /// far as can be seen, or in joints that stick in the one and do not begin to move in the other. Beside the
 /// previous phase, which may be at its end, those are left.
-fn without_copies(search: &Search<'_>, list: &mut Vec<Successor>) {
-    let stays = |one: &Successor, limit: Limit| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&limit));
+fn without_copies(search: &PhaseSearch<'_>, list: &mut Vec<Successor>) {
+    let stays = |one: &Successor, limit: PhaseBound| matches!(&one.standing, Standing::Undecided(limits) if limits.contains(&limit));
     let instant = search.instant;
     let is_copy = |one: &Successor, other: &Successor| {
         let rests = |joint: usize| {
             !one.is_present
                 && one.phase.joints[joint] == JointPhase::Sticking
-                && stays(other, Limit::Slip(instant.joints[joint].id))
+                && stays(other, PhaseBound::Slip(instant.joints[joint].id))
         };
         let same_joint = |joint: usize| one.phase.joints[joint] == other.phase.joints[joint] || rests(joint);
         let same_contact = |k: usize| {
-            let zero = Limit::NormalForce(ContactId(k));
+            let zero = PhaseBound::NormalForce(ContactId(k));
             one.phase.contacts[k] == other.phase.contacts[k]
                 || (stays(one, zero) && stays(other, zero))
                 || instant.joint_of(k).is_some_and(rests)

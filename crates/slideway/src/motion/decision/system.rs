@@ -5,7 +5,7 @@ use super::joints::SlidingJoint;
 use super::outputs::{Group, Outputs};
 use crate::influence::ContactFriction;
 use crate::pattern::{
-    Affine, AffineSet, Bound, ContactPhase, Expression, Friction, JointPhase, Phase, without_tipping,
+    Affine, AffineExpression, AffineSet, Bound, ContactPhase, Friction, JointPhase, Phase, without_tipping,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -123,8 +123,8 @@ impl<'s> System<'s> {
     fn new_friction(&mut self, k: usize) -> Friction {
         let (joint, contact) = (self.joint(k), self.phase.contacts[k]);
         let pressure = match contact {
-            ContactPhase::Pressed(_) => Expression::unknown(self.new_unknown(), 1.0),
-            ContactPhase::PreloadGap => Expression::default(),
+            ContactPhase::Pressed(_) => AffineExpression::unknown(self.new_unknown(), 1.0),
+            ContactPhase::PreloadGap => AffineExpression::default(),
         };
         let law = self.instant.law(k, self.question.has_preload);
         Friction::new(law, (joint, contact), pressure, || self.new_unknown())
@@ -136,9 +136,9 @@ impl<'s> System<'s> {
     }
 
     /// An output as an expression of the unknowns.
-    fn output(&self, row: usize) -> Expression {
+    fn output(&self, row: usize) -> AffineExpression {
         let outputs = self.question.outputs;
-        let mut expression = Expression::constant(outputs.base[row]);
+        let mut expression = AffineExpression::constant(outputs.base[row]);
         for (k, friction) in self.contacts() {
             for (face, friction) in friction.faces.iter().enumerate() {
                 let factor = outputs.columns[face][(row, k)];
@@ -152,7 +152,8 @@ impl<'s> System<'s> {
             // both faces does.
             let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
             let [plus, minus] = [0, 1].map(|face| outputs.columns[face][(row, contacts[0])]);
-            expression = expression.plus(stop * f64::midpoint(plus, minus), &Expression::unknown(force, 1.0));
+            expression =
+                expression.plus(stop * f64::midpoint(plus, minus), &AffineExpression::unknown(force, 1.0));
         }
         expression
     }
@@ -193,7 +194,7 @@ impl<'s> System<'s> {
     /// Every inequality of the pattern.
     pub(super) fn inequalities(&self) -> Vec<Inequality> {
         let mut all = Vec::new();
-        let mut add = |subject: Subject, slack: Expression| {
+        let mut add = |subject: Subject, slack: AffineExpression| {
             all.push(Inequality { subject, slack: self.solutions.function(&slack) });
         };
         for (k, friction) in self.contacts() {
@@ -209,12 +210,15 @@ impl<'s> System<'s> {
             }
         }
         for &(joint, force) in &self.stops {
-            add(Subject::Friction(self.instant.joints[joint].contacts[0]), Expression::unknown(force, 1.0));
+            add(
+                Subject::Friction(self.instant.joints[joint].contacts[0]),
+                AffineExpression::unknown(force, 1.0),
+            );
         }
         for (row, joint) in self.instant.couple_outputs() {
-            let (Some((half, _)), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
+            let (Some(couple), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
             let Some(friction) = &self.friction[*k] else { continue };
-            let half = half / self.instant.units.length;
+            let half = couple.half_length / self.instant.units.length;
             for slack in without_tipping(&friction.pressure, &self.output(row), half) {
                 add(Subject::Couple(*k), slack);
             }
@@ -228,14 +232,14 @@ impl<'s> System<'s> {
                 add(Subject::Slip(joint), acceleration.times(sign));
                 if sign == self.instant.joints[joint].stop {
                     // Nothing slides into its stop.
-                    add(Subject::Slip(joint), Expression::constant(-1.0));
+                    add(Subject::Slip(joint), AffineExpression::constant(-1.0));
                 }
             }
         }
         all
     }
 
-    fn value(&self, expression: &Expression, z: &[f64]) -> f64 {
+    fn value(&self, expression: &AffineExpression, z: &[f64]) -> f64 {
         self.solutions.function(expression).at(z)
     }
 
@@ -245,11 +249,12 @@ impl<'s> System<'s> {
             let [positive_face, negative_face] = friction.faces.each_ref().map(|face| self.value(face, z));
             forces.frictions[k] = ContactFriction { positive_face, negative_face };
             forces.normal[k] = self.value(&friction.normal_force(), z);
-            forces.shares[k] = friction.share.map(|share| self.value(&Expression::unknown(share, 1.0), z));
+            forces.shares[k] =
+                friction.share.map(|share| self.value(&AffineExpression::unknown(share, 1.0), z));
         }
         for &(joint, force) in &self.stops {
             let SlidingJoint { contacts, stop, .. } = &self.instant.joints[joint];
-            let half = stop * self.value(&Expression::unknown(force, 1.0), z) / 2.0;
+            let half = stop * self.value(&AffineExpression::unknown(force, 1.0), z) / 2.0;
             forces.frictions[contacts[0]].positive_face += half;
             forces.frictions[contacts[0]].negative_face += half;
         }
@@ -268,7 +273,12 @@ pub(super) struct Forces {
 }
 
 /// Puts the equation `expression = 0` into a row, scaled to a greatest coefficient of one.
-fn write(row: usize, expression: &Expression, matrix: &mut DMatrix<f64>, right_hand_side: &mut DVector<f64>) {
+fn write(
+    row: usize,
+    expression: &AffineExpression,
+    matrix: &mut DMatrix<f64>,
+    right_hand_side: &mut DVector<f64>,
+) {
     for &(column, value) in &expression.terms {
         matrix[(row, column)] += value;
     }

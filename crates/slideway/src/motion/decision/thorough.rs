@@ -1,7 +1,9 @@
 //! Every state of joints and contacts is tried.
 
 use super::holding::Holding;
-use super::rules::{Continuation, Continuations, Decisions, HaltingImpulse, Hold, Instant, Outlook};
+use super::rules::{
+    Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
+};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -23,7 +25,7 @@ impl Hold for Holding<'_> {
 pub struct Thorough;
 
 impl Decisions for Thorough {
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Continuations, Faults> {
+    fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
         let found = super::continuations(instant)?;
         let one = |successor: super::Successor| Continuation {
             phase: successor.phase,
@@ -33,12 +35,12 @@ impl Decisions for Thorough {
         Ok(Continuations { left_out: !found.complete, list: found.list.into_iter().map(one).collect() })
     }
 
-    fn tipping(&mut self, instant: &Instant<'_>) -> Result<Vec<JointId>, Faults> {
+    fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
         let found = super::continuations(instant)?;
         Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+    fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
         let super::Jam::Stops(impulses) = super::jam(instant.mechanism, instant.configuration)? else {
             return Ok(None);
         };
@@ -71,7 +73,7 @@ impl Decisions for Thorough {
         &mut self,
         mechanism: &'m Mechanism,
         configuration: &Configuration,
-        resting: (&Phase, &[bool]),
+        resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         Ok(Some(Box::new(Holding::new(mechanism, configuration, resting)?)))
     }

@@ -1,6 +1,5 @@
 //! What is zero at an event is exactly zero.
 
-use super::BOUNDARY;
 use super::assessment::{Assessment, assess};
 use super::instant::Instant;
 use super::rules;
@@ -13,12 +12,12 @@ use nalgebra::DVector;
 const NEARLY_ZERO: f64 = 1e-4;
 
 /// Makes exactly zero in the previous phase what the event has found to be zero.
-pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::Instant<'_>, previous: &Phase) {
+pub(super) fn vanish(instant: &mut Instant<'_>, event: &rules::EventInstant<'_>, previous: &Phase) {
     if event.zero.is_empty() {
         return;
     }
     let stopped = vec![false; instant.joints.len()];
-    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, (BOUNDARY, ENOUGH));
+    let before = assess(instant, &instant.question(&stopped, Some(previous)), previous, ENOUGH);
     if let Ok(Some(before)) = before {
         let contacts: Vec<usize> = event.zero.iter().map(|contact| contact.index()).collect();
         instant.vanish(&contacts, &before);

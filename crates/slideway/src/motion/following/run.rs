@@ -7,12 +7,14 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::Blow;
-use crate::motion::decision::rules::{Continuation, Continuations, Decisions, Instant};
+use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, Words};
-use crate::motion::record::history::{End, Energy, History, PhaseInterval, Statistics, Step};
+use crate::motion::record::history::{
+    End, Energy, History, ImpulseLoss, LastState, PhaseInterval, Statistics, Step,
+};
 use crate::pattern::phase::{JointPhase, Phase};
 use crate::progress::{Callback, Progress};
 use crate::report::spaced;
@@ -61,7 +63,7 @@ impl<'a, 'm> Run<'a, 'm> {
             impulses: Vec::new(),
             undetermined: Vec::new(),
             initial: configuration.clone(),
-            last: (configuration.time, state.clone()),
+            last: LastState { time: configuration.time, state: state.clone() },
         };
         let smooth = Smooth::new(equations, state, configuration.time, options);
         Self { options, decisions, smooth, phase: None, history, branchings: 0 }
@@ -78,7 +80,7 @@ impl<'a, 'm> Run<'a, 'm> {
             Some(end) => end,
         };
         self.history.end = end;
-        self.history.last = (self.smooth.time, self.smooth.state.clone());
+        self.history.last = LastState { time: self.smooth.time, state: self.smooth.state.clone() };
         self.history.statistics.evaluations = self.smooth.equations.evaluations;
         self.history.undetermined = self.smooth.undetermined.iter().copied().collect();
         if let Some(interval) = self.history.phases.last_mut() {
@@ -167,7 +169,7 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     fn energy(&self) -> Energy {
-        let lost = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
+        let lost = self.history.impulses.last().map_or(0.0, |loss| loss.energy);
         let equations = &self.smooth.equations;
         Energy::of(equations.mechanism, &equations.configuration, &self.smooth.state, lost)
     }
@@ -214,7 +216,7 @@ impl<'a, 'm> Run<'a, 'm> {
             self.smooth.equations.place(time, state);
             let configuration = self.smooth.equations.configuration.clone();
             let mechanism = self.smooth.equations.mechanism;
-            let instant = Instant {
+            let instant = EventInstant {
                 mechanism,
                 configuration: &configuration,
                 signs: &signs,
@@ -285,8 +287,8 @@ impl<'a, 'm> Run<'a, 'm> {
     }
 
     fn note_impulse(&mut self, energy_lost: f64) {
-        let before = self.history.impulses.last().map_or(0.0, |(_, lost)| *lost);
-        self.history.impulses.push((self.smooth.time, before + energy_lost));
+        let before = self.history.impulses.last().map_or(0.0, |loss| loss.energy);
+        self.history.impulses.push(ImpulseLoss { time: self.smooth.time, energy: before + energy_lost });
     }
 
     /// The number of the phase that is taken; nothing where the branch that is wanted does not exist.

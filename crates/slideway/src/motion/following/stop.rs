@@ -4,7 +4,7 @@ use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
 use crate::mechanism::Mechanism;
-use crate::motion::decision::rules::{Decisions, Instant};
+use crate::motion::decision::rules::{Decisions, EventInstant};
 use crate::motion::decision::{Impact, TOUCHES, impact, phase_state};
 use crate::motion::moving::cause::Cause;
 
@@ -77,8 +77,14 @@ fn flies(
     let Some(index) = joints.iter().position(|joint| *joint == hit.joint) else { return Ok(true) };
     let signs: Vec<f64> =
         velocities.iter().map(|velocity| if *velocity == 0.0 { 0.0 } else { velocity.signum() }).collect();
-    let instant =
-        Instant { mechanism, configuration: after, signs: &signs, zero: &[], rounding: 0.0, previous: None };
+    let instant = EventInstant {
+        mechanism,
+        configuration: after,
+        signs: &signs,
+        zero: &[],
+        rounding: 0.0,
+        previous: None,
+    };
     let Some(next) = decisions.successors(&instant)?.list.into_iter().next() else { return Ok(true) };
     let Some(state) = phase_state(mechanism, after, &next.phase)? else { return Ok(true) };
     let towards = state.sliding_accelerations[index] * if hit.greatest { 1.0 } else { -1.0 };

@@ -34,12 +34,27 @@ pub struct History {
     pub(in crate::motion) dense: Vec<f64>,
     /// Components of the state.
     pub(in crate::motion) size: usize,
-    /// Energy lost in impulses: when, and how much up to then.
-    pub(in crate::motion) impulses: Vec<(f64, f64)>,
+    pub(in crate::motion) impulses: Vec<ImpulseLoss>,
     /// Contacts whose normal forces were asked for while joints stuck, and are not determined then.
     pub(in crate::motion) undetermined: Vec<ContactId>,
     pub(in crate::motion) initial: Configuration,
-    pub(in crate::motion) last: (f64, Vec<f64>),
+    pub(in crate::motion) last: LastState,
+}
+
+/// Energy lost in impulses.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::motion) struct ImpulseLoss {
+    /// At this time (s) ...
+    pub(in crate::motion) time: f64,
+    /// ... and before it (J).
+    pub(in crate::motion) energy: f64,
+}
+
+/// Where a motion ends.
+#[derive(Debug, Clone)]
+pub(in crate::motion) struct LastState {
+    pub(in crate::motion) time: f64,
+    pub(in crate::motion) state: Vec<f64>,
 }
 
 /// A phase and when it holds.
@@ -199,12 +214,12 @@ impl History {
 
     /// When it ends (s).
     pub fn stop(&self) -> f64 {
-        self.last.0
+        self.last.time
     }
 
     /// The times of the solver's steps, the end included (s).
     pub fn times(&self) -> impl Iterator<Item = f64> + '_ {
-        self.steps.iter().map(|step| step.time).chain([self.last.0])
+        self.steps.iter().map(|step| step.time).chain([self.last.time])
     }
 
     /// A reader of the motion at any time; it is quickest when asked in order.
@@ -249,8 +264,8 @@ impl Reader<'_> {
             sliding_velocity: equations.contacts[k].sliding_velocity,
             share: equations.share(k),
         };
-        let impulses = self.history.impulses.iter().rfind(|(when, _)| *when <= time);
-        let impulses = impulses.map_or(0.0, |(_, lost)| *lost);
+        let impulses = self.history.impulses.iter().rfind(|loss| loss.time <= time);
+        let impulses = impulses.map_or(0.0, |loss| loss.energy);
         let accelerations = equations.accelerations().chunks_exact(3);
         Some(Sample {
             phase,
@@ -265,7 +280,7 @@ impl Reader<'_> {
     /// Places the equations at a time; returns the number of the phase.
     fn locate(&mut self, time: f64) -> Option<usize> {
         let history = self.history;
-        let (end, last) = &history.last;
+        let LastState { time: end, state: last } = &history.last;
         let phase = if time == *end {
             self.state.copy_from_slice(last);
             history.phases.len().checked_sub(1)?

@@ -11,7 +11,7 @@ use crate::modes::Side;
 use crate::motion::decision::holding::Holding;
 use crate::motion::decision::{Successor, Successors, continuations, sticking_margin, successors};
 use crate::motion::moving::equations::sliding_joints;
-use crate::motion::{ContactPhase, Instant, JointPhase, Phase};
+use crate::motion::{ContactPhase, EventInstant, JointPhase, Phase, Resting};
 
 /// A sequence of numbers between 0 and 1 (D. E. Knuth's MMIX generator).
 struct Numbers(u64);
@@ -74,7 +74,14 @@ fn fast(
         if *stopped { 0.0 } else { velocity.signum() }
     };
     let signs: Vec<f64> = sliding_joints(mechanism).iter().zip(stopped).map(sign).collect();
-    continuations(&Instant { mechanism, configuration, signs: &signs, zero: &[], rounding: 0.0, previous })
+    continuations(&EventInstant {
+        mechanism,
+        configuration,
+        signs: &signs,
+        zero: &[],
+        rounding: 0.0,
+        previous,
+    })
 }
 
 /// What the states came to that were compared.
@@ -228,14 +235,21 @@ fn a_margin_at_a_later_time_is_that_of_a_new_start() {
             joints: vec![JointPhase::Sticking; 2],
             contacts: vec![ContactPhase::Pressed(Side::Positive); 3],
         };
-        let mut holding =
-            Holding::new(&mechanism, &configuration, (&phase, &vec![true; mechanism.bodies.len()])).unwrap();
+        let mut holding = Holding::new(
+            &mechanism,
+            &configuration,
+            Resting { phase: &phase, bodies: &vec![true; mechanism.bodies.len()] },
+        )
+        .unwrap();
         for _ in 0..8 {
             configuration.time = numbers.next();
             let margin = sticking_margin(&mechanism, &configuration, &phase).unwrap();
-            let mut anew =
-                Holding::new(&mechanism, &configuration, (&phase, &vec![true; mechanism.bodies.len()]))
-                    .unwrap();
+            let mut anew = Holding::new(
+                &mechanism,
+                &configuration,
+                Resting { phase: &phase, bodies: &vec![true; mechanism.bodies.len()] },
+            )
+            .unwrap();
             let unit = anew.unit();
             let anew = anew.margin(configuration.time).unwrap();
             // From 0.01 on either may have taken other sides.
@@ -285,15 +299,21 @@ fn margins_near_the_boundary() {
         };
         let release = release(&mechanism, &mut configuration, &phase);
         configuration.time = 0.0;
-        let mut holding =
-            Holding::new(&mechanism, &configuration, (&phase, &vec![true; mechanism.bodies.len()])).unwrap();
+        let mut holding = Holding::new(
+            &mechanism,
+            &configuration,
+            Resting { phase: &phase, bodies: &vec![true; mechanism.bodies.len()] },
+        )
+        .unwrap();
         for part in [-1e-3, -1e-6, 1e-6, 1e-3] {
             configuration.time = release * (1.0 + part);
             let margin = sticking_margin(&mechanism, &configuration, &phase).unwrap();
             // In units of the forces at the start.
             let held = holding.margin(configuration.time).unwrap() * holding.unit();
             let rests = vec![true; mechanism.bodies.len()];
-            let unit = Holding::new(&mechanism, &configuration, (&phase, &rests)).unwrap().unit();
+            let unit = Holding::new(&mechanism, &configuration, Resting { phase: &phase, bodies: &rests })
+                .unwrap()
+                .unit();
             assert!((held - margin * unit).abs() < 1e-11 * unit, "{part:e}: {margin:e} {held} {unit}");
             assert!(margin * part < 0.0 && margin.abs() < 10.0 * part.abs(), "{part:e}: {margin:e}");
             Covered::default().compare("near", &mechanism, &configuration);

@@ -141,7 +141,7 @@ rate = "2 m/s"
     let hits = history.events[1].causes.iter().filter(|cause| matches!(cause, Cause::Hits { .. })).count();
     assert_eq!(hits, 2, "{:#?}", history.events);
     assert!((history.reader().at(0.5).unwrap().configuration.rates[0] + 0.5).abs() < 1e-9);
-    assert!((history.impulses[0].1 - 8.0 * (1.0 - 0.0625)).abs() < 1e-9);
+    assert!((history.impulses[0].energy - 8.0 * (1.0 - 0.0625)).abs() < 1e-9);
     let at_the_stops =
         text.replace("rate = \"2 m/s\"", "rate = \"2 m/s\"\nvalue = \"0.5 m\"").replace("mu = 0.3", "mu = 0");
     let found = impact_of(&at_the_stops, &[("upper", 0.25), ("lower", 0.25)]);

@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::motion::decision::{ASSESSED, continuations, successors};
-use crate::motion::{End, Instant, JointPhase, SimulateOptions, simulate};
+use crate::motion::{End, EventInstant, JointPhase, SimulateOptions, simulate};
 use std::fmt::Write as _;
 
 /// A sequence of numbers between 0 and 1 (D. E. Knuth's MMIX generator).
@@ -349,7 +349,7 @@ slide = \"j{index}\"
         }
         let mechanism = mechanism_of(&text);
         let configuration = Configuration::new(&mechanism).unwrap();
-        let event = Instant {
+        let event = EventInstant {
             mechanism: &mechanism,
             configuration: &configuration,
             signs: &[0.0; 10],

@@ -9,8 +9,8 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, Settings};
 use crate::modes::Side;
 use crate::motion::{
-    ContactPhase, Continuation, Continuations, Crossing, Decisions, End, EventFunction, HaltingImpulse,
-    Instant, JointPhase, Phase, SimulateOptions, UserEvent, report, simulate,
+    ContactPhase, Continuation, Continuations, Crossing, Decisions, End, EventFunction, EventInstant,
+    HaltingImpulse, JointPhase, Phase, SimulateOptions, UserEvent, report, simulate,
 };
 use crate::progress::Progress;
 use crate::report::Verdict;
@@ -180,14 +180,14 @@ fn a_contradictory_phase_is_refused() {
 struct Wrong;
 
 impl Decisions for Wrong {
-    fn successors(&mut self, _: &Instant<'_>) -> Result<Continuations, Faults> {
+    fn successors(&mut self, _: &EventInstant<'_>) -> Result<Continuations, Faults> {
         let contacts = vec![ContactPhase::Pressed(Side::Positive); 2];
         let phase = Phase { joints: vec![JointPhase::Sliding(1.0)], contacts };
         let list = vec![Continuation { phase, verdict: Verdict::NotComputed, continues: false }];
         Ok(Continuations { list, left_out: false })
     }
 
-    fn jam(&mut self, _: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+    fn jam(&mut self, _: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
         Ok(None)
     }
 

@@ -7,7 +7,7 @@ use crate::mechanism::{CoordinateKind, Mechanism};
 use crate::modes::Side;
 use crate::motion::moving::equations::{Equations, sliding_joints};
 use crate::motion::{
-    ContactPhase, Continuation, Continuations, Decisions, HaltingImpulse, Instant, JointPhase, Phase,
+    ContactPhase, Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, JointPhase, Phase,
 };
 use crate::report::Verdict;
 use nalgebra::Vector2;
@@ -17,7 +17,7 @@ pub(super) struct TryAll;
 const TOLERANCE: f64 = 1e-9;
 
 impl TryAll {
-    fn admits(equations: &mut Equations<'_>, instant: &Instant<'_>, phase: &Phase) -> bool {
+    fn admits(equations: &mut Equations<'_>, instant: &EventInstant<'_>, phase: &Phase) -> bool {
         let state = equations.state_of(instant.configuration);
         if equations.enter(phase, instant.configuration.time, &state).is_err() {
             return false;
@@ -80,7 +80,7 @@ fn sliding_acceleration(equations: &Equations<'_>, index: usize) -> f64 {
 }
 
 impl Decisions for TryAll {
-    fn successors(&mut self, instant: &Instant<'_>) -> Result<Continuations, Faults> {
+    fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
         let mut equations = Equations::new(instant.mechanism, instant.configuration);
         let joints = sliding_joints(instant.mechanism);
         let choices: Vec<Vec<JointPhase>> = (0..joints.len())
@@ -118,7 +118,7 @@ impl Decisions for TryAll {
     }
 
     /// Brings everything to rest.
-    fn jam(&mut self, instant: &Instant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+    fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
         let rest = Velocity { linear: Vector2::zeros(), angular: 0.0 };
         Ok(Some(HaltingImpulse {
             velocities: vec![rest; instant.mechanism.bodies.len()],

@@ -483,7 +483,7 @@ fn finished(history: &History, time: &str) -> String {
         }
         _ => {
             let bodies = 3 * history.mechanism.bodies.len();
-            let moves = history.last.1[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
+            let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
             let told = if moves { "it is still moving" } else { "nothing moves" };
             format!("At {time} s the end is reached; {told}.{jams}")
         }

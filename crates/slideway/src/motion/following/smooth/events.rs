@@ -70,14 +70,13 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        dense: &[f64],
-        step: f64,
+        solution: StepSolution<'_>,
     ) -> Result<Option<(f64, Vec<Watched>)>, Failure> {
         let mut places = SAMPLES;
         let mut falls = Vec::new();
         for part in 0..SAMPLES.len() - 1 {
             if part < SAMPLES.len() - 2 {
-                self.sample(phase, decisions, (dense, step), (part + 1, &mut places))?;
+                self.sample(phase, decisions, solution, (part + 1, &mut places))?;
             }
             falls = self.falls_between([places[part], places[part + 1]], part);
             if !falls.is_empty() {
@@ -86,12 +85,12 @@ impl Smooth<'_, '_> {
         }
         let until = falls.first().map_or(1.0, |fall| fall.ends[0]);
         if until > 0.0 && places == SAMPLES {
-            self.add_dips(phase, decisions, (dense, step), (until, &mut falls))?;
+            self.add_dips(phase, decisions, solution, (until, &mut falls))?;
         }
         if falls.is_empty() {
             return Ok(None);
         }
-        self.locate(phase, decisions, (dense, step), &falls).map(Some)
+        self.locate(phase, decisions, solution, &falls).map(Some)
     }
 
     /// Values of all watched functions at a sample within the step.
@@ -99,14 +98,14 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        (dense, step): (&[f64], f64),
+        solution: StepSolution<'_>,
         (sample, places): (usize, &mut [f64; 4]),
     ) -> Result<(), Failure> {
-        match self.evaluate_within(dense, places[sample], step, Needs::Forces) {
+        match self.evaluate_within(solution, places[sample], Needs::Forces) {
             // Exactly where the equations have no solution; a little before they have one.
             Err(Failure::Singular) => {
                 places[sample] -= BESIDE * (places[sample] - places[sample - 1]);
-                self.evaluate_within(dense, places[sample], step, Needs::Forces)?;
+                self.evaluate_within(solution, places[sample], Needs::Forces)?;
             }
             evaluated => evaluated?,
         }
@@ -127,14 +126,14 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        (dense, step): (&[f64], f64),
+        solution: StepSolution<'_>,
         (until, falls): (f64, &mut Vec<Fall>),
     ) -> Result<(), Failure> {
         for index in 0..self.watch.list.len() {
             let samples = std::array::from_fn(|sample| self.values[sample][index]);
             let Some(place) = dip(samples).filter(|place| *place < until) else { continue };
             let watched = self.watch.list[index];
-            self.evaluate_within(dense, place, step, watched.needs())?;
+            self.evaluate_within(solution, place, watched.needs())?;
             let value = self.value(watched, phase, decisions)?;
             let before = SAMPLES.iter().rposition(|fraction| *fraction < place).unwrap_or(0);
             let fall =
@@ -168,19 +167,19 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        (dense, step): (&[f64], f64),
+        solution: StepSolution<'_>,
         falls: &[Fall],
     ) -> Result<(f64, Vec<Watched>), Failure> {
         let mut zeros: Vec<(f64, Watched)> = Vec::with_capacity(falls.len());
         for &Fall { index, ends, values } in falls {
             let watched = self.watch.list[index];
             let first = zeros.iter().map(|(zero, _)| *zero).fold(f64::INFINITY, f64::min);
-            let mut function =
-                |fraction: f64| match self.evaluate_within(dense, fraction, step, watched.needs()) {
-                    // Where the equations have no solution forces are beyond all bounds: not before the zero.
-                    Err(Failure::Singular) => Ok(0.0),
-                    evaluated => evaluated.and_then(|()| self.value(watched, phase, decisions)),
-                };
+            let mut function = |fraction: f64| match self.evaluate_within(solution, fraction, watched.needs())
+            {
+                // Where the equations have no solution forces are beyond all bounds: not before the zero.
+                Err(Failure::Singular) => Ok(0.0),
+                evaluated => evaluated.and_then(|()| self.value(watched, phase, decisions)),
+            };
             let same = first + SAME_INSTANT;
             if values[0] > 0.0 && same > ends[0] && same < ends[1] && function(same)? > 0.0 {
                 // It falls later.
@@ -206,13 +205,12 @@ impl Smooth<'_, '_> {
     /// Puts the equations at a fraction of the step.
     pub(super) fn evaluate_within(
         &mut self,
-        dense: &[f64],
+        solution: StepSolution<'_>,
         fraction: f64,
-        step: f64,
         needs: Needs,
     ) -> Result<(), Failure> {
-        within(dense, fraction, &mut self.inside);
-        let time = self.time + fraction * step;
+        within(solution.dense, fraction, &mut self.inside);
+        let time = self.time + fraction * solution.length;
         if needs == Needs::Forces {
             self.equations.evaluate(time, &self.inside)
         } else {
@@ -220,6 +218,15 @@ impl Smooth<'_, '_> {
             Ok(())
         }
     }
+}
+
+/// The solution within a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepSolution<'d> {
+    /// For [`within`].
+    pub(super) dense: &'d [f64],
+    /// Of the step (s).
+    pub(super) length: f64,
 }
 
 /// A watched function that is below zero at the end of a part of a step.

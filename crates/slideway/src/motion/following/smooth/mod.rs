@@ -9,9 +9,11 @@ mod reactions;
 mod settling;
 mod steps;
 
+use self::events::StepSolution;
+use self::steps::Zero;
 use crate::fault::Faults;
 use crate::ids::ContactId;
-use crate::motion::decision::rules::{Decisions, Hold};
+use crate::motion::decision::rules::{Decisions, Hold, Resting};
 use crate::motion::decision::{Outlook, scale_of_forces};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Equations, Failure, joint_rests};
@@ -166,7 +168,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let rests = self.equations.resting(REST * self.greatest_velocity());
         if rests.contains(&true) {
             let Equations { mechanism, configuration, sliders, .. } = &self.equations;
-            self.hold = decisions.hold(mechanism, configuration, (phase, &rests)).map_err(Failure::Loads)?;
+            self.hold = decisions
+                .hold(mechanism, configuration, Resting { phase, bodies: &rests })
+                .map_err(Failure::Loads)?;
             let sticking =
                 sliders.iter().zip(&phase.joints).filter(|(_, state)| **state == JointPhase::Sticking);
             self.holds_all = sticking.into_iter().all(|(joint, _)| joint_rests(mechanism, *joint, &rests));
@@ -257,7 +261,8 @@ impl<'o, 'm> Smooth<'o, 'm> {
         }
         let (step, error) = self.accepted_step(phase, decisions, history)?;
         let first = history.dense.len() - DENSE * self.state.len();
-        let event = self.first_event(phase, decisions, &history.dense[first..], step);
+        let solution = StepSolution { dense: &history.dense[first..], length: step };
+        let event = self.first_event(phase, decisions, solution);
         if event.is_err() {
             // The step that has been described is not taken.
             history.dense.truncate(first);
@@ -271,8 +276,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let dense = history.dense.split_off(first);
         self.next = step;
         let mut causes = self.causes(&watched);
-        let place = (fraction, watched[0]);
-        let length = self.stop_at(phase, decisions, (&dense, step), place, history)?;
+        let solution = StepSolution { dense: &dense, length: step };
+        let zero = Zero { fraction, watched: watched[0] };
+        let length = self.stop_at(phase, decisions, solution, zero, history)?;
         if length > 0.0 && self.still_slides(phase, &causes) {
             return self.go_on(length, phase, decisions).map(|()| None);
         }

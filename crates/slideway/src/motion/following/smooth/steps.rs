@@ -1,7 +1,7 @@
 //! Steps: tried until one is accurate, projected, and ended where something happens.
 
 use super::Smooth;
-use super::events::{ROOT_TOLERANCE, SAME_INSTANT};
+use super::events::{ROOT_TOLERANCE, SAME_INSTANT, StepSolution};
 use crate::fault::{Fault, FaultKind};
 use crate::motion::decision::rules::Decisions;
 use crate::motion::moving::cause::Cause;
@@ -15,6 +15,14 @@ use crate::pattern::phase::Phase;
 const STOPPED: f64 = 0.01;
 /// Part of the way to a zero over which the slope there is taken: the square root of what numbers resolve.
 const SLOPE: f64 = 1e-8;
+
+/// Where a watched function passes zero within a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Zero {
+    /// As a fraction of the step.
+    pub(super) fraction: f64,
+    pub(super) watched: Watched,
+}
 
 impl Smooth<'_, '_> {
     /// Tries steps until one is accurate, projects its end, evaluates what is watched there, and describes
@@ -114,20 +122,21 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        (dense, step): (&[f64], f64),
-        (fraction, watched): (f64, Watched),
+        solution: StepSolution<'_>,
+        zero: Zero,
         history: &mut History,
     ) -> Result<f64, Failure> {
+        let fraction = zero.fraction;
         if fraction <= 0.0 {
             return Ok(0.0);
         }
         // It may happen where the step was to end in any case.
         let is_end = fraction > 1.0 - SAME_INSTANT;
-        let mut length = if is_end { step } else { fraction * step };
+        let mut length = if is_end { solution.length } else { fraction * solution.length };
         let drift = self.attempt(length)?;
         history.drift = history.drift.max(drift);
         if !is_end {
-            if let Ok(corrected) = self.corrected(phase, decisions, (dense, step), (fraction, watched)) {
+            if let Ok(corrected) = self.corrected(phase, decisions, solution, zero) {
                 length = corrected;
             } else {
                 self.attempt(length)?;
@@ -186,14 +195,15 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        (dense, step): (&[f64], f64),
-        (fraction, watched): (f64, Watched),
+        solution: StepSolution<'_>,
+        Zero { fraction, watched }: Zero,
     ) -> Result<f64, Failure> {
+        let step = solution.length;
         let beside = fraction * (1.0 - SLOPE);
-        self.evaluate_within(dense, beside, step, watched.needs())?;
+        self.evaluate_within(solution, beside, watched.needs())?;
         let mut slope = self.value(watched, phase, decisions)? / ((beside - fraction) * step);
         let mut length = fraction * step;
-        let mut value = self.value_at_end(phase, decisions, (length, watched))?;
+        let mut value = self.value_at_end(phase, decisions, length, watched)?;
         let mut before = Vec::new();
         loop {
             let change = -value / slope;
@@ -208,10 +218,10 @@ impl Smooth<'_, '_> {
             } else {
                 self.stepper.prolong(length, change, &self.state);
             }
-            let found = self.value_at_end(phase, decisions, (next, watched))?;
+            let found = self.value_at_end(phase, decisions, next, watched)?;
             if found.abs() >= value.abs() {
                 self.stepper.end.copy_from_slice(&before);
-                self.value_at_end(phase, decisions, (length, watched))?;
+                self.value_at_end(phase, decisions, length, watched)?;
                 return Ok(length);
             }
             slope = (found - value) / change;
@@ -224,7 +234,8 @@ impl Smooth<'_, '_> {
         &mut self,
         phase: &Phase,
         decisions: &mut dyn Decisions,
-        (length, watched): (f64, Watched),
+        length: f64,
+        watched: Watched,
     ) -> Result<f64, Failure> {
         self.stepper.finish(&mut self.equations, self.time + length)?;
         self.value(watched, phase, decisions)

@@ -1,0 +1,167 @@
+//! The stages of a model up to the numbers of its mode problem.
+
+use super::mode_problem::{check_size, mode_problem, velocity_signs};
+use super::parts::Parts;
+use super::trail::Trail;
+use crate::configuration::{Configuration, Follower};
+use crate::fault::Faults;
+use crate::ids::DriveId;
+use crate::influence::Influence;
+use crate::kinetics::{Accuracy, Influences, KineticEquations};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::modes::ModeProblem;
+use nalgebra::DVector;
+
+/// A model in its state, ready for its mode problem.
+pub(crate) struct Stages {
+    /// With the friction of its sliding speeds.
+    pub(crate) mechanism: Mechanism,
+    pub(crate) configuration: Configuration,
+    pub(crate) influence: Influence,
+    pub(crate) velocity_signs: DVector<f64>,
+    pub(crate) accuracy: Accuracy,
+}
+
+impl Stages {
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn new(model: &Model) -> Result<Self, Faults> {
+        Self::following(&mut Follower::default(), Mechanism::new(model)?)
+    }
+
+    /// Those of a mechanism, its positions from those of the last ones if these are near.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn following(follower: &mut Follower, mechanism: Mechanism) -> Result<Self, Faults> {
+        check_size(&mechanism)?;
+        let configuration = follower.configuration(&mechanism)?;
+        Ok(Self::with_equations(mechanism, configuration)?.0)
+    }
+
+    /// The same with the equations, too, from the states of the last ones if these are near.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses.
+    pub(crate) fn along(trail: &mut Trail, mechanism: Mechanism) -> Result<Self, Faults> {
+        check_size(&mechanism)?;
+        let (configuration, influences) = trail.state(&mechanism)?;
+        Self::of(mechanism, configuration, influences)
+    }
+
+    /// Those of a mechanism in a configuration, and its kinetic equations.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses of equations and friction.
+    pub(crate) fn with_equations(
+        mechanism: Mechanism,
+        configuration: Configuration,
+    ) -> Result<(Self, KineticEquations), Faults> {
+        let equations = KineticEquations::new(&mechanism, &configuration)?;
+        let stages = Self::of(mechanism, configuration, equations.influences())?;
+        Ok((stages, equations))
+    }
+
+    /// The kinetic equations know nothing of friction: its coefficients at the sliding speeds come behind
+    /// them, here for all that is made of these stages.
+    fn of(
+        mut mechanism: Mechanism,
+        configuration: Configuration,
+        influences: Influences,
+    ) -> Result<Self, Faults> {
+        configuration.put_friction(&mut mechanism)?;
+        let accuracy = influences.accuracy();
+        let influence = Influence::of(influences);
+        let velocity_signs = velocity_signs(&mechanism, &configuration)?;
+        Ok(Self { mechanism, configuration, influence, velocity_signs, accuracy })
+    }
+
+    /// What its mode problem is made of.
+    pub(crate) fn data(&self) -> ProblemData<'_> {
+        ProblemData {
+            mechanism: &self.mechanism,
+            influence: &self.influence,
+            velocity_signs: &self.velocity_signs,
+        }
+    }
+
+    /// The same with every coefficient of friction multiplied by a factor.
+    pub(crate) fn rougher(&self, factor: f64) -> RougherStages<'_> {
+        RougherStages { stages: self, factor }
+    }
+
+    /// The mode problem with every coefficient of friction multiplied by a factor.
+    ///
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point.
+    pub(crate) fn parts(&self, friction: f64) -> Result<Parts, Faults> {
+        self.data().scaled(&|_| friction)
+    }
+
+    /// The same with the efforts of the drives as further outputs, behind the couples.
+    ///
+    /// # Errors
+    /// As [`Stages::parts`].
+    pub(crate) fn parts_with_efforts(&self, friction: f64) -> Result<Parts, Faults> {
+        let mechanism = rougher(&self.mechanism, &|_| friction);
+        let drives = 0..mechanism.drives.len();
+        let efforts: Vec<usize> =
+            drives.map(|drive| self.influence.layout().effort(DriveId(drive))).collect();
+        ProblemData { mechanism: &mechanism, ..self.data() }.parts(&efforts)
+    }
+}
+
+/// The stages of a model with all coefficients of friction multiplied by a factor: no model describes it.
+#[derive(Clone, Copy)]
+pub(crate) struct RougherStages<'s> {
+    pub(crate) stages: &'s Stages,
+    pub(crate) factor: f64,
+}
+
+/// What a mode problem is made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ProblemData<'a> {
+    /// Its contacts have their coefficients of friction and preloads.
+    pub(crate) mechanism: &'a Mechanism,
+    /// How forces answer to friction.
+    pub(crate) influence: &'a Influence,
+    /// The signs of the sliding velocities.
+    pub(crate) velocity_signs: &'a DVector<f64>,
+}
+
+impl ProblemData<'_> {
+    /// The mode problem.
+    ///
+    /// # Errors
+    /// A fault if a number is beyond the range of floating point.
+    pub(crate) fn problem(self) -> Result<ModeProblem, Faults> {
+        mode_problem(self.mechanism, self.influence, self.velocity_signs)
+    }
+
+    /// Its numbers with the couples and then these unknowns as outputs.
+    ///
+    /// # Errors
+    /// As [`Self::problem`].
+    pub(crate) fn parts(self, others: &[usize]) -> Result<Parts, Faults> {
+        Ok(Parts::new(self, &self.problem()?, others))
+    }
+
+    /// The same with the couples alone and the coefficients of friction of each contact multiplied by a
+    /// factor of its own.
+    ///
+    /// # Errors
+    /// As [`Self::problem`].
+    pub(crate) fn scaled(self, factor: &dyn Fn(usize) -> f64) -> Result<Parts, Faults> {
+        ProblemData { mechanism: &rougher(self.mechanism, factor), ..self }.parts(&[])
+    }
+}
+
+/// A mechanism with the coefficients of friction of each contact multiplied by a factor of its own.
+pub(crate) fn rougher(mechanism: &Mechanism, factor: &dyn Fn(usize) -> f64) -> Mechanism {
+    let mut mechanism = mechanism.clone();
+    for (k, contact) in mechanism.contacts.iter_mut().enumerate() {
+        contact.mu = contact.mu.map(|mu| mu * factor(k));
+    }
+    mechanism
+}
